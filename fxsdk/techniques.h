@@ -1,8 +1,8 @@
 /// @file techniques.h
-/// The explicit list of techniques that presets have members for, and of the snapshot data that their solvers
-/// publish. The list of techniques that draw such data is rendering/techniques/draw_techniques.h.
+/// The list of techniques that define preset members, and of the snapshot data that their solvers publish.
+/// The techniques that draw this data are listed in rendering/techniques/draw_techniques.h.
 ///
-/// To add a technique, or to leave one out of a build, a line is added to this list or removed from it.
+/// To add a technique to a build, add a line to this list; to exclude a technique, remove its line.
 #pragma once
 
 #include "fxsdk/presets/technique.h"

@@ -1,8 +1,8 @@
 /// @file accuracy_curve.h
-/// The outcome of fx accuracy: error against time, as text, CSV, JSON and SVG.
+/// The results of fx accuracy: error against time, as text, CSV, JSON and SVG.
 ///
-/// Repetitions of all settings are interleaved, A B C A B C, and each is compared with the baseline of its
-/// own round, so that other load of the machine affects all of them.
+/// Repetitions of all settings are interleaved, A B C A B C. Each is compared with the baseline of its own
+/// round, so that other load of the machine affects all settings equally.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_technique.h"
@@ -19,16 +19,17 @@ namespace fx::cli {
 struct AccuracyPoint
 {
     AccuracySetting setting;
-    AccuracySample sample;            ///< of the first repetition; errors and work are the same in all
-    std::vector<double> seconds;      ///< one for each repetition
-    std::vector<double> instructions; ///< executed in user space, 0 where the system does not count
+    AccuracySample sample; ///< result of the first repetition; errors and work are equal in all repetitions
+    std::vector<double> seconds; ///< [s] one value per repetition
+    /// Instructions executed in user space; 0 if the system cannot count them
+    std::vector<double> instructions;
 };
 
 struct AccuracyCurve
 {
     std::string technique;
     std::string scene;
-    std::string item; ///< the item of ns_per_item
+    std::string item; ///< the item that ns_per_item counts
     ShownError shown = ShownError::P99;
     std::vector<AccuracyPoint> points; ///< the first is the baseline
     std::string instructionsBy;        ///< "perf", "callgrind" or empty
@@ -39,8 +40,9 @@ struct AccuracyCurve
 double shownError(const AccuracyCurve& curve, size_t point);
 const char* shownErrorName(const AccuracyCurve& curve);
 
-/// Time of a point in units of the baseline's: fastest over fastest, and the range of the rounds. The median
-/// of n rounds lies within that range with probability 1 - 2^(1-n). 0 where no time was taken.
+/// Time of a point relative to the baseline: ratio of the fastest times, and the range of the ratios of all
+/// rounds. The median of n rounds is within that range with probability 1 - 2^(1-n). 0 if no time was
+/// measured.
 struct TimeRatio
 {
     double best;
@@ -49,27 +51,28 @@ struct TimeRatio
 };
 TimeRatio timeRatio(const AccuracyCurve& curve, size_t point);
 
-/// [ns] of the fastest round.
+/// [ns] Time per item in the fastest round.
 double nanosecondsPerItem(const AccuracyPoint& point);
 
-/// 1 / (variance x time) of a point in units of the baseline's; 0 without variance.
+/// 1 / (variance x time) of a point relative to the baseline; 0 without variance.
 double efficiencyRatio(const AccuracyCurve& curve, size_t point);
 
-/// Fewest instructions of a point in units of the baseline's; 0 where they are not known.
+/// Smallest number of instructions of a point relative to the baseline; 0 if unknown.
 double instructionRatio(const AccuracyCurve& curve, size_t point);
 
-/// Whether no other point is both as fast (in fastest times) and as exact (in the shown error), and faster by
-/// 3 % or more exact: two settings that turn out to do the same work are both on the front.
+/// Whether a point is on the Pareto front of fastest time and shown error. A point is dominated if another
+/// one is at least as fast and as exact, and faster by 3 % or more exact. Two settings that do the same work
+/// are therefore both on the front.
 bool isOnFront(const AccuracyCurve& curve, size_t point);
 
 std::string curveTable(const AccuracyCurve& curve);
-/// One table of all curves. @param origin of provenance()
+/// One table of all curves. @param origin result of provenance()
 std::string curvesCsv(const std::vector<AccuracyCurve>& curves, const std::string& origin);
-/// One object a point, without machine and version.
+/// One object per point, without machine and version.
 std::vector<nlohmann::json> curveJson(const AccuracyCurve& curve);
-/// Error against time on logarithmic axes, a panel a curve.
+/// Error against time on logarithmic axes, with one panel per curve.
 std::string curvesSvg(const std::vector<AccuracyCurve>& curves, const std::string& origin);
-/// A page that needs no other file: the plots, and the tables under them.
+/// A self-contained page with the plots, and the tables below them.
 std::string curvesHtml(const std::vector<AccuracyCurve>& curves, const std::string& origin);
 
 } // namespace fx::cli

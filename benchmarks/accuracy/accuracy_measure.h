@@ -1,5 +1,5 @@
 /// @file accuracy_measure.h
-/// Runs the settings of a technique in turn, repeatedly, and collects their cost.
+/// Runs the settings of a technique in turn, repeatedly, and collects times and errors.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_curve.h"
@@ -11,14 +11,14 @@
 
 namespace fx::cli {
 
-/// One curve to be measured.
+/// One curve to measure.
 struct AccuracyTask
 {
     const AccuracyTechniqueEntry* technique;
     std::string scene;
 };
 
-/// The tasks of `technique`, or of "all", restricted to `scene` unless it is empty.
+/// The tasks of `technique`, or of all techniques for "all", restricted to `scene` unless `scene` is empty.
 /// @return InvalidArgument with the nearest known name
 base::Result<std::vector<AccuracyTask>> accuracyTasks(const std::string& technique, const std::string& scene);
 
@@ -26,14 +26,14 @@ struct MeasureRules
 {
     AccuracyScale scale;
     uint32_t repetitions = 7;
-    bool useCallgrind = false; ///< where the system itself does not count
+    bool useCallgrind = false; ///< if the system cannot count instructions
     std::function<bool()> stop;
     std::function<void(uint64_t done, uint64_t all)> progress;
 };
 
 base::Result<AccuracyCurve> measureAccuracy(const AccuracyTask& task, const MeasureRules& rules);
 
-/// Runs the timed part of each setting once, for callgrind. @return false without such a part
+/// Runs the timed part of each setting once, for callgrind. @return false if there is no such part
 bool countWork(const AccuracyTask& task);
 
 } // namespace fx::cli

@@ -1,6 +1,6 @@
 /// @file bench_measurement.h
-/// A subcommand of fx bench. Each is described by a function in a file of its own, which fx_measurements() of
-/// the CMakeLists.txt beside it names; cmake/FxMeasurements.cmake makes the list.
+/// A subcommand of fx bench. A function in its own file describes it, and fx_measurements() of the
+/// CMakeLists.txt beside that file names the function. cmake/FxMeasurements.cmake generates the list.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ namespace fx::cli {
 
 struct BenchMeasurement
 {
-    std::string name;    ///< of the subcommand
-    std::string summary; ///< in the help
+    std::string name;    ///< name of the subcommand
+    std::string summary; ///< text in the help
 
-    /// Adds the options, and a callback that measures and stores the exit code.
+    /// Adds the options, and a callback that runs the measurement and stores the exit code.
     std::function<void(CLI::App& command, int& outExitCode)> addOptions;
 };
 

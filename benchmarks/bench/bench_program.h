@@ -1,5 +1,5 @@
 /// @file bench_program.h
-/// Common code of measurements of fx bench with their own options, which print one JSON object a case.
+/// Common code of measurements of fx bench that have their own options and print one JSON object per case.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -33,23 +33,23 @@ T taken(base::Result<T>&& result)
     return std::move(*result);
 }
 
-/// The callback of a subcommand: calls `measure`, prints the message of a BenchFailure under the name of the
-/// subcommand, and stores the exit code, 0 or 1.
+/// Sets the callback of a subcommand. It calls `measure`, prints the message of a BenchFailure with the name
+/// of the subcommand, and stores the exit code, 0 or 1.
 void setMeasurement(CLI::App& command, int& outExitCode, std::function<void()> measure);
 
-/// --size WxH, each 1 to 16384 [pixel].
+/// Adds --size WxH, each 1 to 16384 [pixel].
 void addSizeOption(CLI::App& command, int& width, int& height);
 
-/// --repeat: frames of which the shortest time is reported, 1 to 1,000,000.
+/// Adds --repeat: number of frames, of which the shortest time is reported, 1 to 1,000,000.
 void addRepeatOption(CLI::App& command, int& repeat);
 
-/// --small: sizes at which a measurement takes about a second, overriding other options.
+/// Adds --small: sizes with which a measurement takes about a second; they override other options.
 void addSmallOption(CLI::App& command, bool& isSmall);
 
-/// --validate-hash, hexadecimal with or without 0x.
+/// Adds --validate-hash, hexadecimal with or without 0x.
 void addHashOption(CLI::App& command, uint64_t& hash);
 
-/// "0x0123456789abcdef"
+/// Formats a hash as "0x0123456789abcdef".
 std::string hashText(uint64_t hash);
 
 } // namespace fx::cli

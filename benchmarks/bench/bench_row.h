@@ -1,5 +1,5 @@
 /// @file bench_row.h
-/// Measurements of fx bench that count elements: variants, rows of results, and the options that they share.
+/// Measurements of fx bench that count elements: variants, rows of results, and common options.
 #pragma once
 
 #include "benchmarks/bench/bench_measurement.h"
@@ -18,11 +18,11 @@ namespace fx::cli {
 /// Options of the command line.
 struct BenchSettings
 {
-    uint64_t count = 0;   ///< elements, 0: BenchEntry::usualCount
-    uint32_t threads = 1; ///< 0: as many as the machine has
-    uint32_t steps = 0;   ///< timed steps; 0: as many as take about a second
-    std::string variant;  ///< empty: all of the entry
-    bool gpu = false;     ///< particles are computed on the GPU if supported
+    uint64_t count = 0;   ///< number of elements; 0: BenchEntry::usualCount
+    uint32_t threads = 1; ///< 0: as many as the machine supports
+    uint32_t steps = 0;   ///< timed steps; 0: enough for about a second
+    std::string variant;  ///< empty: all variants of the entry
+    bool gpu = false;     ///< particles are computed on the GPU if possible
     bool gl = false;      ///< a view draws each frame as well
 };
 
@@ -32,13 +32,13 @@ struct BenchRow
     std::string name;
     std::string variant;
     uint64_t count = 0;
-    double medianNanoseconds = 0; ///< [ns] a particle and step
-    double p95Nanoseconds = 0;    ///< [ns] 19 of 20 steps are not slower
-    double bytesPerParticle = 0;  ///< [byte] that have to be moved; of the entry frame, uploaded
+    double medianNanoseconds = 0; ///< [ns] per particle and step
+    double p95Nanoseconds = 0;    ///< [ns] 95th percentile of steps
+    double bytesPerParticle = 0;  ///< [byte] read and written; of the entry frame: uploaded
     double bandwidthFraction =
-        /// [1] share of the bandwidth of a copy of as many bytes with as many threads; 0: none.
+        /// [1] share of the bandwidth of a copy of the same size with the same threads; 0: unknown.
         0;
-    uint64_t hash = 0;   ///< of everything that was published or ordered; of frame, of the simulation
+    uint64_t hash = 0;   ///< of all published or sorted data; of the entry frame: of the simulation
     nlohmann::json more; ///< other members of the line
 };
 
@@ -53,17 +53,17 @@ struct BenchEntry
     uint64_t usualCount;
     uint64_t mostCount;
     std::string_view elements; ///< name of the counted elements in error messages
-    /// One variant.
-    /// @param settings with a count of 1 to mostCount
+    /// Measures one variant.
+    /// @param settings their count is 1 to mostCount
     /// @return Interrupted after a signal
     base::Result<BenchRow> (*measure)(const BenchSettings& settings, std::string_view variant);
 };
 
-/// The subcommand that measures `entry`, which must have static storage.
+/// Creates the subcommand that measures `entry`, which must have static storage.
 BenchMeasurement measurementOf(const BenchEntry& entry);
 
-/// @return one row per requested variant; InvalidArgument for more than entry.mostCount elements; the first
-///         error of a variant, Interrupted among them
+/// @return one row per requested variant; InvalidArgument for more than entry.mostCount elements; otherwise
+///         the first error of a variant, such as Interrupted
 base::Result<std::vector<BenchRow>> measureVariants(const BenchEntry& entry, const BenchSettings& settings);
 
 nlohmann::json toJson(const BenchRow& row);

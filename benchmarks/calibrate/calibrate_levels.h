@@ -1,5 +1,5 @@
 /// @file calibrate_levels.h
-/// Measures the scalability levels on this machine: every setting of a technique on frames of several
+/// Measures the scalability levels on this machine: every setting of a technique, on frames of several
 /// presets.
 #pragma once
 
@@ -17,13 +17,13 @@ struct CalibrateRules
 {
     int width = 320, height = 180; ///< [pixel]
     uint32_t repetitions = 7;
-    std::string technique;           ///< empty: all
-    std::optional<StageClock> clock; ///< nothing: the best of the machine
+    std::string technique;           ///< empty: all techniques
+    std::optional<StageClock> clock; ///< empty: the best clock of the machine
     std::function<bool()> stop;
     std::function<void(uint64_t done, uint64_t all)> progress;
 };
 
-/// The measured settings of one technique and those of them that are worth having.
+/// All measured settings of one technique, and the levels selected from them.
 struct MeasuredLevels
 {
     AccuracyCurve curve; ///< the first point is the best setting
@@ -34,13 +34,13 @@ struct MeasuredCalibration
 {
     std::vector<MeasuredLevels> techniqueLevels;
     StageClock clock;
-    std::string renderer; ///< as the driver names itself
+    std::string renderer; ///< name that the driver reports
 };
 
 base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules);
 
-/// The front of a curve as a list of scalability levels: from the baseline downwards, each step at least a
-/// tenth cheaper than the one above it and more wrong, at most quality::kMaxSteps.
+/// Selects scalability levels from the front of a curve, from the baseline downwards. Each level is at least
+/// a tenth cheaper than the one above it and has a larger error. At most quality::kMaxSteps.
 quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve,
                                                const std::vector<quality::Knobs>& knobs);
 

@@ -1,5 +1,5 @@
 /// @file calibration.h
-/// How fast the machine is at this moment, so that times of different machines and days can be compared.
+/// Present speed of the machine, by which times of different machines and days can be compared.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,14 +8,15 @@ namespace fx::cli {
 
 struct Calibration
 {
-    double multiplyAddNanoseconds = 0; ///< [ns] of one step of a chain of multiplications and additions
-    double copyGigabytes = 0;          ///< [GB/s] read and written by a copy far beyond the caches
+    /// [ns] of one step in a chain of dependent multiplications and additions
+    double multiplyAddNanoseconds = 0;
+    double copyGigabytes = 0; ///< [GB/s] read and written by a copy much larger than the caches
 };
 
-/// Takes about 50 ms on the calling thread.
+/// Measures the speed on the calling thread in about 50 ms.
 Calibration calibrate();
 
-/// Member "calibration" of a --json line.
+/// Converts to the member "calibration" of a --json line.
 nlohmann::json toJson(const Calibration& calibration);
 
 } // namespace fx::cli

@@ -1,14 +1,14 @@
 /// @file clocks.h
-/// Seconds since a fixed moment, by three clocks. Only differences have a meaning.
+/// Three clocks [s]. Each counts from a fixed but arbitrary time, so only differences are meaningful.
 ///
 /// Threads: any.
 #pragma once
 
 namespace fx::cli {
 
-double wallSeconds(); ///< [s] steady: setting the clock of the machine does not change it
+double wallSeconds(); ///< [s] steady: not affected by setting the clock of the machine
 double
 threadSeconds(); ///< [s] of the processor, by the calling thread: other programs and threads do not count
-double processSeconds(); ///< [s] of the processor, by all threads of this process
+double processSeconds(); ///< [s] processor time of all threads of this process
 
 } // namespace fx::cli

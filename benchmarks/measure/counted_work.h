@@ -1,5 +1,5 @@
 /// @file counted_work.h
-/// Time and instructions of one piece of work, and nothing around it.
+/// Measures time and instructions of one piece of work, without its surroundings.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@ namespace fx::cli {
 
 struct MeasuredWork
 {
-    double seconds = 0;      ///< processor time of this thread, which other programs hardly affect
-    double instructions = 0; ///< executed in user space, 0 when the system does not count
+    double seconds = 0;      ///< [s] processor time of this thread, hardly affected by other programs
+    double instructions = 0; ///< executed in user space; 0 if the system cannot count them
 };
 
 /// Runs `work` on this thread.
@@ -17,6 +17,6 @@ MeasuredWork measureWork(const std::function<void()>& work);
 
 } // namespace fx::cli
 
-/// The call that callgrind counts inside of (callgrind.cpp names it); plain C so that its name is
-/// the same for every compiler.
+/// Callgrind counts the instructions inside this call (callgrind.cpp names it). It is plain C, so that its
+/// name is the same for every compiler.
 extern "C" void fxAccuracyWork(const std::function<void()>* work);

@@ -1,11 +1,10 @@
 /// @file instruction_counter.h
-/// Instructions that this thread executes: a measure of work that other programs on the machine do not
-/// disturb.
+/// Counts the instructions that this thread executes, a measure of work that other programs do not affect.
 #pragma once
 
 namespace fx::cli {
 
-/// Counts in user space, where the system allows it. Threads made before it are not counted.
+/// Counts in user space, if the system allows it. Threads created before the counter are not counted.
 class InstructionCounter
 {
 public:
@@ -15,7 +14,7 @@ public:
     InstructionCounter& operator=(const InstructionCounter&) = delete;
 
     void start();
-    double stop(); ///< since start; 0 when the system does not count
+    double stop(); ///< instructions since start(); 0 if the system cannot count them
 
 private:
     int descriptor_ = -1;

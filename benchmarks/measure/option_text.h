@@ -1,5 +1,5 @@
 /// @file option_text.h
-/// Texts of options that several commands take.
+/// Parses texts of options that several commands share.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -10,10 +10,10 @@
 
 namespace fx::cli {
 
-/// A count of particles: "262144", "64^3". 0 when the text is neither, or beyond 2^28.
+/// Parses a number of particles: "262144", "64^3". 0 if the text is neither, or above 2^28.
 uint32_t particleCount(const std::string& text);
 
-/// "unknown case 'sedv', did you mean 'sedov'? There are: ..."
+/// Error message such as "unknown case 'sedv', did you mean 'sedov'? There are: ...".
 base::Status unknownName(const std::string& what, const std::string& name,
                          const std::vector<std::string>& known);
 

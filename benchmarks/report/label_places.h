@@ -1,5 +1,5 @@
 /// @file label_places.h
-/// Where the names of points go in a plot so that they can be read.
+/// Places the names of points in a plot so that they are readable.
 #pragma once
 
 #include <string>
@@ -7,19 +7,20 @@
 
 namespace fx::cli {
 
-/// Places labels beside their points, one after the other, where they cover the least of earlier drawings.
+/// Places labels beside their points, one after another, where they cover as little as possible of earlier
+/// ones.
 class LabelPlaces
 {
 public:
     struct Place
     {
-        double x, y; ///< [pixel] of the text's start on its base line
+        double x, y; ///< [pixel] start of the text on its base line
     };
 
     /// Labels stay within this rectangle.
     LabelPlaces(double left, double top, double right, double bottom);
 
-    /// A point that labels should not cover.
+    /// Adds a point that labels should not cover.
     void avoid(double x, double y);
     Place place(double x, double y, const std::string& label);
 

@@ -6,10 +6,10 @@
 
 namespace fx::cli {
 
-/// The commit that was built, such as "6316190"; "no commit" without git.
+/// Commit of the build, such as "6316190"; "no commit" without git.
 const char* commitName();
 
-/// "fx 0.3.0 at 6316190 on Intel Xeon, 2 cores, AVX3".
+/// Returns text such as "fx 0.3.0 at 6316190 on Intel Xeon, 2 cores, AVX3".
 std::string provenance(const std::string& machine);
 
 } // namespace fx::cli

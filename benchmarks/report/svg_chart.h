@@ -9,7 +9,8 @@
 
 namespace fx::cli {
 
-/// A logarithmic axis, with marks at every decade or second one, and at 2 and 5 for few decades.
+/// A logarithmic axis. It has marks at every decade or every second one; if there are few decades, also at 2
+/// and 5.
 struct LogAxis
 {
     double low = std::numeric_limits<double>::infinity();
@@ -23,7 +24,7 @@ struct LogAxis
     std::vector<double> marks() const;
 };
 
-/// `<`, `>` and `&` escaped for XML and HTML.
+/// Escapes `<`, `>` and `&` for XML and HTML.
 std::string escapedMarkup(const std::string& text);
 
 template <class... Numbers>

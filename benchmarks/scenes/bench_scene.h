@@ -1,7 +1,7 @@
 /// @file bench_scene.h
-/// Scenes of the C API for benchmarks of the cost of instances, with or without a view.
+/// Scenes of the C API, with or without a view, for benchmarks of the cost of instances.
 ///
-/// Threads: the creating thread.
+/// Threads: only the thread that created it.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -33,26 +33,28 @@ public:
     base::Result<FxPresetId> load(const std::string& preset);
     base::Result<FxPresetId> loadLibrary(const char* name);
     base::Status add(FxPresetId preset, double x, double z, uint64_t seed, int64_t startTick);
-    /// A camera 2 m above the origin that looks horizontally, with a view of 40 degrees; 0 is along -Z.
+    /// Sets a camera 2 m above the origin that looks horizontally, with a field of view of 40 degrees. @param
+    /// radians direction; 0 is along -Z
     base::Status look(double radians);
-    /// Sets the position of the camera of draw(); the simulation does not depend on it.
+    /// Sets the position of the camera of draw(). The simulation does not depend on it.
     void moveTo(double x, double y, double z);
     base::Status setView(const FxViewSettings& settings);
-    /// @param isHeld true: the next frames use the levels of detail of the last one; setView() ends this too
+    /// @param isHeld true: the next frames keep the levels of detail of the last frame; setView() ends this
+    ///          too
     void holdDetail(bool isHeld);
     base::Status update();
-    base::Status draw();          ///< nothing without GL
+    base::Status draw();          ///< does nothing without GL
     void finish();                ///< waits for the GPU
-    void clear();                 ///< the picture before draw(): black
-    void clearPicture();          ///< to an even gray
+    void clear();                 ///< clears the picture to black before draw()
+    void clearPicture();          ///< clears the picture to a uniform gray
     std::vector<float> picture(); ///< RGBA, row by row; empty without GL
     uint64_t bytesInUse() const;  ///< [byte] of the context
     FxFrameStats frameStats() const;
-    void remove(size_t index); ///< of instances()
+    void remove(size_t index); ///< @param index in instances()
 
     FxScene* scene() const { return scene_; }
     FxView* view() const { return view_; }                ///< null without GL
-    const FxFrameDef& frameDef() const { return frame_; } ///< of the view's next frame
+    const FxFrameDef& frameDef() const { return frame_; } ///< definition of the view's next frame
     const std::vector<FxInstanceId>& instances() const { return instances_; }
     FxSceneStatistics statistics() const;
     FxViewStatistics viewStatistics() const;

@@ -1,7 +1,8 @@
 /// @file card_picture.h
-/// Cards drawn by OpenGL along parallel rays, as views draw them: for measurements against the integral.
+/// Pictures of cards by OpenGL along parallel rays, drawn as views draw them, for comparison with the
+/// integral.
 ///
-/// Threads: the thread that made it.
+/// Threads: only the thread that created it.
 #pragma once
 
 #include "benchmarks/scenes/cards.h"
@@ -21,29 +22,30 @@ namespace fx::cli {
 class CardPicture
 {
 public:
-    static constexpr float kFarthest = 40.0f; ///< [m] of a surface
+    static constexpr float kFarthest = 40.0f; ///< [m] largest distance of a surface
 
     /// @param width, height [pixel]
-    /// @param field [m] that the width of the picture shows
+    /// @param field [m] width of the scene in the picture
     static base::Result<std::unique_ptr<CardPicture>> create(int width, int height, float field);
 
-    /// Without procedural detail and glare, at EV 0.
+    /// Settings of the view; initially without procedural detail and glare, at EV 0.
     render::ViewSettings& settings() { return view_->settings(); }
     const render::FrameStatistics& statistics() const { return view_->statistics(); }
     const std::string& renderer() const { return device_->limits().renderer; }
     const base::SnapshotSchema& schema() const { return schema_; }
 
-    /// Cards are in front of the eye, their z along the view. Each snapshot has its own number, because a
-    /// view reuses data of a snapshot with the same number.
+    /// Cards are in front of the eye, with z along the view. Each snapshot has a new number, because a view
+    /// reuses the data of a snapshot with an equal number.
     base::FrameSnapshot snapshotOf(std::span<const Card> cards) const;
 
-    /// Opaque surface behind each pixel [m], rows from the bottom; +inf, or more than kFarthest: none.
+    /// Sets the distance [m] of an opaque surface for each pixel, rows from the bottom; +inf, or above
+    /// kFarthest: none.
     void setSurface(std::span<const float> distances);
     void clear();
-    /// Draws over the present picture. @param outMilliseconds time until the GPU has finished; null: does not
-    /// wait
+    /// Draws over the present picture. @param outMilliseconds [ms] time until the GPU has finished; null: the
+    /// call does not wait
     base::Status draw(const base::FrameSnapshot& snapshot, double* outMilliseconds = nullptr);
-    /// RGB of luminance, rows from the bottom.
+    /// Luminance as RGB, rows from the bottom.
     std::vector<float> read();
 
 private:

@@ -1,5 +1,5 @@
 /// @file cards.h
-/// Blobs for the comparison of billboards, alone and overlapping.
+/// Isolated and overlapping blobs for the comparison of billboards.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace fx::cli {
 
-/// A blob in front of the picture. Ray parameters are z, from the near plane on.
+/// A blob in front of the picture. Ray parameters are z, starting at the near plane.
 struct Card
 {
     float x, y, z;      ///< [m]
@@ -17,11 +17,12 @@ struct Card
     std::array<float, 3> emission;
 };
 
-/// A grid that fills the field of 2.4 m by 1.5 m, no two blobs in one another's way; optical depth 2 through
-/// the middle of each.
+/// A grid of blobs that fills the field of 2.4 m by 1.5 m without overlaps. The optical depth through the
+/// center of each blob is 2.
 std::vector<Card> isolatedCards(uint32_t count);
 
-/// Even in a ball of radius 1, flattened to the field; optical depth 4 to 6 through the middle.
+/// Blobs evenly in a ball of radius 1, flattened to the field. The optical depth through the center is 4 to
+/// 6.
 std::vector<Card> overlappingCards(uint32_t count);
 
 } // namespace fx::cli

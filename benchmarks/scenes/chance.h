@@ -1,5 +1,5 @@
 /// @file chance.h
-/// Repeatable numbers for scenes of measurements and tests.
+/// Repeatable random numbers for scenes of measurements and tests.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -9,7 +9,7 @@
 
 namespace fx::bench {
 
-/// Numbers in [0, 1) that depend on the seed only.
+/// Random numbers in [0, 1) that depend only on the seed.
 class Chance
 {
 public:

@@ -1,24 +1,24 @@
 /// @file detail_motion.h
-/// How much a sequence of pictures changes besides the motion of the medium in it.
+/// Changes in a sequence of pictures of a medium, apart from the medium's motion.
 #pragma once
 
 #include "benchmarks/scenes/detail_scene.h"
 
 namespace fx::cli {
 
-/// Of one frame after another.
+/// Residual changes from frame to frame.
 struct MotionResidual
 {
-    /// [1] root mean square difference of sRGB values to the picture before, moved with the medium, over
-    /// pixels of which at least half is medium
+    /// [1] root mean square difference of sRGB values to the previous picture, after moving it with the
+    /// medium, over pixels of which at least half is medium
     std::vector<double> frames;
-    double mean = 0.0, worst = 0.0; ///< [1] of `frames`
-    uint32_t births = 0;            ///< frames in which a generation of coordinates was born
-    double atBirths = 0.0;          ///< [1] mean of those; 0 without any
+    double mean = 0.0, worst = 0.0; ///< [1] mean and maximum of `frames`
+    uint32_t births = 0;            ///< number of frames in which a generation of coordinates was born
+    double atBirths = 0.0;          ///< [1] mean of these frames; 0 if there are none
 };
 
-/// Frames of the composition volume at 60 Hz, from the moment of `scene` on.
-/// @param renderer of square pictures
+/// Measures frames of the composition volume at 60 Hz, from the present moment of `scene` on.
+/// @param renderer renderer of square pictures
 base::Result<MotionResidual> motionResidual(DetailScene& scene, SnapshotRenderer& renderer, int frames,
                                             const std::function<bool()>& stop);
 

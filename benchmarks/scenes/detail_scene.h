@@ -1,8 +1,8 @@
 /// @file detail_scene.h
-/// Effects of the library whose fields have detail, at one time, filling the view; their pictures by OpenGL
-/// and by the ray integral. Without background, glare and shimmer.
+/// Effects of the library with detail of the field, at one time, filling the view. Their pictures are
+/// computed by OpenGL and by the ray integral, without background, glare and shimmer.
 ///
-/// Threads: the creating thread, which is the GL thread of its pictures.
+/// Threads: only the thread that created it, which is the GL thread of its pictures.
 #pragma once
 
 #include "fxsdk/cli/render/snapshot_renderer.h"
@@ -21,11 +21,11 @@ namespace fx::cli {
 struct DetailSubject
 {
     std::string_view name;
-    const char* preset; ///< of the library
+    const char* preset; ///< name of a preset of the library
     double time;        ///< [s]
-    double height;      ///< [m] of the middle of the picture above the ground
-    double half;        ///< [m] half of the picture's side
-    double first, last; ///< [s] times between which its extinction is followed
+    double height;      ///< [m] height of the picture's center above the ground
+    double half;        ///< [m] half of the side length of the picture
+    double first, last; ///< [s] range of times in which its extinction is measured
 };
 
 /// All subjects.
@@ -38,17 +38,17 @@ public:
     {
         return create(subject, subject.time);
     }
-    /// @param time [s] that is shown first
+    /// @param time [s] first time to be shown
     static base::Result<std::unique_ptr<DetailScene>> create(const DetailSubject& subject, double time);
 
-    /// Another moment, not before the last one. @param time [s]
+    /// Advances to another time. @param time [s] not before the last one
     base::Status show(double time);
-    /// Of the moment, until the next show().
+    /// The present moment; valid until the next show().
     const SceneMoment& moment() const { return moment_; }
     const base::SnapshotSchema& schema() const { return moment_.snapshots.newer->schema(); }
-    /// Square pictures.
+    /// Camera of square pictures.
     render::ReferenceCamera camera(bool isParallel = false) const;
-    /// For the renderers without a GPU. @param octaves of the detail; 0: smooth
+    /// Scene for the renderers without a GPU. @param octaves of the detail; 0: smooth
     render::ReferenceScene reference(int octaves) const;
     const DetailSubject& subject() const { return subject_; }
 
@@ -64,8 +64,8 @@ private:
 /// Settings of a view in daylight without post-processing.
 render::ViewSettings detailViewSettings();
 
-/// [1] of each pixel, rows from the top: optical depth by the ray integral, see DetailedRay.
-/// @param side [pixel]  @param pixels [pixel] of the picture whose pixels the detail is made for
+/// [1] Optical depth of each pixel by the ray integral, rows from the top, see DetailedRay.
+/// @param side [pixel]  @param pixels [pixel] side of the picture for whose pixels the detail is computed
 std::vector<float> integratedDepth(const render::ReferenceScene& scene, int side, int pixels);
 
 } // namespace fx::cli

@@ -1,28 +1,30 @@
 /// @file detail_shrink.h
-/// How a small picture of a field with detail differs from the mean of the pixels of a large one.
+/// Difference between a small picture of a field with detail and the averaged pixels of a large one.
 #pragma once
 
 #include "benchmarks/scenes/detail_scene.h"
 
 namespace fx::cli {
 
-constexpr int kShrink = 4; ///< pixels of the large picture along an axis, for each of the small one
+constexpr int kShrink = 4; ///< pixels of the large picture per pixel of the small one, along an axis
 
 /// Root mean square errors over covered pixels.
 struct ShrinkErrors
 {
-    std::vector<double> values; ///< [1] of all covered pixels and channels, of the RMS of the light
-    double light = 0.0;         ///< [1] of the RMS of the light, as all but the next two
-    double bias = 0.0;          ///< [1] mean light of the small picture over that of the large one - 1
-    double transmittance = 0.0; ///< [1] of the RMS opacity
-    double emission = 0.0, sun = 0.0, sky = 0.0; ///< parts of the light
-    /// One ray a pixel with the detail of the large picture: what its four middle pixels have.
+    /// [1] errors of all covered pixels and channels, relative to the RMS of the light
+    std::vector<double> values;
+    double light = 0.0;         ///< [1] relative to the RMS of the light, as all members but the next two
+    double bias = 0.0;          ///< [1] mean light of the small picture over that of the large one, minus 1
+    double transmittance = 0.0; ///< [1] relative to the RMS opacity
+    double emission = 0.0, sun = 0.0, sky = 0.0; ///< [1] errors of the parts of the light
+    /// [1] error of one ray per pixel with the detail of the large picture: the mean of its four middle
+    /// pixels
     double unfaded = 0.0;
-    double unfadedTransmittance = 0.0; ///< [1] of the RMS opacity
+    double unfadedTransmittance = 0.0; ///< [1] relative to the RMS opacity
 };
 
-/// Draws both by OpenGL.
-/// @param side [pixel] of the small picture  @param ioSeconds spent in drawing is added
+/// Draws both pictures by OpenGL.
+/// @param side [pixel] of the small picture  @param ioSeconds [s] is increased by the time of drawing
 base::Result<ShrinkErrors> shrinkErrors(const DetailScene& scene, const render::ViewSettings& settings,
                                         int side, double& ioSeconds);
 

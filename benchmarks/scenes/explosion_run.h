@@ -1,5 +1,5 @@
 /// @file explosion_run.h
-/// The gas of the library's explosion alone, stepped as a game steps it: for measurements.
+/// The gas of the library's explosion without its other parts, stepped as in a game, for measurements.
 #pragma once
 
 #include "foundation/memory/host_memory.h"
@@ -12,19 +12,19 @@
 
 namespace fx::cli {
 
-constexpr int kExplosionFrames = 60; ///< a second
+constexpr int kExplosionFrames = 60; ///< frames per second
 
 struct ExplosionSetting
 {
     uint32_t particles = 10'000; ///< 8 .. 20000
-    float soundSpeed = -1;       ///< [m/s] limit on the speed of sound, 0: none, negative: the preset's
-    float flowMach = 0.3f;       ///< [1] of sim::Quality, 0: none
+    float soundSpeed = -1;       ///< [m/s] limit on the speed of sound; 0: none; negative: that of the preset
+    float flowMach = 0.3f;       ///< [1] see sim::Quality; 0: none
 };
 
-/// The cloud as a whole.
+/// Averages over the cloud.
 struct ExplosionState
 {
-    double height;      ///< [m] of its middle
+    double height;      ///< [m] height of the center
     double radius;      ///< [m] root of the mean square distance from the axis
     double speed;       ///< [m/s] root mean square
     double temperature; ///< [K] mean
@@ -39,12 +39,12 @@ public:
                                                               base::TaskRunner& tasks);
     ExplosionRun(const sim::GasDef& gas, const sim::Quality& quality, base::TaskRunner& tasks);
 
-    void step(); ///< one frame
+    void step(); ///< takes the steps of one frame
     ExplosionState look();
-    /// Publishes its present gas. @return valid until the next call of any function
+    /// Publishes the present gas. @return snapshot that is valid until the next call of any function
     const base::FrameSnapshot& publish();
-    /// [1] Median over particles of the distance to the nearest other, in units of the particle's own spacing
-    /// (m / rho)^(1/3): 1 in a lattice, 0.55 in points strewn by chance, 0.85 to 0.9 in glass. 0 without gas.
+    /// [1] Median over particles of the distance to the nearest neighbor, in units of the particle's own
+    /// spacing (m / rho)^(1/3): 1 in a lattice, 0.55 for random points, 0.85 to 0.9 in glass. 0 without gas.
     double nearestOverSpacing();
     const sim::StepCounters& counters() const { return counters_; }
 

@@ -1,6 +1,6 @@
 /// @file flights.h
 /// Named sequences of frames 1/60 s apart: flights of an eye through effects of the library, and clouds under
-/// a light that turns or an eye that travels. Everything follows from the name.
+/// a rotating light or a moving eye. The name determines everything.
 #pragma once
 
 #include "benchmarks/scenes/lit_media.h"
@@ -23,7 +23,7 @@ struct FlightFrame
 /// Subject of the comparison in a flight.
 enum class FlightSubject
 {
-    Composition, ///< how overlapping media are put together: media send light of their own only
+    Composition, ///< composition of overlapping media; media emit their own light only
     Light        ///< light slices: media are lit by the sun
 };
 
@@ -31,20 +31,21 @@ struct FlightName
 {
     std::string_view name;
     FlightSubject subject;
-    uint32_t frames; ///< of the whole flight
+    uint32_t frames; ///< number of frames of the whole flight
 
-    /// Few large balls, so that two which swap their places in an order are seen: drawn one over the other
-    /// they break the bound. In effects of hundreds of balls the motion of the media hides that.
+    /// A control of a few large balls, in which a change of order is visible: if they are blended in sorted
+    /// order, they violate the bound. In effects of hundreds of balls, the motion of the media hides such
+    /// changes.
     bool hasControl = false;
 };
 
 /// All flights.
 std::span<const FlightName> flightNames();
 
-/// The frames in the middle of a flight. Blobs of effects have the light of sun and sky as it arrives in
-/// their centers, scattered alike in all directions, as light of their own.
+/// The frames in the middle of a flight. For effects, the light of sun and sky at the center of each blob,
+/// scattered isotropically, is added to the blob's emission.
 /// @param name one of flightNames()
-/// @param frames at most as many as the flight has
+/// @param frames at most the number of frames of the flight
 base::Result<std::vector<FlightFrame>> flightFrames(std::string_view name, uint32_t frames);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file frame_changes.h
-/// How much pictures change from frame to frame, and whether that is more than the scene itself changes.
+/// Changes of pictures from frame to frame, compared with the changes of the scene itself.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,17 @@
 
 namespace fx::cli {
 
-/// The light of a frame; pixels in any order, the same for all frames.
+/// The light of a frame. Pixels are in any order, but in the same order for all frames.
 struct FrameLight
 {
-    std::vector<float> luminance; ///< [1] exposed
-    std::vector<bool> isCovered;  ///< by media
+    std::vector<float> luminance; ///< [1] after exposure
+    std::vector<bool> isCovered;  ///< whether media cover the pixel
 };
 
-/// [1] mean absolute change of luminance over the pixels that are covered in either frame; 0 without any.
-/// @param coveredBefore, coveredAfter of the reference, so that all renderers are compared in the same pixels
+/// [1] Mean absolute change of luminance over the pixels that are covered in either frame; 0 without such
+/// pixels.
+/// @param coveredBefore, coveredAfter covered pixels of the reference, so that all renderers use the same
+///          pixels
 double meanChange(std::span<const float> before, std::span<const float> after,
                   const std::vector<bool>& coveredBefore, const std::vector<bool>& coveredAfter);
 
@@ -30,18 +32,18 @@ struct ChangeBound
 
 struct ChangeJudgment
 {
-    /// [1] of each pair of frames: change beyond the reference's, in units of the margin of the bound; at
-    /// most 1 where the bound is kept, at least 0.
+    /// [1] for each pair of frames: change beyond that of the reference, in units of the margin of the bound,
+    /// at least 0. Values up to 1 keep the bound.
     std::vector<double> excess;
-    size_t beyond = 0;            ///< pairs that break the bound
-    size_t worst = 0;             ///< pair with the largest excess
-    double medianReference = 0.0; ///< [1] change
-    double medianRatio = 0.0;     ///< [1] of the changes to the reference's
+    size_t beyond = 0;            ///< number of pairs that violate the bound
+    size_t worst = 0;             ///< index of the pair with the largest excess
+    double medianReference = 0.0; ///< [1] median change of the reference
+    double medianRatio = 0.0;     ///< [1] median ratio of the changes to those of the reference
 
     bool isKept() const { return beyond == 0; }
 };
 
-/// @param changes, reference of the same pairs of frames. A change that is not finite breaks the bound.
+/// @param changes, reference of the same pairs of frames. A change that is not finite violates the bound
 ChangeJudgment judgeChanges(std::span<const double> changes, std::span<const double> reference,
                             const ChangeBound& bound);
 

@@ -1,6 +1,6 @@
 /// @file gas_stage.h
-/// A gas on a stage, for measurements and tests of the pair loops: particles with lists of neighbors, and
-/// results by the order in which the particles were given.
+/// A gas for measurements and tests of the pair loops: particles with neighbor lists. Results are in the
+/// order in which the particles were given.
 #pragma once
 
 #include "foundation/math/elementary.h"
@@ -18,21 +18,21 @@ namespace fx::bench {
 
 using Gas = std::vector<sim::GasRecord<double>>;
 
-/// Air at rest, everything of the order of one, so that no term is without effect.
+/// A parcel of air at rest. All values are of the order of one, so that every term has an effect.
 inline sim::GasRecord<double> parcel(double x, double y, double z, double support)
 {
     return {x, y, z, support, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0};
 }
 
-/// A number in [0, 1) for each particle and purpose.
+/// A random number in [0, 1) for each particle and purpose.
 inline double chance(uint64_t seed, uint32_t i, uint32_t k)
 {
     const auto u = base::randomUnit4(seed, k / 4, i, base::RandomPurpose::Position);
     return double(u[k % 4]);
 }
 
-/// A lattice of n^3 particles of spacing 1 / n in the unit cube, moved by `jitter` spacings, of mean
-/// density 1.
+/// A lattice of n^3 particles of spacing 1 / n in the unit cube, displaced by up to `jitter` spacings, with
+/// mean density 1.
 inline Gas latticeGas(uint32_t n, double jitter, double neighbors, uint64_t seed = 1)
 {
     Gas gas;
@@ -77,7 +77,7 @@ inline sim::Domain unitBox(sim::AxisKind kind)
     return box;
 }
 
-/// Columns of results; element k belongs to the k-th particle given.
+/// Columns of results; element k belongs to the k-th given particle.
 template <class T>
 struct Densities
 {
@@ -151,7 +151,7 @@ public:
         return inOrderGiven(at);
     }
 
-    /// Results by place, without memory of their own: for timing.
+    /// Writes results by slot into existing memory, for timing.
     void sumDensity(const sim::DensityRules& rules, double reach, Densities<T>& at) const
     {
         const base::FloatingPointScope floatingPoint;
@@ -182,7 +182,7 @@ public:
     uint64_t entries() const { return lists_.entries(); }
     std::vector<sim::GasRecord<T>>& records() { return records_; }
 
-    /// The particles as the loops see them, rounded to T, in the order given.
+    /// The particles as the loops process them, rounded to T, in the given order.
     Gas seen() const
     {
         Gas gas(count_);

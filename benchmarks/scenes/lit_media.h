@@ -1,9 +1,9 @@
 /// @file lit_media.h
-/// Media in the light of sun and sky, and their pictures by OpenGL, by the ray integral with exact single
-/// scattering, and by paths. For measurements of the lighting of media: without background, procedural detail
-/// and post-processing.
+/// Media lit by sun and sky, and their pictures by OpenGL, by the ray integral with exact single scattering,
+/// and by path tracing. For measurements of the lighting of media, without background, procedural detail and
+/// post-processing.
 ///
-/// Threads: the creating thread, which is its GL thread.
+/// Threads: only the thread that created it, which is its GL thread.
 #pragma once
 
 #include "fxsdk/cli/render/blob_list_renderer.h"
@@ -30,41 +30,41 @@ struct LitView
 
 render::ReferenceCamera cameraOf(const LitView& view);
 
-/// The light of the scenes of examples/scenes in daylight.
+/// The daylight of the scenes in examples/scenes.
 render::Lighting daylight();
 
-/// Blobs of a preset of the library at a moment. @param name without "library:" @param time [s]
+/// Blobs of a preset of the library at a time. @param name without "library:" @param time [s]
 base::Result<std::vector<render::MediumBlob>> presetMedia(const std::string& name, double time);
 
-/// One substance in blobs of one size.
+/// A ball filled with blobs of one substance and size.
 struct BallOfMedia
 {
     uint32_t blobs = 300;
     double radius = 0.25;    ///< [m] of a blob, below 1
-    double depth = 1.0;      ///< [1] mean optical depth through the middle of the ball, over all directions
+    double depth = 1.0;      ///< [1] mean optical depth through the center of the ball, over all directions
     double albedo = 0.9;     ///< [1]
     double anisotropy = 0.0; ///< [1] Henyey-Greenstein g
 };
 
-/// Blobs evenly in a ball of radius 1 m around the origin.
+/// Blobs distributed evenly in a ball of radius 1 m around the origin.
 std::vector<render::MediumBlob> blobsOf(const BallOfMedia& ball);
 
-/// Size of a picture, and how much is done for it.
+/// Size of a picture, and number of samples.
 struct LitSize
 {
     int width = 96, height = 96; ///< [pixel]
-    uint32_t paths = 64;         ///< of a pixel
-    int rays = 1;                ///< the ray integral takes the mean of rays x rays of a pixel
-    int skyRings = 3;            ///< the ray integral takes 4 skyRings^2 directions of the sky
+    uint32_t paths = 64;         ///< per pixel
+    int rays = 1;                ///< the ray integral uses the mean of rays x rays per pixel
+    int skyRings = 3;            ///< the ray integral uses 4 skyRings^2 directions of the sky
 };
 
 /// A picture, rows from the top.
 struct LitPicture
 {
-    std::vector<glm::dvec3> light; ///< [1] exposed
+    std::vector<glm::dvec3> light; ///< [1] after exposure
     std::vector<double> opacity;   ///< [1]
     double variance = 0.0;         ///< [1] mean over pixels and channels of the square of the standard error
-    double seconds = 0.0;          ///< [s] duration
+    double seconds = 0.0;          ///< [s] time of computing the picture
 };
 
 /// Draws lists of blobs by OpenGL.
@@ -73,7 +73,7 @@ class LitPainter
 public:
     static base::Result<std::unique_ptr<LitPainter>> create(int width, int height);
 
-    /// @param slices of the view's settings
+    /// @param slices settings of light slices
     base::Result<LitPicture> paint(std::span<const render::MediumBlob> blobs, const LitView& view,
                                    const render::SliceSettings& slices);
     /// Settings of the next picture. paint() sets the members of LitView, slices, shimmer and glare.
@@ -88,22 +88,22 @@ private:
     std::vector<render::MediumBlob> shown_;
 };
 
-/// By the ray integral, with light that is scattered once.  @param stop see RenderCallbacks
+/// Picture by the ray integral, with single scattering.  @param stop see RenderCallbacks
 base::Result<LitPicture> integrated(std::span<const render::MediumBlob> blobs, const LitView& view,
                                     const LitSize& size, const std::function<bool()>& stop);
 
-/// By paths of any length.
+/// Picture by path tracing, with paths of any length.
 base::Result<LitPicture> traced(std::span<const render::MediumBlob> blobs, const LitView& view,
                                 const LitSize& size, const std::function<bool()>& stop);
 
-/// [1] root mean square difference to a true picture over the pixels that media cover, relative to the root
+/// [1] Root mean square difference from a true picture over the pixels that media cover, relative to the root
 /// mean square of the light there. The noise of the true picture is subtracted.
-/// @param outRelative receives the difference of each such pixel and channel, relative to the latter; may be
-/// null
+/// @param outRelative receives the difference of each such pixel and channel, relative to the same root mean
+/// square; may be null
 double relativeError(const LitPicture& picture, const LitPicture& truth,
                      std::vector<double>* outRelative = nullptr);
 
-/// [1] mean over all pixels and channels.
+/// [1] Mean light over all pixels and channels.
 double meanLight(const LitPicture& picture);
 
 } // namespace fx::cli

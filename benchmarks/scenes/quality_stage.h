@@ -1,8 +1,7 @@
 /// @file quality_stage.h
-/// Real frames for measurements of quality: effects on a stage, drawn off screen with any settings again and
-/// again.
+/// Frames for measurements of quality: effects on a stage, drawn off screen repeatedly with any settings.
 ///
-/// Threads: the thread that made it, which is its GL thread.
+/// Threads: only the thread that created it, which is its GL thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -24,7 +23,7 @@ namespace fx::cli {
 enum class StageClock
 {
     Gpu,      ///< timestamps of the GPU
-    Wall,     ///< from the call until the GPU has finished
+    Wall,     ///< time from the call until the GPU has finished
     Processor ///< processor time of all threads of this program: for software renderers on busy machines
 };
 const char* clockName(StageClock clock);
@@ -39,21 +38,21 @@ public:
     QualityStage(const QualityStage&) = delete;
     QualityStage& operator=(const QualityStage&) = delete;
 
-    /// GPU timestamps of hardware, processor time of software.
+    /// The best clock: GPU timestamps for hardware, processor time for software renderers.
     StageClock bestClock() const;
-    /// Takes effect with the next frame. @param budget [ms] 0: none
+    /// Sets the budget from the next frame on. @param budget [ms] 0: none
     base::Status setBudget(double budget, StageClock clock);
 
-    /// Simulates up to `tick`, which must not lie before the last one.
+    /// Simulates up to `tick`, which must not precede that of the last call.
     base::Status simulate(base::Ticks tick) { return effects_->showMoment(tick); }
-    /// Draws the stage as the camera sees it; frames are drawn over it until the next call.
+    /// Draws the stage as the camera sees it. Frames are drawn over it until the next call.
     base::Status look(const scene_file::CameraPath& camera);
     /// Draws one frame and waits for the GPU.
     base::Status draw();
 
-    /// Of the frame that draw() has finished.
+    /// Times of the frame of the last draw().
     render::GroupTimes times() const { return times_; }
-    /// [ms] from the call until it had finished, whether or not a clock was set.
+    /// [ms] Time from the call of draw() until the GPU had finished, with or without a clock.
     double wallMilliseconds() const { return wallMilliseconds_; }
     double processorMilliseconds() const { return processorMilliseconds_; }
     std::vector<float> picture();    ///< RGBA of the frame
@@ -81,7 +80,7 @@ private:
     double wallMilliseconds_ = 0.0, processorMilliseconds_ = 0.0;
 };
 
-/// Measures of two pictures of media before the same background.
+/// Difference of two pictures of media over the same background.
 struct PictureDifference
 {
     double difference = 0; ///< sum of |a - b|
@@ -90,10 +89,10 @@ struct PictureDifference
 PictureDifference compare(const std::vector<float>& a, const std::vector<float>& b,
                           const std::vector<float>& background);
 
-/// "320x180", each 16 to 16384. @return InvalidArgument
+/// Parses "320x180", each 16 to 16384. @return InvalidArgument
 base::Status readSize(const std::string& text, int& outWidth, int& outHeight);
 
-/// "gpu", "wall", "processor", or "auto" for nothing. @return InvalidArgument
+/// Parses "gpu", "wall", "processor", or "auto" (gives nothing). @return InvalidArgument
 base::Status readClock(const std::string& text, std::optional<StageClock>& outClock);
 
 } // namespace fx::cli

@@ -1,7 +1,7 @@
 /// @file slice_forms.h
-/// Ways to store the optical depth between a light and every point of a cloud, texel by texel: planes, planes
-/// between the first and the last depth of the medium, and Fourier coefficients. For measurements; drawing
-/// uses planes.
+/// Forms of storing the optical depth between a light and every point of a cloud, texel by texel: planes,
+/// planes between the first and the last depth of the medium, and Fourier coefficients. For measurements;
+/// drawing uses planes.
 #pragma once
 
 #include "rendering/lights/slices/slice_stack.h"
@@ -14,19 +14,19 @@
 
 namespace fx::cli {
 
-/// `count` balls evenly in a ball of radius 1 around the origin.
-/// @param depth [1] mean optical depth through the middle, over all directions
+/// `count` balls distributed evenly in a ball of radius 1 around the origin.
+/// @param depth [1] mean optical depth through the center, over all directions
 std::vector<render::MediumCaster> lightCloud(uint32_t count, double depth);
 
-/// [1] mean optical depth through the middle over all directions, for balls within 2 m of the origin.
+/// [1] Mean optical depth through the center over all directions, for balls within 2 m of the origin.
 double meanDiameter(std::span<const render::MediumCaster> casters);
 
-/// Points within the balls, where light is looked up. [m]
+/// [m] Points within the balls at which the light is evaluated.
 std::vector<glm::vec3> pointsWithin(std::span<const render::MediumCaster> casters, uint32_t count);
 
 render::BlobMedium mediumOf(std::span<const render::MediumCaster> casters);
 
-/// [1] by a shadow ray: exact, in double. @param stack whose light is meant
+/// [1] Optical depth by a shadow ray; exact, in double precision. @param stack light slices of the light
 double shadowRayDepth(const render::BlobMedium& medium, const render::SliceStack& stack,
                       const glm::vec3& point);
 
@@ -34,29 +34,29 @@ struct SliceForm
 {
     enum class Kind
     {
-        Planes,  ///< at the places of the stack
+        Planes,  ///< at the positions of the stack
         Deep,    ///< from the first to the last depth of the medium on the ray
-        Fourier, ///< of the density over the depth of the stack
+        Fourier, ///< coefficients of the density over the depth of the stack
     };
     Kind kind = Kind::Planes;
-    int values = 32; ///< stored a texel: planes; coefficients, odd
+    int values = 32; ///< number of values per texel: planes, or an odd number of coefficients
 };
 
 /// Content of a texel.
 struct SliceColumn
 {
     float first = 0.0f; ///< [m] distance along the ray of the first plane
-    float step = 1.0f;  ///< [m] between planes; Fourier: length of the period
+    float step = 1.0f;  ///< [m] distance between planes; Fourier: length of the period
     std::vector<float> values;
 };
 
 SliceColumn makeColumn(const SliceForm& form, const render::SliceStack& stack, const render::SliceRay& ray,
                        std::span<const render::MediumCaster> casters);
 
-/// [1] @param distance [m] along the ray
+/// [1] Optical depth of a column. @param distance [m] along the ray
 float columnDepth(const SliceForm& form, const SliceColumn& column, float distance);
 
-/// Columns where they are needed, interpolated between four texels as drawing does.
+/// Columns that are created on demand, interpolated between four texels as in drawing.
 class SliceField
 {
 public:

@@ -1,5 +1,5 @@
 /// @file stability_picture.h
-/// An error map as a picture: axes with numbers, and a color scale with the limit on it.
+/// Draws an error map as a picture with labeled axes and a color scale that marks the limit.
 #pragma once
 
 #include "benchmarks/stability/stability_run.h"
@@ -11,9 +11,10 @@ namespace fx::cli {
 
 image::Image mapPicture(const StabilityResult& result, const StabilityMap& map);
 
-/// Letters of 5 x 7 pixels, drawn with their upper left corner at (x, y); lower case, digits and some signs,
-/// others are left empty. Each is 6 pixels wide with its gap. Parts outside of the picture are clipped.
-/// @param isUpwards turned by a quarter to the left, beginning at the lower left corner
+/// Draws letters of 5 x 7 pixels with their upper left corner at (x, y). Lower case, digits and some signs
+/// exist; other characters are left blank. Each letter is 6 pixels wide including its gap. Parts outside of
+/// the picture are clipped.
+/// @param isUpwards rotated counter-clockwise by 90 degrees, beginning at the lower left corner
 void drawText(image::Image& picture, int x, int y, const std::string& text, bool isUpwards = false);
 
 } // namespace fx::cli

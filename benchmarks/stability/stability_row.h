@@ -1,9 +1,9 @@
 /// @file stability_row.h
-/// Interface of a hard case of fx stability: sweeps over one or two parameters, the error at each point, the
-/// limit.
+/// Interface of a hard case ("row") of fx stability: sweeps over one or two parameters, the error at each
+/// point, and its limit.
 ///
-/// A new row is a function that makes its sweeps, and a line in the list at the end of its file in
-/// benchmarks/stability/rows/; a new file is an entry in the CMakeLists.txt there.
+/// To add a row, add a function that creates its sweeps, and a line in the list at the end of the file in
+/// benchmarks/stability/rows/. A new file also needs an entry in the CMakeLists.txt there.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ struct StabilityAxis
     std::vector<double> values;
 };
 
-/// Powers of ten from `from` to `to`. A quick axis has a fifth of the steps, and 4 at least.
+/// Powers of ten from `from` to `to`. A quick axis has a fifth of the steps, but at least 4.
 StabilityAxis powersOfTen(std::string name, double from, double to, uint32_t perDecade, bool isQuick);
-/// `steps` equal steps. A quick axis has a fifth of them, and 4 at least.
+/// `steps` equal steps. A quick axis has a fifth of them, but at least 4.
 StabilityAxis evenSteps(std::string name, double from, double to, uint32_t steps, bool isQuick);
 StabilityAxis values(std::string name, std::vector<double> list);
 
@@ -30,12 +30,12 @@ struct StabilitySweep
 {
     std::string name;
     StabilityAxis x, y;
-    double limit = 0;       ///< of the error, inclusive; 0: exact
-    bool isControl = false; ///< plain code in the same places: has to exceed the limit somewhere
+    double limit = 0;       ///< upper limit of the error, inclusive; 0: exact
+    bool isControl = false; ///< naive code at the same points, which must exceed the limit somewhere
     std::function<double(double x, double y)> error;
 };
 
-/// A control of `sweep`: the same places and limit, another error.
+/// A control of `sweep`: the same points and limit, with another error function.
 StabilitySweep controlOf(const StabilitySweep& sweep, std::string name,
                          std::function<double(double x, double y)> error);
 
@@ -50,7 +50,7 @@ struct StabilityRow
 /// Rows of one subject.
 using StabilityRows = std::vector<StabilityRow>;
 
-/// As rows/CMakeLists.txt lists their files.
+/// Groups of rows, in the order in which rows/CMakeLists.txt lists their files.
 const std::vector<StabilityRows>& stabilityRowGroups();
 /// All rows, in the order in which they run.
 const std::vector<StabilityRow>& stabilityRows();

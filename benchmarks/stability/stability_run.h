@@ -11,7 +11,7 @@
 
 namespace fx::cli {
 
-/// The errors of a sweep, row by row of y.
+/// The errors of a sweep, one row per value of y.
 struct StabilityMap
 {
     StabilitySweep sweep;
@@ -21,7 +21,7 @@ struct StabilityMap
     double atY = 0;
 
     bool exceedsLimit() const { return !(largest <= sweep.limit); }
-    /// Within the limit, or beyond it for a control.
+    /// Whether the errors are within the limit or, for a control, exceed it.
     bool isAsItMust() const { return exceedsLimit() == sweep.isControl; }
 };
 
@@ -31,29 +31,29 @@ struct StabilityResult
     std::vector<StabilityMap> maps;
 
     bool isAsItMust() const;
-    /// The sweep that comes closest to its limit, or exceeds it most.
+    /// The sweep that comes closest to its limit or exceeds it most.
     const StabilityMap& tightest() const;
 };
 
 struct RunWatch
 {
     std::function<bool()> stop;
-    std::function<void(uint64_t done, uint64_t all)> progress; ///< places of the row
+    std::function<void(uint64_t done, uint64_t all)> progress; ///< counts points of the row
 };
 
 /// @return Interrupted
 base::Result<StabilityResult> runStability(const StabilityRow& row, bool isQuick, const RunWatch& watch);
 
-/// "R-01 ok  1.2e-07 of 4.8e-07 in float at s = 3, n = 8; controls break: naive 1.3"
+/// Returns text such as "R-01 ok  1.2e-07 of 4.8e-07 in float at s = 3, n = 8; controls break: naive 1.3".
 std::string toText(const StabilityResult& result);
 
-/// "  gauss-8, float: 2.1e-05 of 0.0001 at tau = 3, blobs = 1", a line a sweep.
+/// One line per sweep, such as "  gauss-8, float: 2.1e-05 of 0.0001 at tau = 3, blobs = 1".
 std::string sweepsText(const StabilityResult& result);
 
 /// One line per point: x, y, error. Comment lines describe the file.
 std::string mapCsv(const StabilityResult& result, const StabilityMap& map, const std::string& origin);
 
-/// "R-01-float"
+/// File name without suffix, such as "R-01-float".
 std::string fileStem(const StabilityResult& result, const StabilityMap& map);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file verify_options.h
-/// The options of gas cases, as text and as settings.
+/// The options of verification cases, as text and as settings.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -18,7 +18,7 @@ namespace fx::cli {
 struct VerifyArguments
 {
     std::string caseName;
-    std::string particles; ///< "262144" or "64^3"; empty: the case's own number
+    std::string particles; ///< "262144" or "64^3"; empty: default of the case
     std::string kernel = "wendland-c2";
     std::string steps = "block";
     std::string precision = "float";
@@ -48,7 +48,7 @@ struct VerifyPlan
 
 void addVerifyOptions(CLI::App& command, VerifyArguments& arguments);
 
-/// @return InvalidArgument naming the option and its values
+/// Converts and checks the options. @return InvalidArgument naming the option and its values
 base::Result<VerifyPlan> planVerify(const VerifyArguments& arguments);
 
 const char* kernelName(sim::SphKernel kernel);

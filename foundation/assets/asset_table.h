@@ -2,8 +2,8 @@
 /// Images and meshes by id. Presets name them, particles store their ids, and views draw them.
 ///
 /// Assets never change and live as long as their table. Equal content gets the same id, so a texture that a
-/// hundred presets use is stored once. Threads: any. Additions are serialized by a mutex; reading takes no
-/// lock.
+/// hundred presets use is stored once. Threads: any thread may add and read. A mutex serializes additions;
+/// reading takes no lock.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -22,31 +22,33 @@
 
 namespace fx::base {
 
-/// Names an asset of one table; > 0, and small enough to be exact as a float. 0: none.
+/// Id of an asset in its table, from 1 to kMaxAssets, so that a float represents it exactly. 0 means no
+/// asset.
 using AssetId = uint32_t;
 
-/// Four bytes a texel, rows from the top, color not multiplied by the opacity.
+/// An image with four bytes per texel: red, green, blue, opacity. The top row comes first. Color is not
+/// premultiplied by opacity.
 struct ImageAsset
 {
     int width = 0;      ///< [texel] >= 1
     int height = 0;     ///< [texel] >= 1
-    bool isSrgb = true; ///< color is encoded by the sRGB curve (opacity never is); false: linear
+    bool isSrgb = true; ///< color has the sRGB encoding; false: color is linear. Opacity is always linear.
     std::pmr::vector<uint8_t> rgba;
 };
 
 /// A corner of a triangle.
 struct MeshVertex
 {
-    glm::vec3 position; ///< [1] of the particle's radius
+    glm::vec3 position; ///< [1] in units of the particle's radius
     glm::vec3 normal;   ///< unit
-    glm::vec2 texture;  ///< [1] from the image's lower left
+    glm::vec2 texture;  ///< [1] coordinates; 0, 0 is the lower left corner of the image
 };
 
-/// Triangles, counterclockwise seen from outside.
+/// An indexed triangle mesh. The vertices of a triangle are counterclockwise, seen from outside.
 struct MeshAsset
 {
     std::pmr::vector<MeshVertex> vertices;
-    std::pmr::vector<uint32_t> indices; ///< three a triangle
+    std::pmr::vector<uint32_t> indices; ///< three per triangle
     float reach = 0.0f;                 ///< [1] distance of the farthest vertex from the origin
 };
 
@@ -58,18 +60,20 @@ public:
 
     explicit AssetTable(std::pmr::memory_resource* memory) : memory_(memory), owned_(memory) {}
 
-    /// @return the id; InvalidArgument for sizes that do not fit each other; Capacity
+    /// @param rgba width * height * 4 bytes; width and height 1 to kLargestSide
+    /// @return the id; InvalidArgument for other sizes; Capacity if the table is full
     Result<AssetId> addImage(int width, int height, bool isSrgb, std::span<const uint8_t> rgba);
-    /// @return the id; InvalidArgument without a triangle, with an index beyond the vertices or a value that
-    ///         is not finite; Capacity
+    /// @return the id; InvalidArgument without a triangle, with an index that is too large or with a value
+    ///         that is not finite; Capacity if the table is full
     Result<AssetId> addMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t> indices);
 
-    /// Null when `id` is no image (mesh) of this table.
+    /// The image (or mesh) of `id`; null if this table has no image (or mesh) with this id.
     const ImageAsset* image(AssetId id) const;
     const MeshAsset* mesh(AssetId id) const;
 
-    uint32_t size() const { return size_.load(std::memory_order_acquire); }   ///< ids 1 to size() exist
-    uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); } ///< [byte] of all content
+    uint32_t size() const { return size_.load(std::memory_order_acquire); } ///< ids 1 to size() exist
+    /// [byte] size of all images and meshes
+    uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
 private:
     struct Entry

@@ -1,5 +1,6 @@
 /// @file bits.h
-/// Tests of floating-point values by their bits, which no compiler option can optimise away.
+/// Tests of floating-point values by their bits. No compiler option, such as -ffast-math, removes these
+/// tests.
 #pragma once
 
 #include <bit>

@@ -1,6 +1,5 @@
 /// @file curve.h
-/// Curves over the lifetime of a particle, and ranges from which random values are drawn. Presets consist of
-/// both.
+/// Curves over the lifetime of a particle, and ranges from which random values are drawn.
 #pragma once
 
 #include <array>
@@ -15,21 +14,21 @@ constexpr size_t kCurveSamples = 64;
 template <size_t N>
 struct CurveKey
 {
-    float t; ///< [0, 1] of life
+    float t; ///< [1] age over lifetime, 0..1
     std::array<float, N> value;
 };
 
-/// Piecewise linear curve over [0, 1], held as 65 equally spaced samples so that evaluation is one lerp. Near
-/// a key that falls between two samples the error is at most |slope change| / (8 * 64).
+/// Piecewise linear curve over [0, 1], stored as 65 equally spaced samples, so that evaluation is one linear
+/// interpolation. Near a key that falls between two samples the error is at most |slope change| / (8 * 64).
 template <size_t N>
 class Curve
 {
 public:
     Curve() { table_.fill({}); }
-    /// The same value for all t.
+    /// A curve with the same value for all t.
     explicit Curve(const std::array<float, N>& constant) { table_.fill(constant); }
-    /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump, after which the
-    ///         later key holds
+    /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump, at which the curve
+    ///         continues with the later key
     explicit Curve(std::span<const CurveKey<N>> keys);
 
     /// Value at t; t outside [0, 1] (NaN included) is clamped.

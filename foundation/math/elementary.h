@@ -24,13 +24,13 @@ inline double powerOfTwo(int n)
 /// symbol   unit   meaning
 ///   x       1      argument
 ///   n       1      nearest integer to x / ln 2
-///   r       1      what is left of x
+///   r       1      remainder, x - n ln 2
 /// @derivation
 ///   x = n ln 2 + r, with ln 2 in two pieces so that n times the first is exact      (1)
 ///   e^x = 2^n e^r                                                                    (2)
 ///   e^r = sum r^k / k!, k = 0..13; the next term is below 5e-18                      (3)
 /// @source    [MUL16] section 11 for the reduction; the series is elementary
-/// @deviation Taylor instead of minimax coefficients: the degree is fixed by double precision either way
+/// @deviation Taylor instead of minimax coefficients
 /// @valid     x < -708 gives 0; x > 709 gives e^709; 0 gives exactly 1; NaN gives NaN
 /// @accuracy  relative error <= 1e-15
 /// @tests     tests/foundation/test_elementary.cpp
@@ -106,8 +106,8 @@ inline double naturalLog(double x)
     return e * 6.93147180369123816490e-01 + (e * 1.90821492927058770002e-10 + logM); // (1)
 }
 
-/// x^y = e^(y ln x) for x >= 0: relative error <= 1e-15 (2 + |y ln x|), the same bits on every machine. 0 to
-/// a positive power is 0, anything to the power 0 is exactly 1; results are bounded by e^709.
+/// x^y = e^(y ln x) for x >= 0: relative error <= 1e-15 (2 + |y ln x|). The result has the same bits on every
+/// machine. 0^y is 0 for y > 0, and x^0 is exactly 1. Results are at most e^709.
 inline double power(double x, double y)
 {
     return y == 0.0 ? 1.0 : naturalExp(y * naturalLog(x));
@@ -120,9 +120,9 @@ inline double power(double x, double y)
 ///   x       1      argument
 ///   y       1      approximation of its cube root
 /// @derivation
-///   One third of the bit pattern is a guess within 6 % (the exponent is divided by three)   (1)
-///   y <- y (y^3 + 2 x) / (2 y^3 + x) cubes the relative error times 2/3                      (2)
-///   Three steps: 0.06 -> 2e-4 -> 3e-12 -> below rounding.
+///   One third of the bit pattern plus a constant has about a third of the exponent: within 6 % of y   (1)
+///   y <- y (y^3 + 2 x) / (2 y^3 + x) changes the relative error from d to about 2/3 d^3      (2)
+///   Relative errors after each of the three steps: 2e-4, 3e-12, less than the rounding error.
 /// @source    [MUL16] for bit-pattern guesses; Halley's iteration is textbook
 /// @deviation none
 /// @valid     odd function; |x| < 1e-300 gives 0; infinite and NaN arguments are not accepted
@@ -149,17 +149,16 @@ struct SinCos
 };
 
 /// @formula sine-cosine-of-turns
-/// Sine and cosine of 2 pi times the argument. With the argument in turns, the
-///          range reduction is exact.
+/// Sine and cosine of 2 pi times the argument. With the argument in turns, the range reduction is exact.
 ///
 /// symbol   unit   meaning
 ///   t       turn   angle
 ///   q       1      nearest quarter turn, -2..2
-///   a       rad    what is left, |a| <= pi/4
+///   a       rad    remainder of the angle, |a| <= pi/4
 /// @derivation
 ///   t - floor(t + 1/2) = q/4 + a/(2 pi), exact in binary arithmetic   (1)
 ///   Taylor series of sine to a^15 and cosine to a^16                   (2)
-///   rotate by q quarters: exchange and change signs                    (3)
+///   A rotation by q quarter turns exchanges sine and cosine and changes signs   (3)
 /// @source    elementary
 /// @deviation none
 /// @valid     |t| < 2^50; multiples of 1/4 give exactly 0 and +-1
@@ -200,7 +199,7 @@ inline SinCos sinCosTurns(double t)
     }
 }
 
-/// Cubic step from 0 at `edge0` to 1 at `edge1` > `edge0`, flat at both ends.
+/// Cubic step from 0 at `edge0` to 1 at `edge1` > `edge0`, with zero slope at both ends.
 inline float smoothStep(float edge0, float edge1, float x)
 {
     const float t = (x - edge0) / (edge1 - edge0);

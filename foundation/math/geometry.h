@@ -1,6 +1,6 @@
 /// @file geometry.h
-/// Boxes and placements. World positions are double; positions of elements are float, relative to a world
-/// position.
+/// Boxes and placements. World positions are double. Positions of particles are float, relative to the
+/// position of their instance.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>

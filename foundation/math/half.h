@@ -1,6 +1,6 @@
 /// @file half.h
-/// Conversion of single floats to half floats (binary16), equal to the vectorized one of the particle
-/// kernels.
+/// Conversion of 32-bit floats to half floats (binary16). The vectorized conversion of the particle kernels
+/// gives the same bits.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ inline uint32_t toHalf(float x)
     return (bits - (112u << 23) + 0xFFFu + ((bits >> 13) & 1u)) >> 13;
 }
 
-/// Value of a column "color": red in the lowest 16 bits, then green, blue, opacity.
+/// Packs a value of the column "color": red is in the lowest 16 bits, then green, blue and opacity.
 inline uint64_t packHalfs(float red, float green, float blue, float opacity)
 {
     return uint64_t(toHalf(red)) | uint64_t(toHalf(green)) << 16 | uint64_t(toHalf(blue)) << 32 |

@@ -1,5 +1,5 @@
 /// @file hash.h
-/// 64-bit hash of state, for determinism checks and cache keys. Not for security.
+/// 64-bit hash of state, for determinism checks and cache keys. It is not cryptographic.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ inline uint64_t hashWord(uint64_t hash, uint64_t word)
     return x ^ (x >> 31);
 }
 
-/// Mixes `size` bytes and their number, by XXH3 of the xxHash library, at about the speed of reading memory.
+/// Mixes `size` bytes and the number `size` into a running hash. Uses XXH3 of the xxHash library, which is
+/// about as fast as reading the memory.
 uint64_t hashBytes(uint64_t hash, const void* data, size_t size);
 
 } // namespace fx::base

@@ -10,9 +10,9 @@
 
 namespace fx::base {
 
-/// A stack of blocks that keeps its memory across reset(), so that a frame that needs no more than the last
-/// one allocates nothing. Only for trivially destructible data: destructors are not called. One thread at a
-/// time.
+/// Allocates from blocks of memory. reset() keeps the blocks, so that a frame that needs no more memory than
+/// the previous frame allocates nothing. Destructors are not called: elements must be trivially destructible.
+/// Threads: one at a time.
 class Arena
 {
 public:
@@ -28,8 +28,8 @@ public:
         return {static_cast<T*>(allocateBytes(count * sizeof(T))), count};
     }
 
-    /// Frees all allocations together. If they occupied several blocks, one block of 1.25 times their total
-    /// size replaces these.
+    /// Frees all allocations together. If there are several blocks, one block of 1.25 times their total size
+    /// replaces them.
     void reset();
 
 private:

@@ -12,7 +12,8 @@
 
 namespace fx::base {
 
-/// Element of structure-of-arrays stores. The capacity is fixed at construction, so pointers stay valid.
+/// One array of a structure of arrays. The capacity is fixed at construction, so that pointers to elements
+/// stay valid.
 template <class T>
 class Column
 {

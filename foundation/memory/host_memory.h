@@ -9,8 +9,9 @@
 
 namespace fx::base {
 
-/// The host's allocator. Null functions mean the C++ runtime's own. allocate() returns null when memory is
-/// exhausted; release() gets the size and alignment that were passed to allocate().
+/// The host's allocator. If the functions are null, the allocator of the C++ runtime is used. allocate()
+/// returns null when memory is exhausted; release() gets the size and alignment that were passed to
+/// allocate().
 struct AllocatorHooks
 {
     void* user = nullptr;
@@ -21,10 +22,10 @@ struct AllocatorHooks
 /// [byte] size of a large page on x86-64.
 constexpr size_t kLargePage = size_t(2) << 20;
 
-/// Source of all memory that outlives a call. Without hooks, blocks of at least kLargePage are aligned to it,
-/// and on Linux madvise() requests large pages: reading many columns side by side otherwise misses the TLB.
-/// With hooks, the host chooses the pages. Throws std::bad_alloc, which fxsdk/api turns into
-/// FX_ERROR_OUT_OF_MEMORY. Thread-safe when the hooks are.
+/// Source of all memory that outlives a call. Without hooks, blocks of at least kLargePage are aligned to
+/// kLargePage, and on Linux madvise() requests large pages for them. With small pages, loops that read many
+/// columns at once would miss the TLB. With hooks, the host chooses the pages. Throws std::bad_alloc, which
+/// fxsdk/api turns into FX_ERROR_OUT_OF_MEMORY. Thread-safe if the hooks are thread-safe.
 class HostMemory final : public std::pmr::memory_resource
 {
 public:

@@ -1,5 +1,5 @@
 /// @file out_of_memory.h
-/// std::bad_alloc with the purpose of the allocation. It is constructed and thrown without allocating.
+/// A std::bad_alloc whose message states what the memory was for. Its construction allocates nothing.
 #pragma once
 
 #include <algorithm>

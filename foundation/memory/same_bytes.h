@@ -8,7 +8,8 @@
 
 namespace fx::base {
 
-/// +0 and -0 differ, and padding bytes may differ. Pointers may be null when there are no elements.
+/// Compares bytes, so that +0 differs from -0 and padding bytes count. Pointers may be null when there are no
+/// elements.
 template <class T>
 bool sameBytes(std::span<const T> a, std::span<const T> b)
 {

@@ -1,6 +1,6 @@
 /// @file philox.h
-/// Counter-based random numbers: a pure function of a key, without state, so that order and thread count
-/// cannot matter.
+/// Counter-based random numbers: a pure function of key and counter, without state. So results depend on
+/// neither the order of calls nor the number of threads.
 ///
 /// @formula philox4x32-10
 /// Ten rounds of a multiply-and-xor bijection on a 128-bit counter under a 64-bit key.
@@ -41,7 +41,7 @@ inline Random4 philox(Random4 counter, uint64_t key)
     return counter;
 }
 
-/// A float in [0, 1): the top 24 bits, so that every value is exact and 1 is never reached.
+/// Converts the top 24 bits of `word` to a float in [0, 1). Every result is exact, and 1 is never reached.
 inline float toUnitFloat(uint32_t word)
 {
     return float(word >> 8) * 0x1.0p-24f;
@@ -65,7 +65,7 @@ enum class RandomPurpose : uint32_t
     Events,
 };
 
-/// Four numbers in [0, 1) for particle `index` of emitter `emitter` in the instance with this `seed`.
+/// Four random numbers in [0, 1) for particle `index` of emitter `emitter` of the instance with seed `seed`.
 inline std::array<float, 4> randomUnit4(uint64_t seed, uint32_t emitter, uint64_t index,
                                         RandomPurpose purpose)
 {

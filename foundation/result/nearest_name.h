@@ -11,13 +11,15 @@ namespace fx::base {
 
 /// The edit distance of `a` and `b`: the smallest number of insertions, deletions, substitutions and
 /// transpositions of adjacent letters that convert `a` into `b`. Letter case is ignored (restricted
-/// Damerau-Levenshtein distance). Of longer names only the first 64 bytes count.
+/// Damerau-Levenshtein distance). Only the first 64 bytes of a name are compared.
 size_t editDistance(std::string_view a, std::string_view b);
 
-/// The closest of `known`, or nothing when all differ by more than a third of their letters.
+/// The element of `known` with the smallest edit distance to `name`; nothing if every distance exceeds a
+/// third of the letters.
 std::optional<std::string> nearestName(std::string_view name, std::span<const std::string> known);
 
-/// `; did you mean "NAME"?` with the closest of `known`, to end a message with; empty when none is near.
+/// The text `; did you mean "NAME"?` to append to a message, where NAME is nearestName(); empty if there is
+/// none.
 std::string didYouMean(std::string_view name, std::span<const std::string> known);
 
 } // namespace fx::base

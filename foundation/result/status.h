@@ -1,7 +1,7 @@
 /// @file status.h
 /// The outcome of an operation that can fail: a code that programs branch on and a message for people.
 ///
-/// The codes are those of the C API (fxsdk/include/fxsdk/fx_base.h), number for number; fxsdk/api asserts it.
+/// The codes equal those of the C API (fxsdk/include/fxsdk/fx_base.h); assertions in fxsdk/api check this.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace fx::base {
 
-/// Outcome codes. 0 is success, every error is negative.
+/// Outcome codes. 0 is success; errors are negative.
 enum class Code : int
 {
     Ok = 0,
@@ -23,13 +23,13 @@ enum class Code : int
     TooLarge = -7,        ///< an input exceeds its documented size limit and was not read
     Parse = -8,           ///< a text is not well formed
     Schema = -9,          ///< a preset or scene is well-formed JSON but violates its schema
-    Version = -10,        ///< a struct, preset or header of a version that this library cannot take
+    Version = -10,        ///< this library does not support the version of a struct, preset or header
     GlUnsupported = -11,  ///< the GL context lacks a version or function that is required
-    GlFailed = -12,       ///< GL refused a shader, a framebuffer or an allocation
+    GlFailed = -12,       ///< GL reported an error for a shader, a framebuffer or an allocation
     NoGl = -13,           ///< the context was created without GL, so it cannot draw
     ReEntrant = -14,      ///< a callback called back into the object that is calling it
     Io = -15,             ///< the operating system refused to read or write
-    Interrupted = -16,    ///< the user stopped it
+    Interrupted = -16,    ///< the user stopped the operation
     HostAnswer = -17,     ///< a callback of the host returned an invalid value
     Internal = -99,       ///< a defect of this library
 };
@@ -54,7 +54,7 @@ private:
     std::string message_;
 };
 
-/// A value, or the status of the failure.
+/// A value, or the status of the failure if there is no value.
 template <class T>
 class [[nodiscard]] Result
 {

@@ -1,5 +1,5 @@
 /// @file floating_point_scope.h
-/// Sets the floating-point mode of the simulation, independent of the host's, and restores the host's mode.
+/// Sets the floating-point mode of the simulation, and restores the host's mode afterwards.
 #pragma once
 
 #if defined(__SSE2__)
@@ -9,8 +9,8 @@
 namespace fx::base {
 
 /// During the lifetime of this object the thread rounds to nearest, flushes denormals to zero and masks
-/// floating-point exceptions. The destructor restores the host's mode. Denormal operands cost ninety times as
-/// much as normal ones on current processors, and gases cool into them.
+/// floating-point exceptions. The destructor restores the host's mode. On current processors denormal
+/// operands cost ninety times as much as normal ones, and values of a cooling gas become denormal.
 class FloatingPointScope
 {
 public:
@@ -25,7 +25,7 @@ public:
     }
 #else
     FloatingPointScope() = default;
-    ~FloatingPointScope() {} // other processors keep denormals: slower, not different in any tested result
+    ~FloatingPointScope() {} // other processors keep denormals: slower, with equal results in all tests
 #endif
     FloatingPointScope(const FloatingPointScope&) = delete;
     FloatingPointScope& operator=(const FloatingPointScope&) = delete;

@@ -1,5 +1,6 @@
 /// @file instruction_set.h
-/// Which vector instructions the simulation uses. All give the same bits; they differ in speed.
+/// Which vector instructions the simulation uses. All instruction sets give the same bits; they differ in
+/// speed.
 ///
 /// Kernels are compiled once for each instruction set with Highway and chosen at run time. Call
 /// applyInstructionSetLimit() before HWY_DYNAMIC_DISPATCH: the first call of the process reads FXSDK_SIMD.
@@ -13,7 +14,7 @@
 
 namespace fx::base {
 
-/// In order of width.
+/// Instruction sets in order of their vector width.
 enum class InstructionSet : uint8_t
 {
     Scalar, ///< baseline of the architecture, without vectors
@@ -35,7 +36,7 @@ std::string_view instructionSetNote();
 /// The instruction set in use: the widest that both the processor and the limit allow.
 InstructionSet instructionSet();
 
-/// Replaces the limit, for tests and benchmarks. Not while kernels run.
+/// Replaces the limit, for tests and benchmarks. Must not be called while kernels run.
 void limitInstructionSet(InstructionSet widest);
 
 } // namespace fx::base

@@ -1,5 +1,6 @@
 /// @file pack-inl.h
-/// Vectors that formulas can be written with. Included once for each instruction set.
+/// SIMD vectors with arithmetic operators, so that formulas can be written with them. Included once for each
+/// instruction set.
 #if defined(FX_PACK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PACK_INL
 #undef FX_PACK_INL
@@ -16,7 +17,8 @@ namespace fx::base::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector with as many lanes as the instruction set has, at most kMax. Never fuses, never approximates.
+/// A vector with as many lanes as the instruction set has, at most kMax. Operators do not fuse multiplication
+/// with addition, and do not approximate.
 template <class T, uint32_t kMax>
 struct Pack
 {
@@ -27,7 +29,7 @@ struct Pack
 
     Vector v;
 
-    Pack() = default; // trivial, so that structs of packs are
+    Pack() = default; // trivial, so that structs of packs are trivial too
     HWY_INLINE explicit Pack(Vector vector) : v(vector) {}
     HWY_INLINE explicit Pack(double x) : v(hn::Set(Tag(), static_cast<T>(x))) {}
     HWY_INLINE explicit Pack(float x) : v(hn::Set(Tag(), static_cast<T>(x))) {}

@@ -1,11 +1,12 @@
 /// @file precision_dispatch.h
-/// Entry points of kernels that exist in float and in double and that Highway compiles once for each
-/// instruction set. Included after hwy/foreach_target.h.
+/// Macros for kernels that exist in float and in double, and that Highway compiles once for each instruction
+/// set. Include this after hwy/foreach_target.h.
 ///
-/// Highway's tables take names of functions, and instances of a template have none. For a kernel that is a
-/// template `RESULT KERNEL(const JOB<T>&)` of the target namespace, FX_KERNEL_INSTANCES names the instances,
-/// in the target namespace, and FX_KERNEL_DISPATCH defines, where HWY_ONCE holds, both specializations of the
-/// declared template `RESULT FUNCTION(const JOB<T>&)`, which call the kernel of the instruction set in use.
+/// Highway's dispatch tables need the name of a function, which an instance of a template does not have. The
+/// kernel is a template `RESULT KERNEL(const JOB<T>&)` of the target namespace. FX_KERNEL_INSTANCES, used in
+/// the target namespace, defines a named function for each of its two instances. FX_KERNEL_DISPATCH, used
+/// where HWY_ONCE holds, defines both specializations of the declared template `RESULT FUNCTION(const
+/// JOB<T>&)`. They call the kernel for the instruction set in use.
 #pragma once
 
 #include "foundation/simd/instruction_set.h"

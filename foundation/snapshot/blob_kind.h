@@ -1,10 +1,11 @@
 /// @file blob_kind.h
-/// The kind "blob": a ball of participating medium with the polynomial kernel. Vocabulary of the techniques
-/// that publish gas and of the passes that draw it; the snapshot container does not include this.
+/// The kind "blob": a ball of participating medium with the polynomial kernel. Included by the techniques
+/// that publish gas and by the passes that draw it, not by the snapshot container.
 ///
 /// Extinction at distance r from the center is crossSection * W(r; radius) with W(r; R) = 105 / (32 pi R^3)
 /// (1 - (r/R)^2)^2, see shaders/formulas/kernel_optical_depth.fx.h. The medium emits as a gray body: source =
-/// (1 - albedo) * B(temperature) + emission, never without extinction.
+/// (1 - albedo) * B(temperature) + emission. This is multiplied by the blob's opacity, so that a medium
+/// without extinction emits nothing.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -41,16 +42,16 @@ enum : size_t
 namespace blob_constant {
 enum : size_t
 {
-    Layer,        ///< MediaLayer of the share that is not fire
+    Layer,        ///< MediaLayer of the opacity and light that FireShare does not assign to Fire
     DetailAmount, ///< [1] strength of procedural detail, 0 shows the bare kernel
-    DetailScale,  ///< [1] noise periods across a blob's diameter
+    DetailScale,  ///< [1] periods of the noise per diameter of a blob
     Anisotropy,   ///< [1] Henyey-Greenstein g of scattering, (-1, 1)
-    Shutter,      ///< [s] exposure time along which the blob is drawn out, 0 for none
+    Shutter,      ///< [s] exposure time of the motion blur; 0: none
     Count
 };
 }
 
-/// Layers in which media are accounted for; order is that of the EXR layers, not of drawing.
+/// Layers to which media are assigned. Their order is that of the EXR layers, not the order of drawing.
 enum class MediaLayer : uint32_t
 {
     Fire,

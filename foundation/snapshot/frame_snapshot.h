@@ -1,11 +1,13 @@
 /// @file frame_snapshot.h
-/// The state of a scene after one step, as rendering and hosts see it: the only place where both sides meet.
+/// The state of a scene after one step. Simulation passes it to rendering and hosts; they share no other
+/// data.
 ///
 /// A snapshot is a list of groups in creation order. A group holds the elements of one kind that one solver
-/// of one instance published: typed columns, shared constants, bounds, and an id per element by which the
-/// same element is found in the snapshot before. Many small groups of one kind may be published as one pool
-/// of rows, see pooled_groups.h; readers of the snapshot see ordinary groups. Threads: written by one thread,
-/// then published through a SnapshotRing and never changed again; read by any.
+/// of one instance published: typed columns, shared constants, bounds, and an id per element. The id
+/// identifies the same element in the previous snapshot. Many small groups of one kind may be published as
+/// one pool of rows, see pooled_groups.h; readers of the snapshot see ordinary groups. Threads: one thread
+/// writes a snapshot and publishes it through a SnapshotRing. Then it does not change, and any thread may
+/// read it.
 #pragma once
 
 #include "foundation/snapshot/pooled_groups.h"
@@ -45,55 +47,61 @@ public:
     const SnapshotSchema& schema() const { return *schema_; }
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
-    uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
-    /// Serial number of this content: no other snapshot of the process has the same number, whatever its
-    /// address and its scene. begin() assigns a new number.
+    /// Number of the publication: 1 for the first published snapshot, then increasing by 1; 0 before the
+    /// first.
+    uint64_t sequence() const { return sequence_; }
+    /// Serial number of this content. It is unique among all snapshots of all scenes in the process. begin()
+    /// assigns a new number.
     uint64_t serial() const { return serial_; }
-    /// [s] length of the step that ended with this snapshot; 0 if no step did. Particles that were born
-    /// within the step are drawn from their birth on.
+    /// [s] length of the step that ended with this snapshot; 0 if no step ended with it. Particles that were
+    /// born within the step are drawn from their birth on.
     float secondsBack() const { return float(toSeconds(step_)); }
-    Ticks step() const { return step_; } ///< the same, as passed to begin()
+    Ticks step() const { return step_; } ///< [tick] the same length, as passed to begin()
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
-    /// The first call for a group of a pool gives all rows of pools to their groups. It allocates nothing.
+    /// The group at `index`. The first call for a pooled group copies all rows of pools to their groups. It
+    /// allocates nothing.
     const SnapshotGroup& group(size_t index) const
     {
         const uint32_t place = placeOf(index);
         return (place & kPooled) != 0 ? spread_->group(*this, place & ~kPooled) : groups_[place];
     }
-    /// Position of the rows of a group in a pool, to read them in place; null: the group has its own rows.
+    /// Roster entry of a pooled group, by which its rows can be read in the pool; null if the group has its
+    /// own rows.
     const GroupRoster::Entry* pooled(size_t index) const
     {
         const uint32_t place = placeOf(index);
         return (place & kPooled) != 0 ? &roster_->entries[place & ~kPooled] : nullptr;
     }
-    /// Whether group() has been called for a group of a pool.
+    /// Whether group() has been called for a pooled group, so that the rows of pools have been copied.
     bool hasGivenRows() const { return roster_ && spread_->isDone(); }
-    GroupName name(size_t index) const ///< of a group, whose rows stay where they are
+    GroupName name(size_t index) const ///< name of the group at `index`; does not copy rows
     {
         const GroupRoster::Entry* const entry = pooled(index);
         return entry ? GroupName{entry->instance, entry->solver, pool(entry->pool).rows.info().kind}
                      : nameOf(groups_[placeOf(index)].info());
     }
 
-    /// Hash of the tick and of every id, column, constant and placement, computed anew at each call.
+    /// Hash of the tick and of every id, column, constant and placement, computed at each call.
     uint64_t hash() const { return hashAt(tick_); }
-    /// The hash for a step that ended at `tick`. A snapshot without elements also represents later steps.
+    /// The hash that this content would have at `tick`. A snapshot without elements also represents later
+    /// steps, so that its hash is needed for their ticks.
     uint64_t hashAt(Ticks tick) const;
 
     // ---- for the writer, before publication ----
-    /// @param step [tick] length of the step that ends at `tick`; 0: none does
+    /// Discards the groups and begins a new content.
+    /// @param step [tick] length of the step that ends at `tick`; 0 if no step ends there
     void begin(Ticks tick, uint64_t sequence, Ticks step = 0);
-    /// A group with room for `capacity` elements; fill it and set its info (count, bounds). If a group of an
-    /// earlier snapshot has enough memory, that memory is reused, whatever the position of that group was.
-    /// @param present columns of the kind that the group is to have
+    /// Adds a group with room for `capacity` elements. The caller fills it and sets its info (count, bounds).
+    /// If any group of an earlier content has enough memory, the memory of that group is reused.
+    /// @param present columns of the kind that the group will have
     SnapshotGroup& addGroup(KindId kind, size_t capacity, ColumnSet present = kAllColumns)
     {
         if (groupCount_ < groups_.size() && groups_[groupCount_].prepareAgain(kind, capacity, present, true))
-            return groups_[groupCount_++]; // at the same index as in the previous snapshot; no other one fits
-                                           // better
+            return groups_[groupCount_++]; // the group at this index fits exactly; no other one fits better
         return findGroup(kind, capacity, present);
     }
-    /// The same for a writer that respects SnapshotGroup::keepsConstants().
+    /// As addGroup(), for a writer that calls SnapshotGroup::keepsConstants() before it writes constants:
+    /// they are not cleared.
     SnapshotGroup& addGroupAgain(KindId kind, size_t capacity, ColumnSet present)
     {
         if (groupCount_ + 2 < groups_.size())
@@ -103,22 +111,23 @@ public:
         return findGroup(kind, capacity, present);
     }
     SnapshotGroup& editGroup(size_t index) { return groups_[index]; }
-    /// The next pool of rows; fill it. The memory of the pool that had this place before is reused.
-    /// @param each capacity of each of its groups
+    /// Adds a pool of rows. The caller fills it. The memory of the previous content's pool with the same
+    /// index is reused.
+    /// @param each capacity of each group of the pool
     PooledRows& addPool(KindId kind, size_t capacity, ColumnSet present, uint32_t each);
     size_t poolCount() const { return poolCount_; }
     const PooledRows& pool(size_t index) const { return *pools_[index]; }
-    /// Sets which groups the pools contain and their order among the groups that were added. Called once,
-    /// after all groups and pools are added.
-    /// @param ends number of groups added by the end of each run of added groups, see
+    /// Sets which groups the pools contain, and the position of these groups among the added ones. Called
+    /// once, after all groups and pools are added.
+    /// @param ends for each run of consecutive added groups, the number of added groups up to its end, see
     ///         GroupRoster::Entry::stretch
     void setRoster(std::shared_ptr<const GroupRoster> roster, std::span<const uint32_t> ends);
-    size_t addedCount() const { return groupCount_; } ///< groups that were added, without those of pools
+    size_t addedCount() const { return groupCount_; } ///< number of added groups, without pooled groups
 
 private:
     friend class UnpackedGroups;
     static constexpr uint32_t kPooled = 1u << 31;
-    /// Among the groups that were added, or with kPooled in the roster.
+    /// Index among the added groups; with the bit kPooled, index in the roster.
     uint32_t placeOf(size_t index) const { return roster_ ? places_[index] : uint32_t(index); }
     void listPlaces();
     SnapshotGroup& findGroup(KindId kind, size_t capacity, ColumnSet present);
@@ -130,15 +139,15 @@ private:
     uint64_t serial_;
     Ticks step_ = 0;
     size_t groupCount_ = 0;
-    std::pmr::vector<SnapshotGroup>
-        groups_; ///< the first groupCount_ are valid, the rest keep memory for later
+    /// The first groupCount_ are valid; the others are kept for their memory.
+    std::pmr::vector<SnapshotGroup> groups_;
     size_t poolCount_ = 0;
     std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ are valid
     std::shared_ptr<const GroupRoster> roster_;      ///< null without pools
     std::pmr::vector<uint32_t> ends_;                ///< see setRoster()
-    std::pmr::vector<uint32_t> places_;              ///< by group, see placeOf(); where pools are
-    uint64_t listed_ = 0;                            ///< shape of the roster that they and ends_ are of
-    std::unique_ptr<UnpackedGroups> spread_;         ///< where pools are
+    std::pmr::vector<uint32_t> places_;              ///< by group, see placeOf(); used with pools
+    uint64_t listed_ = 0;                            ///< GroupRoster::shape to which places_ and ends_ belong
+    std::unique_ptr<UnpackedGroups> spread_;         ///< null without pools
 };
 
 } // namespace fx::base

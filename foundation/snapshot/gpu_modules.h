@@ -1,9 +1,9 @@
 /// @file gpu_modules.h
-/// Modules of motion without a closed form: a list from which a compute shader is assembled, and the steps
-/// that it takes.
+/// Modules of emitters whose motion has no closed form. A compute shader is assembled from the list of
+/// modules; this header also describes the steps that the shader takes.
 ///
 /// shaders/gpu_particles/gpu_particle_forces.glsl and gpu_particle_contacts.glsl implement the modules and
-/// explain their numbers.
+/// describe their numbers.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -16,23 +16,23 @@ namespace fx::base {
 
 enum class GpuModule : uint32_t
 {
-    Gravity, ///< and the wind that is the same everywhere
-    Lift,    ///< gravity against buoyancy: in place of Gravity
-    Curl,    ///< one octave
+    Gravity, ///< gravity, and the uniform wind
+    Lift,    ///< gravity less buoyancy, and the uniform wind; used instead of Gravity
+    Curl,    ///< one octave of curl noise
     Gust,
     QuadraticDrag,
     Vortex,
-    HoldingVortex, ///< constrains particles to their circles
-    Spring,        ///< attractors, by how they change with distance
+    HoldingVortex, ///< a vortex that keeps particles on circles
+    Spring,        ///< attractors; the force increases with distance
     Constant,
     Inverse,
     InverseSquare,
-    FieldAir, ///< vectors on a grid that are velocities of the air
+    FieldAir, ///< vectors on a grid: velocities of the air
     FieldForce,
     ConformSphere,
     ConformBox,
-    Bounce, ///< at the ground plane, once a step
-    // Obstacles that are met in order of time.
+    Bounce, ///< bounces at the ground plane; tested once per step
+    // Obstacles. Their contacts within a step are handled in order of time.
     Plane,
     Ground,
     Sphere,
@@ -45,19 +45,20 @@ constexpr GpuModule kFirstGpuObstacle = GpuModule::Plane;
 struct GpuModuleUse
 {
     GpuModule module;
-    uint32_t numbers; ///< place of its first number in GpuModules::numbers
-    uint32_t word;    ///< offset of its first word in the data of a step
+    uint32_t numbers; ///< index of the module's first number in GpuModules::numbers
+    uint32_t word;    ///< [word] offset of the module's data in the data of a step
 
     bool operator==(const GpuModuleUse&) const = default;
 };
 
-constexpr uint32_t kGpuStepHead = 12; ///< words of a step that every emitter has, see GpuStepWords
+constexpr uint32_t kGpuStepHead = 12; ///< [word] size of GpuStepWords
 
 /// Descriptions of all modules of an emitter, in the order in which they run.
 class GpuModules
 {
 public:
-    /// @param words that it writes for each step
+    /// @param numbersOfIt constants of the module
+    /// @param words number of 32-bit words of the module's data per step
     void add(GpuModule module, std::initializer_list<float> numbersOfIt, uint32_t words = 0)
     {
         uses.push_back({module, uint32_t(numbers.size()), kGpuStepHead + stepWords});
@@ -67,19 +68,21 @@ public:
 
     std::vector<GpuModuleUse> uses;
     std::vector<float> numbers;
-    uint32_t stepWords = 0; ///< besides the head
-    bool kills = false;     ///< particles may die before their time
+    uint32_t stepWords = 0; ///< [word] data of all modules per step, without GpuStepWords
+    bool kills = false;     ///< particles may die before the end of their lifetime
     bool sticks = false;    ///< particles may come to rest permanently
-    /// It collides with the host's geometry; if a scene has some, the emitter runs on the CPU.
+    /// The emitter collides with the host's geometry. If the scene has such geometry, the emitter runs on the
+    /// CPU.
     bool dependsOnHost = false;
 };
 
-/// The head of a step as the GPU reads it.
+/// The first part of the data of a step, the same for all emitters, as the GPU reads it. Data of the modules
+/// follow.
 struct GpuStepWords
 {
-    int64_t endAge;   ///< [tick] since the step ended
-    uint32_t ticks;   ///< its length
-    float seconds;    ///< [s] the same
+    int64_t endAge;   ///< [tick] time since the step ended
+    uint32_t ticks;   ///< [tick] length of the step
+    float seconds;    ///< [s] length of the step
     float gravity[3]; ///< [m/s2]
     float wind[3];    ///< [m/s]
     float ground;     ///< [m] height of the ground plane, -infinity for none
@@ -91,7 +94,7 @@ static_assert(sizeof(GpuStepWords) == 4 * kGpuStepHead);
 struct GpuStepRun
 {
     int64_t age;      ///< [tick] time since the first of these steps began
-    int64_t length;   ///< [tick] of each
+    int64_t length;   ///< [tick] length of each step
     uint64_t history; ///< hash of all inputs of the steps before the first of these steps
     uint32_t count;
     float ground;     ///< [m]

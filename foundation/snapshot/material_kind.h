@@ -4,13 +4,13 @@
 /// passes that draw them as fields, not by the snapshot container.
 ///
 /// A group of this kind follows the group of the kind "blob" of the same solver, and has the same elements in
-/// the same order. A solver publishes it only where its preset gives detail of the field.
+/// the same order. A solver publishes it only if its preset sets the detail of the field.
 ///
 /// There are two generations of coordinates. The generation of number n has the columns Place0 for even n,
-/// Place1 for odd n. At a point x its coordinate is the mean of growth (x - position) + place over the balls
-/// there, weighted by their extinction; over the generation's length it goes into the noise. Of the two, the
-/// younger has the weight Fade, the older 1 - Fade. Between two snapshots the sum of number and weight
-/// changes linearly; the place of a ball is constant while the generation lives.
+/// Place1 for odd n. The coordinate at a point x is the mean of growth (x - position) + place over the balls
+/// at x, weighted by their extinction. The noise is evaluated at this coordinate divided by the length of the
+/// generation. The younger generation has the weight Fade, the older 1 - Fade. Generation + Fade changes
+/// linearly between two snapshots. The place of a ball is constant during a generation.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -36,18 +36,20 @@ namespace material_constant {
 enum : size_t
 {
     Generation, ///< [1] number of the younger generation modulo kGenerationCycle
-    Fade,       ///< [1] its weight, 0 .. 1
+    Fade,       ///< [1] weight of the younger generation, 0 .. 1
     Length0,    ///< [m] size of the largest lumps of the generation in the columns Place0
-    Length1,    ///< [m] length of the generation of Place1
-    Growth0,    ///< [1] radii of balls at the birth of that generation over their radii now
+    Length1,    ///< [m] the same for the columns Place1
+    Growth0,    ///< [1] radii of balls when the generation of Place0 began, over their radii now
     Growth1,
-    Thinnest,  ///< [1] optical depth of a lump up to which the medium is eroded away
-    Densest,   ///< [1] optical depth of a lump above which it is not eroded
-    Ramp,      ///< [1] width of the threshold: small is crisp
-    Gain,      ///< [1] amplitude of each octave of the noise over that of the one before
-    Cooling,   ///< [1] share of the temperature that is lost at the surface of lumps
-    Glow,      ///< [1] by how much a lump of unit deviation is hotter
-    Softening, ///< [1] how soon lumps become haze as the medium thins: 0 never, 1 they keep their form
+    Thinnest, ///< [1] optical depth of a lump below which the medium is removed completely
+    Densest,  ///< [1] optical depth of a lump above which the medium is not eroded
+    Ramp,     ///< [1] width of the erosion threshold; small values give crisp edges
+    Gain,     ///< [1] amplitude of each octave of the noise over that of the octave before
+    Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps
+    Glow,     ///< [1] relative rise of temperature where the noise is one standard deviation above its mean
+    /// [1] how much edges soften as the medium thins: 0 lumps fall apart, 1 they keep their form, above 1
+    /// they blur
+    Softening,
     Count
 };
 }

@@ -9,10 +9,10 @@
 namespace fx::base {
 
 /// Local bounds of a group of the kind "particle" at the time of its snapshot, for any view direction,
-/// stretch and orientation. Particles that were born within `secondsBack` before are included along their
-/// path since birth. Between two snapshots a group lies inside of the union of both. Rows that are empty or
-/// not finite are ignored.
-/// @param meshReach [1] farthest vertex of the mesh, 0 for sprites  @param secondsBack [s] >= 0
+/// stretch and orientation. For particles born within the last `secondsBack`, their path since birth is
+/// included. Between two snapshots a group lies inside of the union of both. Rows that are empty or not
+/// finite are ignored.
+/// @param meshReach [1] MeshAsset::reach of the mesh, 0 for sprites  @param secondsBack [s] >= 0
 Bounds particleBounds(const SnapshotGroup& group, float meshReach, float secondsBack);
 
 /// Local bounds of a group of the kind "ribbon".

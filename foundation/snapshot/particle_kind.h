@@ -1,10 +1,11 @@
 /// @file particle_kind.h
 /// The kinds "particle", "ribbon" and "light", which emitters publish besides media. Included by the
-/// technique that writes them and by the passes and hosts that draw them, not by the snapshot container.
+/// technique that writes these kinds and by the passes and hosts that draw them, not by the snapshot
+/// container.
 ///
-/// A particle keeps its row for life: row i of two successive snapshots is the same particle when it lives in
-/// both and its age in the newer one is at least the time between them. A row of radius 0 is empty. Rows of a
-/// ribbon that follow each other and name the same strip are joined.
+/// A particle keeps its row for its lifetime. Row i of two successive snapshots is the same particle if it is
+/// alive in both and its age in the newer one is at least the time between them. A row of radius 0 is empty.
+/// Consecutive rows of a ribbon with the same strip are joined.
 ///
 /// A color is four binary16 numbers, red in the lowest 16 bits, then green, blue, opacity. Red, green and
 /// blue are linear Rec. 709 and not multiplied by the opacity. The visible luminance is color * (luminance +
@@ -55,7 +56,7 @@ enum : size_t
     PositionY,
     PositionZ,
     HalfWidth,
-    Arc, ///< from the particle's birth; with ArcPerTile 0 instead 0 at the end of the strip to 1 at its head
+    Arc, ///< length along the path since birth; if ArcPerTile is 0: 0 at the end of the strip, 1 at its head
     Color,
     Strip,
     Age, ///< since the birth of the particle
@@ -87,24 +88,24 @@ enum class ParticleShape : uint32_t
 /// Blending with the background.
 enum class ParticleBlend : uint32_t
 {
-    Alpha,    ///< covers with its opacity
+    Alpha,    ///< blended over the background by its opacity
     Additive, ///< adds its light times its opacity
-    Opaque,   ///< hides where its opacity is at least one half; writes depth
+    Opaque,   ///< opaque where its opacity is at least one half; writes depth
 };
 
 /// Orientation of the quad of a sprite.
 enum class SpriteAlignment : uint32_t
 {
     Camera,   ///< faces the camera
-    Velocity, ///< faces the camera as far as it can with its vertical along the velocity
-    Axis,     ///< faces the camera as far as it can with its vertical along a fixed axis
-    Plane,    ///< lies in the plane that the axis is normal to
+    Velocity, ///< vertical along the velocity, turned about it to face the camera
+    Axis,     ///< vertical along a fixed axis, turned about it to face the camera
+    Plane,    ///< lies in the plane normal to the axis
 };
 
 /// In which order the rows of a group are drawn.
 enum class ParticleOrder : uint32_t
 {
-    None,     ///< no conversion of rows
+    None,     ///< order of the rows
     Depth,    ///< far to near
     Oldest,   ///< oldest first
     Youngest, ///< youngest first
@@ -115,32 +116,32 @@ namespace particle_constant {
 enum : size_t
 {
     Shape, ///< ParticleShape
-    Layer, ///< MediaLayer that the light and opacity are accounted to
+    Layer, ///< MediaLayer to which light and opacity are added
     Blend, ///< ParticleBlend
     Order, ///< ParticleOrder
-    /// [m] added to the distance for sorting: > 0 draws the group as if it were nearer to the camera by this
-    /// length.
+    /// [m] > 0 sorts the group as if it were nearer to the camera by this length.
     OrderBias,
     Alignment, ///< SpriteAlignment
     AxisX,     ///< [1] local unit vector of the alignments Axis and Plane
     AxisY,     ///< [1]
     AxisZ,     ///< [1]
     Aspect,    ///< [1] width over height of a sprite, > 0; radius is half the height
-    Stretch,   ///< [s] with alignment Velocity the sprite is longer by velocity times this; the texture's v,
-               ///< or the length of a ribbon, runs along it
-    Luminance, ///< [cd/m2] that color 1 emits
-    Lit,       ///< [1] share of the scene's light that color 1 scatters, 0..1
-    Softness,  ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
-    Texture,   ///< id in the AssetTable, 0: a round spot that fades to its edge
+    /// [s] with the alignment Velocity, a sprite is longer by speed times Stretch. The v of its texture runs
+    /// along the velocity.
+    Stretch,
+    Luminance,   ///< [cd/m2] luminance that color 1 emits
+    Lit,         ///< [1] share of the scene's light that color 1 scatters, 0..1
+    Softness,    ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
+    Texture,     ///< id in the AssetTable; 0: a round spot that fades towards its edge
     TileColumns, ///< [1] frames of the texture side by side, >= 1
     TileRows,    ///< [1] frames of the texture above each other, >= 1
-    FrameBlend,  ///< 1: neighboring frames are mixed by the fraction of Frame; 0: the nearest below
-    Motion,      ///< id in the AssetTable of the motion vectors (red, green: 0.5 none), 0: none
-    MotionScale, ///< [1] of the frame's width that a vector of 1 means
+    FrameBlend,  ///< 1: the two nearest frames are mixed by the fraction of Frame; 0: frame floor(Frame)
+    Motion,      ///< id in the AssetTable of the motion vectors (red, green; 0.5 is no motion), 0: none
+    MotionScale, ///< [1] motion by a vector of length 1, over the width of a frame
     Mesh,        ///< id in the AssetTable, 0: none
-    ArcPerTile,  ///< [m] length of a ribbon that one width of texture covers; 0: the strip's own
-    Edge,        ///< [1] share of a ribbon's half width over which it fades to its edges, 0..1
-    /// [s] age at which a ribbon ends; it may have some older rows, for interpolation of earlier moments.
+    ArcPerTile,  ///< [m] length of a ribbon per width of the texture; 0: the texture covers the whole strip
+    Edge,        ///< [1] share of a ribbon's half width over which it fades towards its edges, 0..1
+    /// [s] age at which a ribbon ends. It may have some older rows, for interpolation to earlier moments.
     TailAge,
     Count
 };

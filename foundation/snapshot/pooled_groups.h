@@ -2,7 +2,7 @@
 /// Many small groups of one kind that are published as one pool of rows, in any order.
 ///
 /// Readers call FrameSnapshot::group() as for any other group: the first call copies each row of each pool to
-/// its group. A snapshot that is not read, or whose pools are read in place as by views, has no such cost.
+/// its group. Views read the rows in the pools, so that nothing is copied.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"
@@ -45,13 +45,13 @@ public:
     {
         return {floats_[0].from[row], floats_[1].from[row], floats_[2].from[row]};
     }
-    size_t floats() const { return floatsInAll_; } ///< that the columns of a group take
+    size_t floats() const { return floatsInAll_; } ///< size of a group's storage, in floats
 
 private:
     struct Copied
     {
         const float* from;
-        size_t to; ///< in the storage of each group
+        size_t to; ///< [float] offset of the column in the storage of each group
     };
     std::array<Copied, kMaxColumns> floats_{};
     std::array<Copied, kMaxColumns> wides_{};
@@ -60,16 +60,16 @@ private:
     size_t floatsInAll_ = 0;
 };
 
-/// Parameters of the bounds of a group's rows.
+/// Extent of the rows of a group, from which PooledRows::bounds() computes a box.
 struct RowExtent
 {
     glm::vec3 low{std::numeric_limits<float>::infinity()};
     glm::vec3 high{-std::numeric_limits<float>::infinity()};
-    float reach = 0; ///< [m] of each around its place, its corner apart
+    float reach = 0; ///< [m] largest radius of a row, before multiplication by PooledRows::corner
 };
 
-/// The rows of many groups that have the same columns, constants and capacity; the first three columns are
-/// where elements are. Members are the writer's numbers of the groups.
+/// The rows of many groups that have the same columns, constants and capacity. The first three columns are
+/// positions. The writer numbers the groups; the number of a group is its member number.
 struct PooledRows
 {
     struct Range
@@ -94,7 +94,7 @@ struct PooledRows
                 if (radius[row] > 0.0f)
                     f(row);
     }
-    /// Box of the rows of a group.
+    /// Bounds of the rows of a group; empty without rows.
     Bounds bounds(const RowExtent& extent) const
     {
         Bounds box;
@@ -104,7 +104,7 @@ struct PooledRows
         box.add(extent.high, extent.reach * corner);
         return box;
     }
-    /// A row that contains a visible element.
+    /// Extends `io` by a row that contains a visible element.
     void measure(uint32_t row, RowExtent& io) const
     {
         const glm::vec3 at = copier.center(row);
@@ -115,34 +115,38 @@ struct PooledRows
         io.high = glm::max(io.high, at);
         io.reach = std::max(io.reach, reach);
     }
-    /// Room for `capacity` rows; memory, constants and owners stay where they fit.
+    /// Makes room for `capacity` rows of the kind. If the arguments equal those of the last call, constants
+    /// and owners are kept.
     /// @param each capacity of each group, at most kMaxGroupRows
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
                  uint32_t each);
 
-    SnapshotGroup rows;                ///< columns and constants; of its info only the kind counts
+    SnapshotGroup rows;                ///< columns and constants; only the kind of its info is valid
     std::array<Range, 2> used;         ///< rows that may contain visible elements
-    std::pmr::vector<uint32_t> owner;  ///< by row: nameOf() its member and its row in that one's group
-    std::pmr::vector<uint32_t> counts; ///< by member: count of its group
-    uint32_t groupCapacity = 0;        ///< of each group
+    std::pmr::vector<uint32_t> owner;  ///< by row: nameOf() its member and its place in the group
+    std::pmr::vector<uint32_t> counts; ///< by member: number of elements of its group
+    uint32_t groupCapacity = 0;        ///< capacity of each group
     RowCopier copier;
-    size_t radiusColumn = 0;   ///< column of the radius; a row of radius 0 is empty
-    uint64_t number = 0;       ///< of the constants, see SnapshotGroup::keepsConstants()
-    float corner = 1;          ///< [1] distance of the farthest drawn corner, over the radius
-    size_t ageColumn = 0;      ///< where rows move
-    size_t velocityColumn = 0; ///< the first of three; 0: rows have none
-    float along = 0;           ///< [s] of its way by which a row is longer to each side, along the way
-    float across = 0;          ///< [s] the same for rows of arbitrary orientation, over `corner`
-    float secondsBack = 0;     ///< [s] rows are also drawn on their way since then
-    uint64_t writer = 0;       ///< number of the writer of owners and places, 0: none
-    uint64_t writtenUpTo = 0;  ///< number of the last write, counted by the writer
+    size_t radiusColumn = 0; ///< column of the radius; a row of radius 0 is empty
+    uint64_t number = 0;     ///< identifies the constants, see SnapshotGroup::keepsConstants()
+    float corner = 1;        ///< [1] distance of the farthest drawn corner from the position, over the radius
+    size_t ageColumn = 0;    ///< used if rows have velocities
+    size_t velocityColumn = 0; ///< the first of three; 0: rows have no velocity
+    float along = 0;           ///< [s] a row extends forwards and backwards along its velocity by this time
+    /// [s] For rows of arbitrary orientation: extension in all directions by this time times the speed, over
+    /// `corner`.
+    float across = 0;
+    float secondsBack = 0;    ///< [s] rows are drawn along their path of this duration before the snapshot
+    uint64_t writer = 0;      ///< identifies the writer of `owner`; 0: none
+    uint64_t writtenUpTo = 0; ///< number of the last write, counted by the writer
 
 private:
-    /// @return [m] distance of the farthest point of a row of this radius
+    /// Extends the box of `io` by the path of a moving row.
+    /// @return [m] the radius that RowExtent::reach has to contain
     float measureMoving(uint32_t row, const glm::vec3& at, float radius, RowExtent& io) const;
 };
 
-/// Groups whose rows are in pools, in the order of the snapshot. Immutable while a snapshot has it.
+/// List of the pooled groups, in the order of the snapshot. Immutable while a snapshot refers to it.
 struct GroupRoster
 {
     struct Entry
@@ -150,16 +154,16 @@ struct GroupRoster
         uint64_t instance = 0;
         Placement placement;
         uint32_t solver = 0;
-        uint32_t pool = 0;    ///< of the snapshot
-        uint32_t member = 0;  ///< of the pool
-        uint32_t stretch = 0; ///< number of runs of added groups that precede it
+        uint32_t pool = 0;    ///< index of the pool in the snapshot
+        uint32_t member = 0;  ///< member number in the pool
+        uint32_t stretch = 0; ///< number of runs of added groups before this group
         bool isCosmetic = false;
     };
     std::vector<Entry> entries;
     uint64_t shape = 0; ///< identifies the pools and their entries; equal shapes mean equal lists
 };
 
-/// The groups of the rows of pools, created on first access.
+/// The pooled groups with their own copies of their rows, created on first access.
 class UnpackedGroups
 {
 public:
@@ -173,8 +177,8 @@ public:
     const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t entry);
     /// Whether group() has been called since prepare().
     bool isDone() const { return done_.load(std::memory_order_acquire); }
-    /// Calls f(group) for all groups in order; groups of pools exist only during the call and need no memory
-    /// of their own. Any thread, one at a time.
+    /// Calls f(group) for all groups in order. Each pooled group is valid only during its call of f; no
+    /// memory is allocated for it. Any thread may call this; calls wait for each other.
     template <class F>
     void forEach(const FrameSnapshot& snapshot, F&& f)
     {
@@ -197,10 +201,10 @@ private:
     uint64_t shape_ = 0;            ///< shape for which memory is reserved
     std::pmr::memory_resource* memory_;
     std::pmr::vector<SnapshotGroup> groups_;  ///< by entry of the roster
-    std::pmr::vector<SnapshotGroup> scratch_; ///< of visit(), by pool
-    std::pmr::vector<size_t> first_;          ///< by pool: of its members in ends_
-    std::pmr::vector<uint32_t> ends_;         ///< by member, pool after pool: behind its last in rows_
-    std::pmr::vector<uint32_t> rows_;         ///< of the pools, by member
+    std::pmr::vector<SnapshotGroup> scratch_; ///< by pool: one group that visit() reuses
+    std::pmr::vector<size_t> first_;          ///< by pool: index of its first member in ends_
+    std::pmr::vector<uint32_t> ends_;         ///< by member, pool after pool: end of its rows in rows_
+    std::pmr::vector<uint32_t> rows_;         ///< rows of the pools, grouped by member
 };
 
 } // namespace fx::base

@@ -23,21 +23,21 @@ struct GroupInfo
 {
     KindId kind = 0;
     uint64_t instance = 0;   ///< identity of the instance within the scene
-    uint32_t solver = 0;     ///< position of the solver in its effect
+    uint32_t solver = 0;     ///< index of the solver in its effect
     uint32_t count = 0;      ///< elements
-    Placement placement;     ///< columns are relative to this
-    Bounds bounds;           ///< local; every element with its radius lies inside
-    bool isCosmetic = false; ///< outside of the snapshot's hash: may be computed on the GPU
+    Placement placement;     ///< positions in columns are relative to it
+    Bounds bounds;           ///< in the local space of the placement; contains every element with its radius
+    bool isCosmetic = false; ///< excluded from the snapshot's hash, because it may be computed on the GPU
 };
 
 class GpuParticleProgram;
 
-/// Floats that `capacity` elements take with the columns `present` of a kind.
+/// Number of floats in the storage of `capacity` elements with the columns `present` of a kind.
 size_t floatsFor(const KindDesc& kind, size_t capacity, ColumnSet present);
 
-/// One group: column-wise elements, sorted by ascending id where the kind has ids. Columns begin at multiples
-/// of 64 bytes; those that the group has follow each other in the order of the kind, each with room for
-/// capacity() elements rounded up to 64 bytes.
+/// One group: column-wise elements, sorted by ascending id where the kind has ids. The columns that the group
+/// has are stored one after another, in the order of the kind. Each begins at a multiple of 64 bytes and has
+/// room for capacity() elements, rounded up to 64 bytes.
 class SnapshotGroup
 {
 public:
@@ -45,7 +45,7 @@ public:
 
     const GroupInfo& info() const { return info_; }
     uint32_t count() const { return info_.count; }
-    /// Empty when the kind has none.
+    /// Ids of the elements; empty when the kind has no ids.
     std::span<const uint64_t> ids() const { return {ids_.data(), hasIds_ ? info_.count : 0}; }
     /// Column `index` of the kind, which is F32; empty when the group lacks it.
     std::span<const float> column(size_t index) const { return {place(index), has(index) ? info_.count : 0}; }
@@ -56,10 +56,10 @@ public:
     }
     bool has(size_t index) const { return (present_ >> index & 1) != 0; }
     ColumnSet present() const { return present_; }
-    /// Begin of a column of floats, also when count() is 0.
+    /// Pointer to the first element of a column of floats, valid also when count() is 0.
     const float* start(size_t index) const { return place(index); }
     std::span<const float> constants() const { return {constants_.data(), constantCount_}; }
-    /// Of the kind "gpuParticle", see gpu_particles.h; null elsewhere.
+    /// Program of a group of the kind "gpuParticle", see gpu_particles.h; null for other kinds.
     const std::shared_ptr<const GpuParticleProgram>& program() const { return program_; }
 
     // ---- for the writer, before publication ----
@@ -78,9 +78,10 @@ public:
     /// Storage of all columns of the group.
     float* editStorage() { return storage_.data(); }
     size_t capacity() const { return capacity_; }
-    /// True when the memory of the group still contains the constants that `writer` wrote; they need not be
-    /// written again. Otherwise the constants are zero and must be written.
-    /// @param writer not 0; unique in the process for each content
+    /// True when the group still has the constants that `writer` wrote, so that they need not be written
+    /// again. Otherwise the constants become zero and must be written.
+    /// @param writer number of the constants, not 0; different constants have different numbers in the
+    /// process
     bool keepsConstants(uint64_t writer)
     {
         if (constantsWriter_ == writer)
@@ -89,13 +90,15 @@ public:
         constantsWriter_ = writer;
         return false;
     }
-    /// True when its memory is enough for `capacity` elements with the columns `present` of `kind`.
+    /// True when the memory of the group is enough for `capacity` elements with the columns `present` of
+    /// `kind`.
     bool fits(const KindDesc& kind, size_t capacity, ColumnSet present) const;
     size_t bytes() const { return storage_.capacity() * sizeof(float) + ids_.capacity() * sizeof(uint64_t); }
-    /// Makes room for `capacity` elements of `kind`; keeps its memory when that is enough.
+    /// Makes room for `capacity` elements of `kind`. The present memory is kept if it is large enough.
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present = kAllColumns);
-    /// As prepare(), if the last call had the same arguments and the memory has exactly the required size;
-    /// otherwise returns false and does nothing. Constants do not change, or become zero when `forgets`.
+    /// Does the same as prepare(), if the last call had the same arguments and the memory has exactly the
+    /// required size; otherwise returns false and does nothing.
+    /// @param forgets true: constants become zero; false: they are kept
     bool prepareAgain(KindId kind, size_t capacity, ColumnSet present, bool forgets)
     {
         if (!isExact_ || info_.kind != kind || capacity_ != capacity || present_ != present)
@@ -114,7 +117,7 @@ private:
         constantsWriter_ = 0;
     }
 
-    /// Where a column begins.
+    /// Pointer to the first element of a column.
     const float* place(size_t index) const { return storage_.data() + size_t(lines_[index]) * kRowsPerLine; }
     static constexpr size_t kRowsPerLine = 16; ///< floats in 64 bytes
 
@@ -126,9 +129,9 @@ private:
     uint64_t constantsWriter_ = 0;
     uint32_t constantCount_ = 0;
     bool hasIds_ = true;
-    bool isExact_ = false; ///< its memory is not larger than it needs
+    bool isExact_ = false; ///< the memory has exactly the required size
     std::array<float, kMaxConstants> constants_{};
-    std::array<uint32_t, kMaxColumns> lines_{}; ///< of 64 bytes before each column
+    std::array<uint32_t, kMaxColumns> lines_{}; ///< number of lines of 64 bytes before each column
     std::pmr::memory_resource* memory_;
     std::pmr::vector<uint64_t> ids_;
     std::shared_ptr<const GpuParticleProgram> program_;

@@ -1,5 +1,5 @@
 /// @file snapshot_ring.h
-/// Hands snapshots from the scene thread to readers without copying and without waiting.
+/// Passes snapshots from the scene thread to readers, without copying and without waiting.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -11,11 +11,11 @@
 
 namespace fx::base {
 
-/// A snapshot together with the one published before it; both stay until release().
+/// A snapshot and the snapshot published before it. Both stay valid and constant until release().
 struct SnapshotPair
 {
     const FrameSnapshot* newer = nullptr; ///< null before the first publication
-    const FrameSnapshot* older = nullptr; ///< null before the second
+    const FrameSnapshot* older = nullptr; ///< null before the second publication
 };
 
 /// Snapshots in rotation: the two newest published ones, the one being written, and those that readers hold.
@@ -25,15 +25,16 @@ class SnapshotRing
 public:
     SnapshotRing(const SnapshotSchema* schema, std::pmr::memory_resource* memory);
 
-    /// @param step [tick] length of the step that ends at `tick`; 0: none does
-    /// @return a snapshot without readers, cleared for writing; when all are held, the ring grows by one
+    /// @param step [tick] length of the step that ends at `tick`; 0 if no step ends there
+    /// @return a snapshot without readers, cleared for writing; if readers hold all snapshots, a new one is
+    /// added
     FrameSnapshot& beginWrite(Ticks tick, Ticks step = 0);
     /// Makes the written snapshot the newest one. It must not be changed afterwards.
     void publish();
-    /// Makes the written snapshot the predecessor of the next written one, instead of the present newest one.
-    /// Readers get both together, when the next one is published.
+    /// Ends writing without publication. The written snapshot becomes SnapshotPair::older at the next
+    /// publication, instead of the snapshot that is the newest now.
     void stageOlder();
-    /// Removes the predecessor of the newest snapshot, for a jump in time between the two.
+    /// Sets SnapshotPair::older to null, for a jump in time between the two snapshots.
     void forgetOlder();
 
     SnapshotPair acquire();
@@ -54,8 +55,8 @@ private:
     FrameSnapshot* writing_ = nullptr;
     FrameSnapshot* newest_ = nullptr;
     FrameSnapshot* previous_ = nullptr;
-    FrameSnapshot* staged_ =
-        nullptr; ///< snapshot that becomes previous_ at the next publication; null: newest_ becomes previous_
+    /// Snapshot that becomes previous_ at the next publication; null: newest_ becomes previous_.
+    FrameSnapshot* staged_ = nullptr;
     uint64_t sequence_ = 0;
 };
 

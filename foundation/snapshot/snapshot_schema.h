@@ -1,6 +1,6 @@
 /// @file snapshot_schema.h
-/// Which kinds of data a snapshot can carry. Techniques register their kinds; the container depends on none
-/// of them.
+/// Which kinds of data a snapshot can contain. Techniques register their kinds; the snapshot container
+/// depends on no kind.
 #pragma once
 
 #include <cstdint>
@@ -36,15 +36,16 @@ struct KindDesc
     std::string_view name;
     std::span<const ColumnDesc> columns;   ///< per element
     std::span<const ColumnDesc> constants; ///< per group, F32 only
-    /// Elements are sorted by ids; false: the kind defines another way to match elements of two snapshots.
+    /// Elements have ids and are sorted by them; false: the kind defines another way to match elements of two
+    /// snapshots.
     bool hasIds = true;
 
-    /// The name identifies a kind.
+    /// Kinds are equal if their names are equal.
     bool operator==(const KindDesc& other) const { return name == other.name; }
 };
 
-constexpr size_t kMaxColumns = 24;   ///< of a kind
-constexpr size_t kMaxConstants = 24; ///< of a kind
+constexpr size_t kMaxColumns = 24;   ///< largest number of columns of a kind
+constexpr size_t kMaxConstants = 24; ///< largest number of constants of a kind
 
 using KindId = uint32_t;
 constexpr KindId kNoKind = ~0u;
@@ -53,12 +54,12 @@ constexpr KindId kNoKind = ~0u;
 using ColumnSet = uint64_t;
 constexpr ColumnSet kAllColumns = ~ColumnSet(0);
 
-/// The kinds of one context. Filled while the context is made, constant afterwards.
+/// The kinds of one context. Kinds are added while the context is created; afterwards the schema is constant.
 class SnapshotSchema
 {
 public:
-    /// Registers `kind` and returns its id; a name that is already registered keeps its id. Throws
-    /// std::length_error when it has more columns or constants than a kind may have.
+    /// Registers `kind` and returns its id; if the name is already registered, returns the existing id.
+    /// Throws std::length_error if `kind` has more than kMaxColumns columns or kMaxConstants constants.
     KindId add(const KindDesc& kind);
     KindId find(std::string_view name) const; ///< kNoKind when absent
     const KindDesc& kind(KindId id) const { return kinds_[id]; }

@@ -1,33 +1,34 @@
 /// @file streak.h
-/// Motion blur of a moving ball: balls at equal distances along its path, each with its share of the medium,
-/// close enough to look like a line that runs out behind the ball.
+/// Motion blur of a moving ball. The ball is replaced by balls at equal distances along its path, each with a
+/// share of the medium. They are close enough to look like a line that fades out behind the ball.
 #pragma once
 
 #include <algorithm>
 
 namespace fx::base {
 
-inline constexpr int kMaxStreakPieces = 64; ///< bounds what one ball costs
+inline constexpr int kMaxStreakPieces = 64; ///< limits the cost of one moving ball
 
-/// The balls of one streak. Ball k of `count` is centered k / count of the way behind the moving ball.
+/// The balls of one streak. The center of ball k of `count` is behind the moving ball by k / count of the
+/// path length.
 template <typename Real>
 struct Streak
 {
     int count;   ///< 1 .. kMaxStreakPieces
-    Real radius; ///< of each
+    Real radius; ///< radius of each ball, in the unit of the arguments
 
-    /// [1] of the medium that is in ball k; falls evenly, and is 1 over all balls.
+    /// [1] share of the medium in ball k. It decreases linearly with k; the sum over all balls is 1.
     Real shareOf(int k) const { return Real(2 * (count - k)) / Real(count * (count + 1)); }
 };
 
-/// Neighbors are at most a radius apart. Where kMaxStreakPieces balls of `radius` would leave
-/// gaps, they are as wide as the distance between them.
-/// @param length of the way while the shutter is open, >= 0 and finite
-/// @param radius of the ball, > 0, in the same unit
+/// Neighboring centers are at most one radius apart. If kMaxStreakPieces balls of `radius` are too few for
+/// this, the radius is increased to the distance of neighboring centers.
+/// @param length length of the path while the shutter is open, >= 0 and finite
+/// @param radius radius of the moving ball, > 0, in the same unit
 template <typename Real>
 Streak<Real> streakOf(Real length, Real radius)
 {
-    const Real gaps = length / radius; // compared before the conversion, which it may exceed
+    const Real gaps = length / radius; // compared as Real, because it may exceed the range of int
     const int count = gaps < Real(kMaxStreakPieces) ? int(gaps) + 1 : kMaxStreakPieces;
     return {count, std::max(radius, length / Real(kMaxStreakPieces))};
 }

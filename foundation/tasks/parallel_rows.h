@@ -1,5 +1,6 @@
 /// @file parallel_rows.h
-/// Loops over rows in the floating-point mode of the simulation, which worker threads do not inherit.
+/// Parallel loops over rows. Each call sets the floating-point mode of the simulation, because worker threads
+/// do not inherit it.
 #pragma once
 
 #include "foundation/simd/floating_point_scope.h"

@@ -11,16 +11,18 @@ namespace fx::base {
 /// Body of a loop: handles the indices [begin, end).
 using LoopBody = void (*)(void* argument, uint32_t begin, uint32_t end);
 
-/// Host's parallel loop. Must call `body` so that every index in [0, count) is covered exactly once by ranges
-/// of at least `minBatch` indices (the last may be shorter), and return when all calls have returned.
+/// The host's parallel loop. run() must call `body` with ranges of at least `minBatch` indices that cover
+/// every index in [0, count) exactly once; the last range may be shorter. It must return after all calls of
+/// `body` have returned.
 struct ParallelForHook
 {
     void* user = nullptr;
     void (*run)(void* user, uint32_t count, uint32_t minBatch, LoopBody body, void* argument) = nullptr;
 };
 
-/// Runs loops whose iterations do not depend on each other. The division of the range never changes results:
-/// bodies write only data of their own indices, and sums are taken over fixed blocks afterwards.
+/// Runs loops whose iterations do not depend on each other. Results must not depend on the division of the
+/// range: a body writes only data of its own indices, and sums are computed afterwards over blocks of fixed
+/// size.
 class TaskRunner
 {
 public:

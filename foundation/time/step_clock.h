@@ -1,5 +1,5 @@
 /// @file step_clock.h
-/// Turns the host's irregular frame times into fixed simulation steps.
+/// Converts the host's irregular frame times to fixed simulation steps.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -13,7 +13,7 @@ namespace fx::base {
 struct StepPlan
 {
     uint32_t steps = 0;     ///< fixed steps to take now
-    Ticks firstStep = 0;    ///< tick at which the first of them begins
+    Ticks firstStep = 0;    ///< [tick] beginning of the first of these steps
     bool refused = false;   ///< dt was negative or not finite: nothing advanced
     Ticks droppedTicks = 0; ///< time that was dropped because dt exceeded the maximum
 };
@@ -32,25 +32,25 @@ class StepClock
 {
 public:
     /// @param stepTicks length of a step, > 0
-    /// @param maxFrameTicks longest dt that is simulated; longer ones are shortened and the difference is
-    ///         reported
+    /// @param maxFrameTicks [tick] longest dt that is simulated; a longer dt is shortened, and the plan
+    ///         reports the difference in StepPlan::droppedTicks
     StepClock(Ticks stepTicks, Ticks maxFrameTicks) : stepTicks_(stepTicks), maxFrameTicks_(maxFrameTicks) {}
 
-    /// Advances by `dt` [s]. 0 does nothing; negative, NaN and infinite values are refused. Plans at most the
-    /// steps of the longest dt, postponed ones included.
+    /// Advances by `dt` [s]. 0 does nothing; negative, NaN and infinite values are refused. Plans at most as
+    /// many steps as the longest dt contains, postponed steps included.
     StepPlan advance(double dt);
     /// Postpones the last `steps` of a plan to the next plan.
     void postpone(uint32_t steps) { steps_ -= steps; }
     /// Marks one postponed step as taken.
     void takePostponed() { ++steps_; }
-    /// Whole steps of now() that have been postponed.
+    /// [tick] duration of the postponed steps.
     Ticks debt() const { return (now_ / stepTicks_ - steps_) * stepTicks_; }
     bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< debt() is not 0
-    /// Drops the part of the debt above `most`. @return the dropped part
+    /// Reduces the debt to at most `most` [tick]. @return [tick] the dropped time
     Ticks dropDebt(Ticks most);
 
-    Ticks now() const { return now_; }                      ///< continuous time
-    Ticks simulated() const { return steps_ * stepTicks_; } ///< end of the last step taken
+    Ticks now() const { return now_; }                      ///< [tick] sum of all dt
+    Ticks simulated() const { return steps_ * stepTicks_; } ///< [tick] end of the last step taken
     Ticks stepTicks() const { return stepTicks_; }
     ClockState state() const { return {now_, steps_, remainder_}; }
     /// @param state of a clock with the same step
@@ -60,8 +60,8 @@ public:
         steps_ = state.steps;
         remainder_ = state.remainder;
     }
-    /// Position of now() between the last two steps, in [0, 1): 0 is the older, 1 the newer. While there is
-    /// debt, the newer one is shown.
+    /// Position of now() between the last two steps, in [0, 1): 0 is the older step, 1 the newer. While there
+    /// is debt, the result is just below 1, so that the newer step is shown.
     double interpolation() const
     {
         return std::min(double(now_ - simulated()) / double(stepTicks_), 1.0 - 0x1p-53);
@@ -72,7 +72,7 @@ private:
     Ticks maxFrameTicks_;
     Ticks now_ = 0;
     int64_t steps_ = 0;
-    double remainder_ = 0; ///< [tick] part of dt smaller than a tick, carried so that it is not lost
+    double remainder_ = 0; ///< [tick] fraction of a tick that is left of the sum of all dt
 };
 
 } // namespace fx::base

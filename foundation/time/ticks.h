@@ -1,5 +1,6 @@
 /// @file ticks.h
-/// Time as integers. 705,600,000 ticks a second divide exactly by every frame and audio rate in use.
+/// Time as integers. The number of ticks per second, 705,600,000, is a multiple of every frame rate and audio
+/// rate in use.
 #pragma once
 
 #include <cmath>
@@ -16,7 +17,7 @@ constexpr double toSeconds(Ticks ticks)
     return double(ticks) / double(kTicksPerSecond);
 }
 
-/// Nearest tick. Requires a finite `seconds` with |seconds| < 1e9.
+/// Rounds to the nearest tick. Requires |seconds| < 1e9.
 inline Ticks toTicks(double seconds)
 {
     return Ticks(std::llround(seconds * double(kTicksPerSecond)));

@@ -1,5 +1,5 @@
 /// @file active_list.h
-/// The active instances in order of creation. An update visits no others.
+/// The active instances in order of creation. An update visits only these.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ public:
     explicit ActiveList(std::pmr::memory_resource* memory) : serials_(memory), keys_(memory), slots_(memory)
     {}
 
-    /// Makes sure that insert() does not allocate up to a size of `count`.
+    /// Reserves memory, so that insert() does not allocate up to a size of `count`.
     void reserve(size_t count);
-    /// @param serial order of creation, unique; `key` and `slot` are handed back
+    /// @param serial order of creation, unique @param key, slot values passed to callbacks
     void insert(uint64_t serial, uint32_t key, uint32_t slot);
     /// The serial must be in the list.
     void remove(uint64_t serial);
 
-    /// Removes every entry for which finished(key, slot) holds and keeps the order of the others.
+    /// Removes every entry for which finished(key, slot) is true, and keeps the order of the others.
     template <class F>
     void removeIf(F&& finished)
     {

@@ -1,5 +1,5 @@
 /// @file focus.h
-/// Cameras of the host as view cones, and tests of bounds against them.
+/// View frusta of the host's cameras, and visibility tests of bounding spheres.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -21,13 +21,13 @@ struct Ball
     double radius = 0;      ///< [m] infinite when unknown
 };
 
-/// Reason for which an instance is out of sight.
+/// Whether an instance is in sight, or the reason why it is not.
 enum class Sight : uint8_t
 {
     Seen,
-    Outside,  ///< of every frustum
-    TooFar,   ///< beyond its own distance or the focus's
-    TooSmall, ///< fewer pixels than the focus requires
+    Outside,  ///< outside of every frustum
+    TooFar,   ///< beyond the maximum distance of the instance or the camera
+    TooSmall, ///< smaller than Limits::minPixels
 };
 
 /// One camera, in world coordinates.
@@ -37,18 +37,19 @@ public:
     struct Limits
     {
         double maxDistance = std::numeric_limits<double>::infinity(); ///< [m] from the eye
-        double margin = 0;                                            ///< [m] beyond the frustum
-        double minPixels = 0;                                         ///< [pixel] radius on the picture
-        double height = 1080;                                         ///< [pixel] of the picture
+        double margin = 0;    ///< [m] distance by which the frustum is widened
+        double minPixels = 0; ///< [pixel] radius on the picture
+        double height = 1080; ///< [pixel] of the picture
     };
-    /// @param origin [m] world position that the matrices are relative to; the projection is not degenerate
+    /// @param origin [m] world position that the matrices are relative to; the projection must not be
+    ///          degenerate
     Frustum(const glm::dvec3& origin, const glm::mat4& view, const glm::mat4& projection,
             const Limits& limits);
 
     /// @param sight [m] largest distance at which the ball is seen
     Sight judge(const Ball& ball, double sight) const;
-    /// As judge(), with a hysteresis of a tenth of the radius for balls that are in sight, against flickering
-    /// at the frustum's boundary.
+    /// As judge(), with a hysteresis of a tenth of the radius for balls that are in sight. It avoids
+    /// flickering at the boundary of the frustum.
     Sight judgeWithHysteresis(const Ball& ball, double sight) const;
     /// [pixel] radius of the ball on the picture, at most its height.
     double pixels(const Ball& ball) const;
@@ -61,7 +62,7 @@ private:
     Limits limits_;
 };
 
-/// All cameras; none means that everything is in sight.
+/// All cameras; without cameras everything is in sight.
 class FocusSet
 {
 public:
@@ -73,8 +74,8 @@ public:
     bool everything() const { return frusta_.empty(); }
 
     /// Seen if the sphere is inside the view of any camera; otherwise the greatest reason (in the order of
-    /// Sight) among the cameras.
-    /// @param isSeen it was in sight before
+    /// Sight) over the cameras.
+    /// @param isSeen whether it was in sight before
     Sight judge(const Ball& ball, double sight, bool isSeen) const;
     /// [pixel] largest radius on the picture of any camera; 1 without cameras.
     double pixels(const Ball& ball) const;

@@ -1,6 +1,6 @@
 /// @file sphere_hierarchy.h
-/// A bounding-volume hierarchy of hidden instances: a camera finds those that come into view without visiting
-/// the rest.
+/// A bounding-volume hierarchy of hidden instances. It finds the instances that come into view without
+/// visiting all others.
 #pragma once
 
 #include "fxsdk/activation/focus.h"
@@ -11,7 +11,7 @@
 
 namespace fx::activation {
 
-/// A balanced binary tree of bounding spheres: insertion and removal take logarithmic time, a query visits
+/// A balanced binary tree of bounding spheres. Insertion and removal take logarithmic time. A query visits
 /// the nodes in sight and their siblings. Incremental insertion with rotations is common in the broad phase
 /// of physics engines; see Ericson, Real-Time Collision Detection, section 6.2.
 class SphereHierarchy
@@ -28,7 +28,7 @@ public:
     void remove(Leaf leaf); ///< allocates nothing
     uint32_t size() const { return leaves_; }
 
-    /// Calls found(key) for each leaf in the view of `focus`. @return nodes visited
+    /// Calls found(key) for each leaf in the view of `focus`. @return number of nodes visited
     template <class F>
     uint32_t query(const FocusSet& focus, F&& found)
     {
@@ -56,7 +56,7 @@ private:
     struct Node
     {
         Ball ball;
-        double sight = 0; ///< farthest of the leaves below
+        double sight = 0; ///< largest value of the leaves below
         uint32_t parent = kNone;
         uint32_t child[2] = {kNone, kNone};
         uint32_t height = 0; ///< 0: a leaf

@@ -1,5 +1,5 @@
 /// @file timer_queue.h
-/// Timers, earliest first. A pending timer costs nothing per step.
+/// A queue of timers, earliest first. A pending timer costs nothing per step.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -10,11 +10,11 @@
 
 namespace fx::activation {
 
-/// A pending timer. Keys are small numbers, each in the queue at most once.
+/// A pending timer. Keys are small numbers; each is in the queue at most once.
 struct Timer
 {
     base::Ticks start = 0; ///< [tick] scene time
-    uint64_t serial = 0;   ///< order of creation: decides between equal starts
+    uint64_t serial = 0;   ///< order of creation; decides between equal starts
     uint32_t key = 0;
 };
 
@@ -24,7 +24,7 @@ class TimerQueue
 public:
     explicit TimerQueue(std::pmr::memory_resource* memory) : heap_(memory), slots_(memory) {}
 
-    /// Makes sure that add() of keys up to `key` does not allocate up to a size of `count`.
+    /// Reserves memory, so that add() of keys up to `key` does not allocate up to a size of `count`.
     void reserve(uint32_t key, size_t count);
     /// Strong guarantee.
     void add(const Timer& timer);
@@ -32,7 +32,7 @@ public:
     void remove(uint32_t key);
     bool empty() const { return heap_.empty(); }
     size_t size() const { return heap_.size(); }
-    const Timer& earliest() const { return heap_.front(); } ///< not of an empty queue
+    const Timer& earliest() const { return heap_.front(); } ///< the queue must not be empty
 
 private:
     void put(size_t at, const Timer& timer);

@@ -1,6 +1,6 @@
 /// @file call_scope.h
-/// The thread rules of the C API: checks the calling thread of an object, and that no other call on it is in
-/// progress.
+/// The thread rules of the C API. They check that an object is called on its thread, and that no other call
+/// on it is in progress.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -11,7 +11,7 @@
 
 namespace fx::api {
 
-/// The thread an object belongs to.
+/// The thread to which an object belongs.
 class ThreadOwner
 {
 public:
@@ -22,7 +22,7 @@ private:
     std::atomic<std::thread::id> owner_{std::this_thread::get_id()};
 };
 
-/// An object that one thread uses, and that callbacks must not enter again. Cheap: no lock.
+/// Guards an object that only one thread uses and that callbacks must not re-enter. It needs no lock.
 class SingleCaller
 {
 public:
@@ -49,7 +49,7 @@ public:
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
         explicit operator bool() const { return entered_ != nullptr; }
-        /// Refuses further calls because the object is about to be destroyed; the scope does not access it
+        /// Refuses further calls, because the object will be destroyed. The scope does not access the object
         /// afterwards.
         void close()
         {
@@ -67,18 +67,18 @@ public:
 
     private:
         SingleCaller* entered_ = nullptr;
-        const char* rule_ = nullptr; ///< that was broken
+        const char* rule_ = nullptr; ///< the rule that was broken
     };
 
     /// Whether a call is in progress. [any thread]
     bool busy() const { return busy_.load(std::memory_order_relaxed); }
-    /// Refuses further calls, such as those from callbacks of a destruction.
+    /// Refuses further calls, such as those from callbacks during a destruction.
     void close()
     {
         closed_.store(true, std::memory_order_relaxed);
         busy_.store(true, std::memory_order_relaxed);
     }
-    /// Whether the object is closed. For functions that may run while another call is in progress.
+    /// Whether the object is closed. For functions that may run during another call.
     bool isClosed() const { return closed_.load(std::memory_order_relaxed); }
 
 private:
@@ -86,7 +86,7 @@ private:
     std::atomic<bool> closed_{false}; ///< likewise
 };
 
-/// An object that many threads use one after the other, and that callbacks must not enter again.
+/// Guards an object that many threads use one after another and that callbacks must not re-enter.
 class SharedCaller
 {
 public:
@@ -113,8 +113,8 @@ public:
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
         const base::Status& status() const { return status_; }
-        /// The object is destroyed next: for this thread it stays entered, so that callbacks are refused, and
-        /// the scope does not touch it again.
+        /// Called before the object is destroyed. This thread remains inside the object, so that calls from
+        /// callbacks are refused. The scope does not access the object afterwards.
         void close()
         {
             entered_->mutex_.unlock();

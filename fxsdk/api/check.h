@@ -1,5 +1,5 @@
 /// @file check.h
-/// Tests of arguments that name the argument when it fails.
+/// Validation of arguments. Failures name the argument.
 #pragma once
 
 #include "foundation/math/bits.h"
@@ -18,7 +18,7 @@ inline base::Status invalid(const std::string& what)
     return {base::Code::InvalidArgument, what};
 }
 
-/// Runs checks in order and keeps the first failure. Allocates only for that.
+/// Runs checks in order and keeps the first failure. Allocates memory only for a failure.
 class Checks
 {
 public:
@@ -28,7 +28,7 @@ public:
             status_ = invalid(std::string(name) + " is null");
     }
 
-    /// A value that is not finite fails as a value outside of the range does.
+    /// Fails if the value is outside of the range or not finite.
     template <class T>
     void range(T value, T least, T most, const char* name)
     {
@@ -65,13 +65,13 @@ private:
     base::Status status_;
 };
 
-/// Unit within 1e-3, in the order x, y, z, w. False for components that are not finite.
+/// True if the quaternion has unit length within 1e-3. Components x, y, z, w; false if one is not finite.
 bool isUnitQuaternion(const float* xyzw);
 /// The rotation of a unit quaternion, normalized.
 glm::quat toRotation(const float* xyzw);
-/// Orthonormal within 1e-3, right-handed, last row 0 0 0 1, column-major.
+/// True if the matrix is orthonormal within 1e-3 and right-handed, with last row 0 0 0 1. Column-major.
 bool isRigid(const float* matrix);
-/// Null, or why the matrix is no camera's, with the remedy.
+/// Reason why the matrix is not a view matrix, with the remedy; null if it is one.
 const char* viewFault(const float* matrix);
 
 } // namespace fx::api

@@ -6,14 +6,14 @@
 
 namespace fx::api {
 
-/// Null, or why the matrix is no camera's projection from eye to clip space, with the remedy: not finite,
-/// row-major, for a camera that looks along +Z, without extent, scaled, singular. Off-center, jittered,
-/// mirrored and oblique ones are good.
+/// Reason why the matrix is not a camera's projection from eye to clip space, with the remedy; null if it is
+/// one. Faults: not finite, row-major, for a camera that looks along +Z, without extent, scaled, singular.
+/// Off-center, jittered, mirrored and oblique projections are accepted.
 const char* projectionFault(const float* projection);
 
-/// Null, or the reason why a frame cannot be drawn with the matrix, although projectionFault() accepts it.
-/// Distances and rays of a frame are computed from single elements, so the matrix must contain nothing that
-/// belongs into the view matrix.
+/// Reason why a frame cannot be drawn with a matrix that projectionFault() accepts; null if it can be drawn.
+/// Distances and rays of a frame are computed from single elements, so the matrix must not contain a part of
+/// the view matrix.
 /// @param isReversed near maps to the larger depth
 const char* frameProjectionFault(const float* projection, bool isReversed);
 

@@ -21,7 +21,7 @@
 
 namespace fx::api {
 
-/// The last byte of every id.
+/// Type of an id, stored in its last byte.
 enum IdType : uint8_t
 {
     kPresetIdType = 1,
@@ -31,7 +31,7 @@ enum IdType : uint8_t
 
 using PresetTable = scene::IdTable<std::shared_ptr<const sim::EffectDef>>;
 
-/// Both halves of the techniques of a context: preset members and drawing.
+/// The techniques of a context: their preset members and their drawing.
 struct TechniqueLists
 {
     preset::Techniques presets = preset::techniques();
@@ -44,8 +44,8 @@ base::AllocatorHooks toHooks(const FxAllocator& allocator);
 
 struct FxContext
 {
-    /// Ready without GL. Throws std::bad_alloc.
-    /// @param techniques must stay
+    /// Ready for use, without GL. Throws std::bad_alloc.
+    /// @param techniques lists that must outlive the context
     explicit FxContext(const FxContextDef& def, const fx::api::TechniqueLists& techniques = {});
     FxContext(const FxContext&) = delete;
     FxContext& operator=(const FxContext&) = delete;
@@ -63,8 +63,8 @@ struct FxContext
     fx::base::AssetTable assets{&memory}; ///< images and meshes of all presets
     std::unique_ptr<fx::base::TaskRunner> tasks;
 
-    fx::api::SharedCaller loading; ///< one preset is loaded at a time; taken before `tables`
-    fx::api::SharedCaller tables;  ///< held briefly, for the four members below
+    fx::api::SharedCaller loading; ///< serializes the loading of presets; entered before `tables`
+    fx::api::SharedCaller tables;  ///< guards the four members below; held briefly
     fx::scene::IdCodec ids{this};
     fx::api::PresetTable presets;
     std::pmr::vector<FxScene*> scenes;
@@ -79,7 +79,7 @@ namespace fx::api {
 constexpr const char* kGlThreadRule = "call it from the context's GL thread, or adopt this one with "
                                       "fxContext_AdoptGlThread";
 
-/// fxCreateContext() of a checked definition, with the techniques of the caller.
+/// Implements fxCreateContext() for a checked definition, with the techniques of the caller.
 base::Status createContext(const FxContextDef& def, const TechniqueLists& techniques, FxContext** outContext);
 
 inline const FxLog* logOf(const FxContext* context)

@@ -1,6 +1,6 @@
 /// @file guarded.h
-/// The one exception boundary of the C API: a status or an exception becomes a result code and a message of
-/// the thread.
+/// The only exception boundary of the C API. It converts a status or an exception to a result code and the
+/// error message of the thread.
 #pragma once
 
 #include "foundation/memory/out_of_memory.h"
@@ -27,7 +27,7 @@ const char* lastError() noexcept;
 void logLastError(const FxLog& log, FxResult code) noexcept;
 
 /// Runs the body of a C function. No exception leaves the function; it returns a code.
-/// @param log  where failures are reported besides the message of the thread; may be null
+/// @param log  log to which failures are written in addition; may be null
 /// @param body callable that returns base::Status
 template <class F>
 FxResult guarded(const char* function, const FxLog* log, F&& body) noexcept

@@ -1,5 +1,5 @@
 /// @file held_snapshots.h
-/// The snapshots that hosts hold at the moment. Safe from any thread; allocates nothing.
+/// The snapshots that hosts hold now. [any thread]; allocates nothing.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -17,8 +17,9 @@ class HeldSnapshots
 public:
     static constexpr uint32_t kCapacity = 16;
 
-    /// Particles that views compute on the GPU are made here, on the CPU.
-    /// @return an identity for find() and take(), 0 when kCapacity are held; `presentation` is then not kept
+    /// Adds a snapshot. Particles that views compute on the GPU are computed here on the CPU.
+    /// @return an id for find() and take(); 0 if kCapacity snapshots are held, then `presentation` is not
+    ///         added
     scene::LocalId add(const scene::Presentation& presentation, std::pmr::memory_resource* memory)
     {
         Held held{presentation, presentation.snapshots, {}};
@@ -67,8 +68,9 @@ private:
     struct Held
     {
         scene::Presentation shown;
-        base::SnapshotPair taken;                                     ///< of the scene
-        std::array<std::unique_ptr<base::FrameSnapshot>, 2> replayed; ///< where `shown` differs from it
+        base::SnapshotPair taken; ///< snapshots acquired from the scene
+        /// Copies with GPU particles computed, where `shown` differs from `taken`
+        std::array<std::unique_ptr<base::FrameSnapshot>, 2> replayed;
 
         void replay(const base::FrameSnapshot*& io, size_t which, std::pmr::memory_resource* memory)
         {

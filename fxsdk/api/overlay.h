@@ -1,5 +1,5 @@
 /// @file overlay.h
-/// Box and color of an instance in the activation overlay.
+/// Boxes and colors of instances in the activation overlay.
 #pragma once
 
 #include "fxsdk/scene/scene.h"
@@ -11,7 +11,7 @@
 
 namespace fx::api {
 
-/// The box of each mark, relative to `origin` [m]; the legend is in fx_view.h.
+/// Creates the box of each mark, relative to `origin` [m]. fx_view.h has the legend.
 void makeOverlay(std::span<const scene::Mark> marks, const glm::dvec3& origin,
                  std::pmr::vector<render::OverlayBox>& out);
 

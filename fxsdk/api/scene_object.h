@@ -24,21 +24,23 @@ struct FxScene
     fx::api::SingleCaller caller; ///< scene thread
     fx::scene::IdCodec ids{this};
     fx::scene::Scene scene;
-    fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium;    ///< of instances that do not choose
+    /// Quality of instances that use the default
+    fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium;
     uint64_t updateAllocations = 0;                                   ///< during the last update
     std::pmr::vector<fx::activation::Frustum> foci{&context->memory}; ///< scratch of fxScene_SetFocus
     fx::api::HeldSnapshots held;
-    std::atomic<uint32_t> views{0};      ///< that show this scene
-    double longestFrame;                 ///< [s] that one update makes up for
-    std::atomic<bool> catchingUp{false}; ///< the last update had more time to make up for than it may
+    std::atomic<uint32_t> views{0};      ///< number of views that show this scene
+    double longestFrame;                 ///< [s] longest time that one update simulates
+    std::atomic<bool> catchingUp{false}; ///< the last update had more time to simulate than it may
 
-    bool isBehind = false; ///< the last update left steps to the next
+    bool isBehind = false; ///< the last update left steps for the next one
 
-    // Number of updates for which a view's computation of particles, or a request for rows, is remembered.
+    // Number of updates for which a view's computation of GPU particles, or a request for rows, remains in
+    // effect.
     static constexpr uint32_t kRemembered = 240;
     std::atomic<uint32_t> gpuSeen{0};
     std::atomic<uint32_t> rowsWanted{0};
-    /// Whether emitters that prefer the GPU are computed there in this update.
+    /// Whether emitters that prefer the GPU are computed on the GPU in this update.
     bool computesOnGpu()
     {
         const auto count = [](std::atomic<uint32_t>& left) {
@@ -70,13 +72,13 @@ inline void checkQuality(Checks& check, uint32_t quality, const char* name)
     check.range(quality, uint32_t(FX_QUALITY_DEFAULT), uint32_t(FX_QUALITY_REFERENCE), name);
 }
 
-/// @param preferred the level for FX_QUALITY_DEFAULT
+/// @param preferred level to which FX_QUALITY_DEFAULT is converted
 inline sim::QualityLevel toQuality(uint32_t quality, sim::QualityLevel preferred)
 {
     return quality == FX_QUALITY_DEFAULT ? preferred : sim::QualityLevel(quality - FX_QUALITY_LOW);
 }
 
-/// Removes the scene from its context and frees it. No call on it may be in progress.
+/// Removes the scene from its context and frees it. No call on the scene may be in progress.
 void destroyScene(FxScene* scene);
 
 /// Runs `body` as a call inside the scene, if the thread rules allow it.
@@ -91,7 +93,7 @@ FxResult insideScene(const char* function, FxScene* scene, F&& body) noexcept
     });
 }
 
-/// Looks `id` up and runs body(local identity) inside the scene.
+/// Finds the local identity of `id` and runs body(identity) inside the scene.
 template <class F>
 FxResult withInstance(const char* function, FxScene* scene, FxInstanceId id, F&& body)
 {

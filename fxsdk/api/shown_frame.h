@@ -1,5 +1,5 @@
 /// @file shown_frame.h
-/// Snapshots that a frame holds from its preparation until it is drawn.
+/// Snapshots that a frame holds from its preparation until its end.
 #pragma once
 
 #include "fxsdk/fx_view.h"
@@ -22,7 +22,8 @@ inline render::Composition automaticComposition(sim::PreferredComposition prefer
 }
 
 /// The settings to which automatic scattering resolves when effects prefer `preferred`.
-inline render::SliceSettings automaticScattering(render::SliceSettings asked, sim::PreferredScattering preferred)
+inline render::SliceSettings automaticScattering(render::SliceSettings asked,
+                                                 sim::PreferredScattering preferred)
 {
     if (asked.automatic) {
         asked.multiple = preferred != sim::PreferredScattering::Single;
@@ -31,8 +32,8 @@ inline render::SliceSettings automaticScattering(render::SliceSettings asked, si
     return asked;
 }
 
-/// Holds the snapshots of one frame, and replaces the host's settings by those of the budget during its
-/// lifetime. Threads: [GL thread].
+/// Holds the snapshots of one frame. During its lifetime, the budget's settings replace those of the host.
+/// Threads: [GL thread].
 class ShownFrame
 {
 public:
@@ -57,19 +58,19 @@ public:
     ShownFrame& operator=(const ShownFrame&) = delete;
 
     const scene::Presentation& shown() const { return shown_; }
-    /// Whether `frame` has the same inputs of gathering, so that gathered data can be reused.
+    /// Whether `frame` has the same inputs, so that gathered data can be reused.
     bool isSameAs(const FxFrameDef& frame) const;
 
     const FxFrameDef def;
-    uint64_t allocations = 0; ///< of its preparation
+    uint64_t allocations = 0; ///< allocations during the preparation
 
 private:
     scene::Scene& scene_;
     quality::ViewQuality& quality_;
     render::ViewRenderer& renderer_;
     scene::Presentation shown_;
-    const render::Composition asked_;         ///< by the host
-    const render::SliceSettings askedSlices_; ///< likewise
+    const render::Composition asked_;         ///< setting of the host
+    const render::SliceSettings askedSlices_; ///< settings of the host
 };
 
 } // namespace fx::api

@@ -1,5 +1,5 @@
 /// @file text.h
-/// Texts in buffers of fixed size.
+/// Copies texts to buffers of fixed size.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace fx::api {
 
-/// The longest beginning of `text` that fits into `most` bytes and does not end inside a UTF-8 sequence.
+/// The longest prefix of `text` that has at most `most` bytes and does not end inside a UTF-8 sequence.
 inline std::string_view cutUtf8(std::string_view text, size_t most)
 {
     if (text.size() <= most)
@@ -18,7 +18,7 @@ inline std::string_view cutUtf8(std::string_view text, size_t most)
     return text.substr(0, most);
 }
 
-/// Copies `text`, cut to `capacity` > 0 bytes with the terminating zero.
+/// Copies `text`, cut to fit into `capacity` > 0 bytes with a terminating zero.
 inline void copyText(std::string_view text, char* buffer, size_t capacity)
 {
     const std::string_view fitting = cutUtf8(text, capacity - 1);

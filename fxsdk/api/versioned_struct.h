@@ -1,5 +1,5 @@
 /// @file versioned_struct.h
-/// Compatibility with older and newer callers by the member structSize of structs.
+/// Compatibility with older and newer callers by the member structSize of C structs.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -12,9 +12,9 @@
 
 namespace fx::api {
 
-constexpr uint32_t kLargestStruct = 4096; ///< [byte] more can only be a wrong structSize
+constexpr uint32_t kLargestStruct = 4096; ///< [byte] a larger structSize is wrong
 
-/// Ok when `size` may be the structSize of some version of T.
+/// Ok if `size` may be the structSize of a version of T.
 template <class T>
 base::Status checkStructSize(uint32_t size, const char* name)
 {
@@ -26,7 +26,8 @@ base::Status checkStructSize(uint32_t size, const char* name)
                                      "; fill the struct with its default function"};
 }
 
-/// Copies the caller's members over `defaults` into `out`. Members that this library lacks must be zero.
+/// Copies `defaults` to `out`, then the caller's members over them. Members unknown to this library must be
+/// zero.
 template <class T>
 base::Status readStruct(const T* given, const char* name, const T& defaults, T& out)
 {
@@ -45,8 +46,8 @@ base::Status readStruct(const T* given, const char* name, const T& defaults, T& 
     return {};
 }
 
-/// Copies as many members of `filled` as the caller's version of T has, and sets unknown members to zero.
-/// structSize does not change.
+/// Copies those members of `filled` that the caller's version of T has, and sets members unknown to this
+/// library to zero. structSize does not change.
 template <class T>
 base::Status writeStruct(const T& filled, T* io, const char* name)
 {

@@ -31,7 +31,7 @@ struct FxView
     FxView(const FxView&) = delete;
     FxView& operator=(const FxView&) = delete;
 
-    /// The scene leaves marks while a view shows them. The host's lights stay.
+    /// While the view shows marks, the scene collects them. The host's lights are kept.
     void setSettings(const fx::render::ViewSettings& settings)
     {
         prepared.reset();
@@ -50,11 +50,14 @@ struct FxView
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< during the last frame
-    bool sleeps =
-        false; ///< the last frame drew no element; the next one draws none either while the scene is empty
-    FxFrameDef sleptFrame = fxDefaultFrameDef(); ///< known to be valid; only while the view sleeps
+    /// True when the last frame drew no element. As long as the scene is empty, the next frame draws none
+    /// either.
+    bool sleeps = false;
+    /// frame of the sleeping view, already validated; meaningful only while `sleeps`
+    FxFrameDef sleptFrame = fxDefaultFrameDef();
     glm::dvec3 origin{0.0}; ///< [m] FxFrameDef::origin of the frame that was prepared or rendered last
-    std::optional<fx::api::ShownFrame> prepared; ///< by fxView_PrepareLights(), until it is rendered
+    /// set by fxView_PrepareLights(), until the frame is rendered
+    std::optional<fx::api::ShownFrame> prepared;
 };
 
 namespace fx::api {
@@ -64,15 +67,15 @@ inline const FxLog* logOf(const FxView* view)
     return view ? &view->context->def.log : nullptr;
 }
 
-/// Removes the view from its context and frees it. No call on it may be in progress; GL thread.
+/// Removes the view from its context and frees it. No call on the view may be in progress. [GL thread]
 void destroyView(FxView* view);
 
-/// Checked settings and frames in the renderer's terms; the status names the member that is wrong.
+/// Converts checked settings and frames to the renderer's types. The status names the invalid member.
 base::Status convertSettings(const FxViewSettings& given, render::ViewSettings& outSettings);
 base::Status convertBudget(const FxViewSettings& given, quality::BudgetOptions& outOptions);
 base::Status convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest);
 
-/// Ids of instances in the outputs, equal to those of the C API.
+/// Functions that convert instance ids in the outputs to ids of the C API.
 inline render::InstanceNames instanceNames(const FxView& view)
 {
     return {[](const void* scene, uint64_t instance) {
@@ -81,7 +84,7 @@ inline render::InstanceNames instanceNames(const FxView& view)
             view.scene};
 }
 
-/// Shows the present moment with the settings that the budget allows.
+/// Shows the present moment with the settings that fit the budget.
 inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
 {
     view.prepared.reset();
@@ -90,7 +93,8 @@ inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
                                  frame.holdQuality != 0 || view.scene->catchingUp.load());
 }
 
-/// Runs `body` as a call inside the view, if the thread rules allow it. One at a time in a context, as in GL.
+/// Runs `body` as a call inside the view, if the thread rules allow it. As in GL, only one call of a
+/// context may be in progress at a time.
 template <class F>
 FxResult insideView(const char* function, FxView* view, F&& body) noexcept
 {

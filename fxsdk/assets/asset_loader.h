@@ -1,6 +1,6 @@
 /// @file asset_loader.h
-/// Loads the files that one document names, images and meshes as ids of the asset table. Presets access files
-/// only through it.
+/// Loads the images and meshes that one document names, and returns their ids in the asset table. Presets
+/// access files only through this class.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -18,36 +18,38 @@ constexpr uint64_t kMaxMeshBytes = uint64_t(32) << 20;  ///< [byte] of an OBJ fi
 enum class ImageUse
 {
     Color,   ///< sRGB
-    Numbers, ///< motion vectors, masks: linear
+    Numbers, ///< linear values: motion vectors, masks
 };
 
 /// Handling of an asset that is missing or damaged.
 enum class MissingAsset
 {
     IsAnError,
-    ShowsPlaceholder, ///< a magenta and black checkerboard, a tetrahedron; motion vectors of nothing
+    ShowsPlaceholder, ///< image: magenta and black checkerboard; mesh: tetrahedron; motion vectors: zero
 };
 
 /// Loads the assets of one document into one table. Threads: one at a time.
 class AssetLoader
 {
 public:
-    /// @param folder folder of the document relative to the resolver's folder, with '/' at its end; empty:
-    ///         the resolver's
+    /// @param folder folder of the document, relative to the resolver's folder and ending with '/'; empty:
+    ///               the resolver's folder
     AssetLoader(const AssetResolver& resolver, base::AssetTable& table, MissingAsset missing,
                 std::string folder = {})
         : resolver_(resolver), table_(table), missing_(missing), folder_(std::move(folder))
     {}
 
-    /// The bytes behind `name`, relative to the document. @return as AssetResolver::read
+    /// Reads the bytes of the asset `name`, which is relative to the document. @return as
+    /// AssetResolver::read
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes);
-    /// Hash of all bytes read, in order; 0 when none were.
+    /// Hash of all bytes read, in the order of reading; 0 if nothing was read.
     uint64_t contentHash() const { return contentHash_; }
     const base::AssetTable& table() const { return table_; }
 
-    /// @param columns, rows frames that the image must divide into, >= 1
+    /// Loads an image. @param columns, rows numbers of frames by which the image must be divisible, >= 1
     /// @param outWarning receives the reason for a placeholder; untouched otherwise
-    /// @return NotFound, TooLarge, Parse, Schema (it does not divide), naming the asset and the remedy
+    /// @return NotFound, TooLarge, Parse, Schema (not divisible); the message names the asset and the
+    ///         remedy
     base::Result<base::AssetId> image(std::string_view name, ImageUse use, int columns, int rows,
                                       std::string& outWarning);
     base::Result<base::AssetId> mesh(std::string_view name, std::string& outWarning);

@@ -1,9 +1,9 @@
 /// @file asset_resolver.h
-/// Finds the files that presets and scenes name: presets, images, meshes. All names are resolved here.
+/// Resolves all names of assets (presets, images, meshes) that presets and scenes contain.
 ///
-/// A name is `library:NAME` (compiled into the library), or relative to the folder of the file that uses it.
-/// It is never absolute, never climbs out of the folder, not even through a symbolic link. Threads: any;
-/// several threads may read from one resolver if the host's hook is thread-safe.
+/// A name is `library:NAME` (compiled into the library), or relative to the folder of the file that uses
+/// it. A name is never absolute and never leads out of the folder, not even through a symbolic link.
+/// Threads: any. Several threads may read from one resolver if the host's hook is thread-safe.
 #pragma once
 
 #include "foundation/result/embedded_text.h"
@@ -17,7 +17,7 @@
 
 namespace fx::asset {
 
-/// The host's own storage, such as an archive or a data base. It is searched before the folder.
+/// The host's own storage, such as an archive or a database. It is searched before the folder.
 struct ReadHook
 {
     void* user = nullptr;
@@ -31,20 +31,20 @@ struct ReadHook
 class AssetResolver
 {
 public:
-    /// @param folder where relative names begin; empty: no files, only the library and the hook
-    /// @param library texts known as library:NAME, by file name NAME.fx.json, or NAME when it has a dot;
-    ///                must outlive the resolver
+    /// @param folder  folder that names are relative to; empty: no files, only the library and the hook
+    /// @param library embedded texts, which must outlive the resolver. library:NAME is the text
+    ///                NAME.fx.json, or the text NAME when NAME contains a dot
     AssetResolver(std::string folder, std::span<const base::EmbeddedText> library, const ReadHook& hook = {})
         : folder_(std::move(folder)), library_(library), hook_(hook)
     {}
 
-    /// The bytes behind `name`.
-    /// @param maxBytes refused with TooLarge above this, before anything is read
+    /// Reads the bytes of the asset `name`.
+    /// @param maxBytes [byte] larger assets give TooLarge before anything is read
     /// @return InvalidArgument for a name that is not allowed, NotFound, TooLarge, Io
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes) const;
 
-    /// Path of the file of `name` with all links resolved. Empty when the name is not allowed or belongs to
-    /// the library, when the file does not exist, or when a hook is set.
+    /// Path of the file of `name` with all links resolved. The path is empty when the name is not allowed
+    /// or belongs to the library, when the file does not exist, or when a hook is set.
     std::string fileOf(std::string_view name) const;
 
     const std::string& folder() const { return folder_; }
@@ -59,7 +59,7 @@ private:
     ReadHook hook_;
 };
 
-/// Ok when `name` may name an asset; otherwise InvalidArgument and the reason.
+/// Ok if `name` is a valid name of an asset; otherwise InvalidArgument with the reason.
 base::Status checkAssetName(std::string_view name);
 
 } // namespace fx::asset

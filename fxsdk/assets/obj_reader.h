@@ -1,6 +1,6 @@
 /// @file obj_reader.h
-/// Wavefront OBJ files: the lines of one, and from them meshes for particles and triangles for the
-/// simulation. Curves, lines and smoothing groups are ignored.
+/// Reads Wavefront OBJ files: line by line, as meshes for particles, or as triangles for the simulation.
+/// Curves, lines and smoothing groups are ignored.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -13,7 +13,7 @@
 
 namespace fx::asset {
 
-/// Points of an OBJ file that its faces refer to, up to the line that was read last.
+/// Points of an OBJ file that have been read so far; faces refer to them by index.
 struct ObjPoints
 {
     std::vector<glm::vec3> positions;
@@ -21,23 +21,23 @@ struct ObjPoints
     std::vector<glm::vec3> normals;
 };
 
-/// Indices of the points of one corner of a face; -1: the file gives none.
+/// Indices into ObjPoints of one corner of a face; -1 if the file gives no index.
 struct ObjCorner
 {
     int64_t position, texture = -1, normal = -1;
     auto operator<=>(const ObjCorner&) const = default;
 };
 
-/// Receives the lines of an OBJ file in their order. Functions that are not set are not called.
+/// Callbacks for the lines of an OBJ file, called in the order of the file. Unset callbacks are skipped.
 struct ObjHandler
 {
-    /// A polygon of at least three corners. A status with an error ends the reading.
+    /// A polygon of at least three corners. Reading ends when the callback returns an error.
     std::function<base::Status(const ObjPoints& points, std::span<const ObjCorner> corners)> face;
 
-    /// The material of the faces that follow: usemtl.
+    /// The name of the material of the following faces (usemtl).
     std::function<void(std::string_view name)> material;
 
-    /// Files of materials, separated by blanks: mtllib.
+    /// Names of material files, separated by spaces (mtllib).
     std::function<void(std::string_view names)> materialFiles;
 
     bool wantsTextures = true; ///< false: texture coordinates are ignored, also in corners
@@ -48,10 +48,10 @@ struct ObjHandler
 /// @return all points; Parse with the number of the line and the reason; the error of `face`
 base::Result<ObjPoints> parseObj(std::string_view text, const ObjHandler& handler);
 
-/// The next word of `io`, separated by blanks, which is taken off; empty at the end.
+/// Removes the next word, delimited by spaces, from `io` and returns it; empty at the end.
 std::string_view takeWord(std::string_view& io);
 
-/// False when `word` is no finite number. One that is too small for a float is 0.
+/// Parses a finite number; false if `word` is none. A number too small for a float becomes 0.
 bool parseFloat(std::string_view word, float& out);
 
 struct ObjMesh
@@ -62,7 +62,8 @@ struct ObjMesh
 
 constexpr size_t kMaxMeshTriangles = 65'536; ///< an instanced mesh is drawn thousands of times
 
-/// A mesh for particles. Polygons become fans; corners without a normal get that of their triangle.
+/// Reads a mesh for particles. Polygons become fans of triangles; a corner without a normal gets the normal
+/// of its triangle.
 /// @return Parse with the line and the reason, TooLarge
 base::Result<ObjMesh> readObj(std::string_view text);
 
@@ -72,7 +73,7 @@ struct ObjTriangles
     std::vector<uint32_t> indices; ///< three a triangle
 };
 
-/// Reads positions only, for simulation. Polygons become fans.
+/// Reads positions only, for simulation. Polygons become fans of triangles.
 /// @return Parse with the line and the reason
 base::Result<ObjTriangles> readObjTriangles(std::string_view text);
 

@@ -1,5 +1,5 @@
 /// @file stb_png.h
-/// Unpacks PNG files with stb_image, within a limit of memory.
+/// Decodes PNG files by stb_image within a limit of memory.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -10,10 +10,11 @@
 
 namespace fx::asset {
 
-/// @param file  complete, its header checked
-/// @param isDeep 16 bits a channel, which are rounded to 8
-/// @param mostBytes [byte] that a single block of memory may have while unpacking
-/// @return red, green, blue and opacity of width x height texels from the top; Parse with stb_image's reason
+/// @param file       the complete file, with a checked header
+/// @param isDeep     true for 16 bits a channel, which are rounded to 8
+/// @param mostBytes  [byte] largest single allocation while decoding
+/// @return red, green, blue and opacity of width x height texels from the top; Parse with stb_image's
+///         reason
 base::Result<std::vector<uint8_t>> unpackPng(std::span<const uint8_t> file, bool isDeep, int width,
                                              int height, size_t mostBytes);
 

@@ -1,6 +1,6 @@
 /// @file commands.h
-/// The commands of fx, one for each line of commands.inl: `addRenderCommand()` and so on. Each adds its
-/// options and a callback that does the work and stores its exit code.
+/// The commands of fx. Each line of commands.inl declares one function, such as `addRenderCommand()`. The
+/// function adds the options of its command and a callback that runs the command and stores its exit code.
 #pragma once
 
 namespace CLI {

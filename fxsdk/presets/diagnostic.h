@@ -1,5 +1,5 @@
 /// @file diagnostic.h
-/// Findings about a preset or scene, with place and remedy for its author.
+/// Findings about a preset or scene. Each states the place in the file and a remedy.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@ namespace fx::preset {
 /// One finding.
 struct Diagnostic
 {
-    std::string file;     ///< name for people
+    std::string file;     ///< file name for messages
     int line = 0;         ///< from 1; 0 when the finding concerns the whole file
     int column = 0;       ///< from 1, in bytes
     std::string pointer;  ///< JSON pointer, "" for the whole document
     std::string message;  ///< the value found and the allowed ones, at most 1 KiB, printable UTF-8
-    bool warning = false; ///< true: the file can be used all the same
+    bool warning = false; ///< true: the file can be used despite the finding
 };
 
-/// "file:line:column: /pointer: message".
+/// Formats a finding as "file:line:column: /pointer: message".
 std::string toString(const Diagnostic& diagnostic);
 
 /// True when any of them is an error.
 bool hasErrors(const std::vector<Diagnostic>& diagnostics);
 
-/// The first errors, one a line, at most 1 KiB.
+/// The first errors, one per line, at most 1 KiB.
 std::string summary(const std::vector<Diagnostic>& diagnostics);
 
 /// `text` with control characters and bytes that are not UTF-8 replaced by '?', cut to `limit` bytes.

@@ -6,15 +6,17 @@
 
 namespace fx::preset {
 
-/// Work of a step of 1/60 s above which a warning is given: the default budget of an update, about 100 ms.
+/// Limit of the work of a step of 1/60 s, above which a warning is given. It equals the default budget of an
+/// update, about 100 ms.
 constexpr double kMuchStepWork = 10e6; // [unit]
-/// Prewarm that counts more is warned about: about 1 s.
+/// Limit of the work of the prewarm, above which a warning is given: about 1 s.
 constexpr double kMuchStartWork = 100e6; // [unit]
-/// An instance that takes more memory is warned about.
+/// Limit of the memory of an instance, above which a warning is given.
 constexpr uint64_t kMuchMemory = uint64_t(1) << 30; // [byte]
 
-/// Fills in effect.cost and warns of work and memory beyond the limits above, naming the member to change.
-/// @param techniques those that the solvers of `effect` were built by
+/// Computes effect.cost. Warns when work or memory exceeds the limits above; the warning names the member to
+/// change.
+/// @param techniques the techniques that built the solvers of `effect`
 void estimateCost(const PresetValue& root, sim::EffectDef& effect, Techniques techniques);
 
 } // namespace fx::preset

@@ -1,5 +1,5 @@
 /// @file field_detail_preset.h
-/// The member "detail" of media (schema/field_detail.schema.json), which several techniques have.
+/// The member "detail" of media (schema/field_detail.schema.json), shared by several techniques.
 #pragma once
 
 #include "fxsdk/presets/preset_value.h"
@@ -7,7 +7,7 @@
 
 namespace fx::preset {
 
-/// Reads the member "detail" of `element`; without it `out` does not change.
+/// Reads the member "detail" of `element`. If it is absent, `out` does not change.
 void readFieldDetail(const PresetValue& element, sim::FieldDetail& out);
 
 } // namespace fx::preset

@@ -19,13 +19,13 @@ namespace fx::preset {
 
 constexpr size_t kUnknownOffset = ~size_t(0);
 
-/// One finding, by pointer or by place in the text.
+/// One finding, located by JSON pointer or by offset in the text.
 struct Finding
 {
     std::string pointer;
     std::string message;
     base::Code code = base::Code::Schema;
-    bool atKey = false; ///< the place is that of the member's name, not of its value
+    bool atKey = false; ///< true: the finding is located at the name of the member, not at its value
     bool warning = false;
     size_t offset = kUnknownOffset; ///< [byte] in the text, when known
 };
@@ -40,7 +40,7 @@ struct Renaming
 class Findings
 {
 public:
-    /// @param assets reads files that the document names; null: none
+    /// @param assets loader of the files that the document names; null: there are none
     explicit Findings(asset::AssetLoader* assets = nullptr) : assets_(assets) {}
     asset::AssetLoader* assets() const { return assets_; }
 
@@ -55,10 +55,10 @@ public:
 
     bool full() const { return list_.size() >= kLimit; } ///< further findings are dropped
     bool hasErrors() const { return firstCode_ != base::Code::Ok; }
-    base::Code firstCode() const { return firstCode_; } ///< of the first error; Ok without errors
+    base::Code firstCode() const { return firstCode_; } ///< code of the first error; Ok without errors
     size_t size() const { return list_.size(); }
 
-    /// Findings with their places in `text`, in the order of the text.
+    /// The findings with their positions in `text`, in the order of the text.
     std::vector<Diagnostic> locate(std::string_view text, const std::string& file) const;
 
     static constexpr size_t kLimit = 100; ///< findings beyond it are dropped

@@ -12,12 +12,12 @@ namespace fx::preset {
 
 struct JsonPlace
 {
-    size_t key = 0;   ///< [byte] offset of the member's name; that of the value inside arrays
+    size_t key = 0;   ///< [byte] offset of the member's name; inside arrays, offset of the value
     size_t value = 0; ///< [byte] offset of the value
 };
 
-/// The places of JSON pointers in `text`, one each. A pointer to a missing value gets the place of its
-/// nearest ancestor. The first of several equal members counts. Text after a syntax error is ignored.
+/// The position of each JSON pointer in `text`. A pointer to a missing value gets the position of its nearest
+/// ancestor. Of several equal names, the first is used. Text after a syntax error is ignored.
 std::vector<JsonPlace> locateJson(std::string_view text, std::span<const std::string> pointers);
 
 } // namespace fx::preset

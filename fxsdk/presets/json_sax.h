@@ -11,8 +11,8 @@
 
 namespace fx::preset {
 
-/// Iterator over the text of a JSON document. All copies of an iterator share the position of the one that is
-/// furthest, from which a handler of SAX events takes the end of the text that the parser has read.
+/// Iterator over the text of a JSON document. All copies of an iterator share the furthest position of any
+/// copy. A handler of SAX events reads it to find how far the parser has read.
 class TrackedIterator
 {
 public:
@@ -43,7 +43,7 @@ private:
     const char** furthest_;
 };
 
-/// Follows a stream of events: the JSON pointer of the current value and the offset of the current token.
+/// Tracks a stream of SAX events: the JSON pointer of the current value and the offset of the current token.
 class JsonPath
 {
 public:
@@ -52,10 +52,10 @@ public:
     TrackedIterator begin() { return {text_.data(), &furthest_}; }
     TrackedIterator end() { return {text_.data() + text_.size(), &furthest_}; }
 
-    /// Call first in every event. @return offset at which the event's token begins
+    /// Must be called first in every event. @return offset at which the token of the event begins
     size_t beginToken();
     void key(const std::string& name);
-    /// A value begins: counts it within its array.
+    /// Called when a value begins. Counts the value within its array.
     void value();
     void enter(bool isArray);
     void leave();
@@ -63,15 +63,15 @@ public:
     size_t depth() const { return levels_.size(); }
     bool insideArray() const { return !levels_.empty() && levels_.back().isArray; }
     size_t countInside() const { return levels_.empty() ? 0 : levels_.back().count; }
-    /// Pointer of the value that value() announced, or of the member that key() announced.
+    /// Pointer of the value of the last value(), or of the member of the last key().
     std::string pointer() const;
 
 private:
     struct Level
     {
         bool isArray;
-        size_t count;        ///< values begun inside
-        size_t parentLength; ///< of the pointer one level up
+        size_t count;        ///< number of values begun inside
+        size_t parentLength; ///< length of the pointer of the enclosing level
     };
 
     std::string_view text_;
@@ -79,7 +79,7 @@ private:
     size_t lastEnd_ = 0;
     std::vector<Level> levels_;
     std::string container_; ///< pointer of the innermost array or object
-    std::string key_;       ///< escaped
+    std::string key_;       ///< name of the member, escaped
 };
 
 /// `name` with '~' and '/' escaped as in JSON pointers.

@@ -1,5 +1,5 @@
 /// @file migration.h
-/// Brings documents of older versions up to date, one version at a time.
+/// Migrates documents of older versions to the current one, one version at a time.
 #pragma once
 
 #include "fxsdk/presets/findings.h"
@@ -10,8 +10,8 @@
 
 namespace fx::preset {
 
-/// One step: turns a document of version `from` into one of version `from + 1`. Documents are not validated
-/// yet, so values of an unexpected shape are left unchanged.
+/// One step: converts a document of version `from` to version `from + 1`. Documents are not validated before
+/// the migration, so values of an unexpected type are left unchanged.
 struct MigrationStep
 {
     int from;
@@ -24,7 +24,7 @@ constexpr int kSceneVersion = 1;
 std::span<const MigrationStep> presetMigrations();
 std::span<const MigrationStep> sceneMigrations();
 
-/// Applies the migrations up to version `current`. The document must have a version, at most `current`.
+/// Applies the migrations up to version `current`. The document must state a version of at most `current`.
 /// @return false when `findings` got an error
 bool migrate(nlohmann::json& document, int current, std::span<const MigrationStep> steps, Findings& findings);
 

@@ -1,6 +1,6 @@
 /// @file order_members.h
-/// Members of a preset that say in which order particles are drawn. They need the composition "sorted": a sum
-/// has no order.
+/// Members of a preset that define the drawing order of particles. They require the composition "sorted",
+/// because the other compositions sum media, and a sum does not depend on the order.
 #pragma once
 
 #include "simulation/solver/effect_def.h"
@@ -14,15 +14,15 @@ namespace fx::preset {
 
 struct OrderMember
 {
-    std::string pointer; ///< in the preset
-    std::string text;    ///< the member as it is written, without blanks
+    std::string pointer; ///< JSON pointer in the preset
+    std::string text;    ///< text of the member, without spaces
 };
 
-/// The members "order" with "oldest" or "youngest" and "orderBias" other than 0, by ascending pointer.
-/// @param preset valid
+/// Lists the members "order" with the value "oldest" or "youngest", and "orderBias" other than 0, by pointer.
+/// @param preset a valid preset
 std::vector<OrderMember> orderMembers(const nlohmann::json& preset);
 
-/// Text of the warning about such a member, without a remedy.
+/// Text of the warning about one of these members, without a remedy.
 std::string orderWarning(const OrderMember& member);
 
 /// Whether `composition` sums media, so that their order has no effect.

@@ -1,6 +1,5 @@
 /// @file parameter_reference.h
-/// Documentation of every member of presets and scenes, written from the schemas so that it cannot be out of
-/// date.
+/// Documentation of every member of presets and scenes. It is generated from the schemas, so that both agree.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 /// @file preset_loader.h
-/// Loads a preset (`*.fx.json`) as an effect, or reports all of its faults.
+/// Loads a preset (`*.fx.json`) as an effect, or reports all findings.
 ///
-/// Threads: any; calls share no data. Only the named text and its assets are read.
+/// Threads: any; calls share no data. Only the given text and its assets are read.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -29,7 +29,7 @@ constexpr uint64_t kPresetBytes = uint64_t(4) << 20;
 
 /// The presets that are compiled in; names are `NAME.fx.json`.
 std::span<const base::EmbeddedText> presetLibrary();
-/// The same, followed by their assets: the library of a resolver.
+/// The presets and their assets: the library of a resolver.
 std::span<const base::EmbeddedText> libraryFiles();
 
 /// Table to which images and meshes of presets are added.
@@ -39,12 +39,13 @@ struct PresetAssets
     asset::MissingAsset missing = asset::MissingAsset::IsAnError;
 };
 
-/// Parses, migrates, validates and builds. The status of a failure holds the first findings.
-/// @param displayName names the text in messages
+/// Parses, migrates and validates a preset and builds its effect. On failure the status holds the first
+/// findings.
+/// @param displayName name of the text in messages
 /// @param outDiagnostics receives all findings, including warnings, on success and on failure; may be null
-/// @param resolver reads files that the preset names; null: only those of the library
-/// @param folder   of the preset below the resolver's folder, with '/' at its end
-/// @param techniques define the preset's members
+/// @param resolver reads files that the preset names; null: only files of the library are found
+/// @param folder   folder of the preset below the resolver's folder, ending with '/'
+/// @param techniques techniques that define the members of the preset
 /// @return Parse, TooLarge, Version, Schema
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
                                           std::vector<Diagnostic>* outDiagnostics = nullptr,
@@ -52,17 +53,17 @@ base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::stri
                                           const PresetAssets& assets = {}, const std::string& folder = {},
                                           Techniques techniques = preset::techniques());
 
-/// The same for an asset: `library:NAME`, or a name relative to the resolver's folder. Files that it names
-/// are relative to it.
+/// Loads a preset from an asset: `library:NAME`, or a name relative to the resolver's folder. Names of files
+/// in the preset are relative to the folder of the preset.
 base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,
                                            std::vector<Diagnostic>* outDiagnostics = nullptr,
                                            const PresetAssets& assets = {},
                                            Techniques techniques = preset::techniques());
 
-/// Folder of an asset, with '/' at its end; empty when it lies in the resolver's.
+/// Folder of an asset, ending with '/'; empty when the asset lies in the resolver's folder.
 std::string folderOf(std::string_view name);
 
-/// The same for a file anywhere.
+/// Loads a preset from a file at any path.
 base::Result<LoadedPreset> loadPresetFile(const std::string& path,
                                           std::vector<Diagnostic>* outDiagnostics = nullptr,
                                           const PresetAssets& assets = {},

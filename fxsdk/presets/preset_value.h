@@ -1,5 +1,5 @@
 /// @file preset_value.h
-/// A validated object of a preset or scene, read member by member into definitions.
+/// Reads a validated object of a preset or scene, member by member, into definitions.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -18,9 +18,9 @@
 
 namespace fx::preset {
 
-/// One JSON object, whose types the schema has checked. Each read() sets `out` if the member exists and
-/// leaves the default otherwise. Conditions that a schema cannot express (min <= max, keys in order) are
-/// checked here and reported as findings.
+/// One JSON object whose types the schema has checked. Each read() sets `out` if the member exists; otherwise
+/// `out` keeps its default. Conditions that a schema cannot express (min <= max, keys in order) are checked
+/// here and reported as findings.
 class PresetValue
 {
 public:
@@ -36,17 +36,17 @@ public:
     void read(const char* member, uint64_t& out) const;
     void read(const char* member, bool& out) const;
     void read(const char* member, std::string& out) const;
-    void read(const char* member, glm::vec3& out) const; ///< also one number for all three
+    void read(const char* member, glm::vec3& out) const; ///< a single number sets all three components
     void read(const char* member, glm::dvec3& out) const;
     void read(const char* member, std::array<float, 4>& out) const;
     void read(const char* member, base::Range& out) const;
     void read(const char* member, base::ScalarCurve& out) const;
     void read(const char* member, base::ColorCurve& out) const;
-    /// Time [s] and value of each step of a member of the kind "steps" or "switches", without conversion; a
-    /// single value is a step at time 0. Empty when absent.
+    /// Time [s] and value of each step of a member of the kind "steps" or "switches", without unit
+    /// conversion. A single value is a step at time 0. Empty when the member is absent.
     std::vector<std::pair<double, double>> steps(const char* member) const;
 
-    /// Reads one of the names in `choices`.
+    /// Reads one of the names in `choices` as an enumerator.
     template <class E>
     void read(const char* member, std::span<const std::pair<std::string_view, E>> choices, E& out) const
     {
@@ -65,10 +65,10 @@ public:
 
     /// Reads element `index` of an array of vectors.
     void readElement(const char* member, size_t index, glm::vec3& out) const;
-    /// The bytes of the asset that the member names.
+    /// Reads the bytes of the asset that the member names.
     /// @return the resolver's error, NotFound when the member is absent or no resolver is set
     base::Result<std::string> readAsset(const char* member, uint64_t maxBytes) const;
-    /// Loader of the files that this document names; null without files.
+    /// Loader of the files that this document names; null if the document may name none.
     asset::AssetLoader* assets() const { return findings_.assets(); }
 
     const std::string& pointer() const { return pointer_; }

@@ -2,15 +2,15 @@
 /// Assembles the JSON Schemas (draft 7) of presets and scenes from the texts in schema/ and those of
 /// techniques.
 ///
-/// `"x-kind"` names a type of value; it is expanded to the schema of that type and kept for documentation,
-/// like `"x-unit"` and `"x-cost"`:
+/// `"x-kind"` names a type of value. It is expanded to the schema of that type. It is also kept for the
+/// documentation, as are `"x-unit"` and `"x-cost"`:
 ///   range       a number, or {"min": a, "max": b}
 ///   curve       a number, or {"keys": [[t, value], ...]}
 ///   colorCurve  a color,  or {"keys": [[t, color], ...]}
 ///   color       [r, g, b], linear Rec. 709
 ///   vector      [x, y, z]
 ///   extent      a number for all three axes, or [x, y, z]
-/// `"minimum"` and `"maximum"` beside it apply to every number inside.
+/// `"minimum"` and `"maximum"` beside `"x-kind"` apply to every number inside the value.
 #pragma once
 
 #include "fxsdk/techniques.h"
@@ -19,7 +19,7 @@
 
 namespace fx::preset {
 
-/// Schema of `*.fx.json` with these techniques. Members keep the order of the texts.
+/// Schema of `*.fx.json` with the members of `techniques`, in the order of the texts.
 nlohmann::ordered_json presetSchema(Techniques techniques = preset::techniques());
 
 /// Schema of `*.scene.json`.

@@ -1,6 +1,6 @@
 /// @file schema_explainer.h
-/// Explains in words why a value violates its schema. valijson validates; this only explains the values that
-/// it reports.
+/// Explains in words why a value violates its schema. The library valijson validates; this code explains the
+/// values that valijson reports.
 #pragma once
 
 #include "fxsdk/presets/findings.h"
@@ -11,12 +11,12 @@
 
 namespace fx::preset {
 
-/// The subschema of the value at `pointer` of `document`, with unresolved alternatives; null when the schema
-/// or the document has no such value.
+/// The subschema of the value at `pointer` of `document`; alternatives (anyOf and similar) are not resolved.
+/// Null when the schema or the document has no such value.
 const nlohmann::json* schemaAt(const nlohmann::json& schema, const nlohmann::json& document,
                                const nlohmann::json::json_pointer& pointer);
 
-/// Adds a finding for each fault of `value` itself; its members are not checked.
+/// Adds a finding for each fault of `value` itself, not of its members.
 /// @return number of findings
 size_t explain(const nlohmann::json& schema, const nlohmann::json& value, const std::string& pointer,
                Findings& findings);

@@ -16,17 +16,16 @@ namespace fx::preset {
 class SchemaValidator
 {
 public:
-    /// @param schema one of schema_assembly.h
+    /// @param schema a schema from schema_assembly.h
     explicit SchemaValidator(nlohmann::json schema);
     ~SchemaValidator();
     SchemaValidator(const SchemaValidator&) = delete;
     SchemaValidator& operator=(const SchemaValidator&) = delete;
 
-    /// Adds an error to `findings` for each thing in `document` that the schema forbids, until findings are
-    /// full.
-    /// @param longArrays members (pointers) whose elements are checked one by one, so that the memory for
-    ///         findings stays small in documents with many elements; each must be an array in the schema
-    /// @param document is the same afterwards
+    /// Adds an error to `findings` for each violation of the schema in `document`, until `findings` is full.
+    /// @param longArrays pointers to array members whose elements are checked one by one, so that the memory
+    ///         for findings stays small in documents with many elements
+    /// @param document modified temporarily, and restored
     void validate(nlohmann::json& document, std::span<const std::string_view> longArrays,
                   Findings& findings) const;
 

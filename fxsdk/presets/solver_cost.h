@@ -8,24 +8,24 @@
 
 namespace fx::preset {
 
-constexpr double kCostStep = 1.0 / 60.0; ///< [s] step that costs are stated for
+constexpr double kCostStep = 1.0 / 60.0; ///< [s] length of the step for which costs are stated
 
-/// [byte] of a blob in all three snapshots.
+/// [byte] size of a blob in all three snapshots.
 constexpr uint64_t kBlobSnapshotBytes = 3 * 100;
 
-/// Names of members have a slash where the member is in an object of the element.
+/// Cost of a solver. A name with a slash denotes a member of an object inside the element.
 struct SolverCost
 {
     double stepWork = 0;       ///< [unit] of base::WorkBudget, of a step of kCostStep
-    double prewarmShare = 1.0; ///< [1] of that work in a step of a prewarm
-    uint64_t bytes = 0;        ///< of the solver and of its published data
+    double prewarmShare = 1.0; ///< [1] share of that work in a step of the prewarm
+    uint64_t bytes = 0;        ///< [byte] memory of the solver and of its published data
 
-    std::string member; ///< of the preset: the list that the element is in
-    size_t place = 0;   ///< of the element in that list
+    std::string member; ///< preset member: the list that contains the element
+    size_t place = 0;   ///< index of the element in that list
 
-    std::string workMember;   ///< member of the element that decides the work; empty: the element itself
+    std::string workMember;   ///< member of the element that determines the work; empty: the element itself
     std::string workRemedy;   ///< remedy for high work; empty: "lower" and the member
-    std::string memoryMember; ///< member of the element that decides the memory
+    std::string memoryMember; ///< member of the element that determines the memory
 };
 
 } // namespace fx::preset

@@ -1,5 +1,5 @@
 /// @file technique.h
-/// The preset half of a technique: its members of the preset format, and their conversion to solvers.
+/// The preset part of a technique: its members of the preset format, and their conversion to solvers.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -12,7 +12,7 @@
 
 namespace fx::preset {
 
-/// One technique. Its reader, its schema, its warnings and its costs are in a folder of its own.
+/// One technique. Its reader, schema, warnings and costs are in its own folder.
 struct Technique
 {
     std::string_view name;
@@ -26,11 +26,11 @@ struct Technique
     /// Reads one validated element and adds one solver to `effect`.
     void (*build)(const PresetValue& element, sim::EffectDef& effect);
 
-    /// Resolves references between elements, after the solvers of all techniques have been built. Called also
-    /// after errors. Null: elements have no references.
+    /// Resolves references between elements. Called after the solvers of all techniques have been built, even
+    /// if there were errors. Null: elements have no references.
     void (*link)(const PresetValue& root, sim::EffectDef& effect) = nullptr;
 
-    /// Warns of members of the preset `root` that are valid and have no effect. Called without errors only.
+    /// Warns of members of the preset `root` that are valid but have no effect. Called only without errors.
     /// Null: no warnings.
     void (*lint)(const PresetValue& root, const sim::EffectDef& effect) = nullptr;
 
@@ -43,14 +43,14 @@ struct Technique
     std::span<const base::KindDesc* const> kinds = {};
 };
 
-/// The techniques of a build, or of one context. Solvers of an effect are in the order of this list.
+/// The techniques of a build or of one context. Solvers of an effect are in the order of this list.
 using Techniques = std::span<const Technique>;
 
-/// A preset member that belongs to a technique which this build lacks.
+/// A preset member whose technique is not part of this build.
 struct MissingTechnique
 {
     std::string_view presetMember;
-    std::string_view option; ///< the CMake option that would bring it
+    std::string_view option; ///< the CMake option that enables the technique
 };
 
 } // namespace fx::preset

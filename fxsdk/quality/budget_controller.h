@@ -3,9 +3,9 @@
 /// frame times and elapsed time are inputs, so equal inputs give equal choices.
 ///
 /// Quality is lowered at once when the predicted time of the next frame exceeds 0.92 of the budget; the
-/// target is 0.8. It is raised by one step per technique after 45 frames without a change, not within a
-/// second after lowering it, and after longer intervals each time a rise was soon followed by a fall. It
-/// affects drawing only, not simulation.
+/// target is 0.8. Quality is raised by one step per technique after 45 frames without a change, but not
+/// within a second after lowering. If a rise is soon followed by a fall, this interval is doubled. Only
+/// drawing is affected, not the simulation.
 #pragma once
 
 #include "fxsdk/quality/scalability_choice.h"
@@ -17,21 +17,22 @@ namespace fx::quality {
 class BudgetController
 {
 public:
-    static constexpr double kTarget = 0.8;       ///< [budget] target
-    static constexpr double kLimit = 0.92;       ///< [budget] expected beyond: fall at once
-    static constexpr uint32_t kCalmFrames = 45;  ///< before a rise
-    static constexpr double kRestSeconds = 1.0;  ///< [s] without a rise after a fall
-    static constexpr double kProbation = 3.0;    ///< [s] a fall this soon after a rise doubles the patience
-    static constexpr uint32_t kMaxPatience = 16; ///< times kCalmFrames
+    static constexpr double kTarget = 0.8; ///< share of the budget that is aimed at
+    static constexpr double kLimit = 0.92; ///< share of the budget above which quality is lowered at once
+    static constexpr uint32_t kCalmFrames = 45; ///< frames without a change before a rise
+    static constexpr double kRestSeconds = 1.0; ///< [s] without a rise after a fall
+    /// [s] a fall within this time after a rise doubles the patience
+    static constexpr double kProbation = 3.0;
+    static constexpr uint32_t kMaxPatience = 16; ///< maximum multiple of kCalmFrames
 
     /// Starts with the highest level of each technique; throws std::bad_alloc. The other functions do not
     /// allocate.
-    /// @param techniqueLevels 1 to kMaxTechniques, each with costs that rise and errors that fall
+    /// @param techniqueLevels 1 to kMaxTechniques, each with increasing costs and decreasing errors
     explicit BudgetController(std::vector<ScalabilityLevels> techniqueLevels);
 
-    /// Updates the cost model from a finished frame. Results may come late: they carry the choice of their
-    /// frame.
-    /// @param milliseconds one per technique; negative: not known
+    /// Updates the cost model from a finished frame. Results may arrive late, so they include the choice of
+    /// their frame.
+    /// @param milliseconds one per technique; negative: unknown
     void observe(const Choice& choice, std::span<const double> milliseconds);
 
     struct Frame
@@ -42,7 +43,7 @@ public:
         bool hold = false;
         std::span<const double> weights; ///< [1] >= 0, one per technique
     };
-    /// Chooses for the next frame.
+    /// Chooses the levels of the next frame.
     const Choice& choose(const Frame& frame);
 
     std::span<const ScalabilityLevels> techniqueLevels() const { return techniqueLevels_; }
@@ -52,10 +53,10 @@ public:
     double error() const { return error_; }         ///< [1] of the last choice
     bool isSaturated() const { return saturated_; } ///< even the lowest settings are expected to be too slow
     uint64_t switches() const { return switches_; } ///< frames that changed a choice
-    void reset();                                   ///< resets all state and starts at the highest levels
+    void reset();                                   ///< restarts at the highest levels
 
 private:
-    struct Memory ///< of one technique
+    struct Memory ///< changes of one technique
     {
         double sinceFall = 1e9; ///< [s]
         double sinceRise = 1e9; ///< [s]

@@ -1,5 +1,5 @@
 /// @file scalability_choice.h
-/// The settings that make least error within a time.
+/// Chooses the settings with the smallest error within a time limit.
 #pragma once
 
 #include "fxsdk/quality/cost_model.h"
@@ -13,20 +13,21 @@ struct ChoiceInputs
 {
     std::span<const ScalabilityLevels> techniqueLevels;
     const CostModel* costs;
-    std::span<const double> weights; ///< [1] >= 0 how much each technique matters on the screen
+    std::span<const double> weights; ///< [1] >= 0, importance of each technique on the screen
 };
 
-/// [ms] that the model expects of a choice.
+/// [ms] Time of a choice that the cost model predicts.
 double predictedMilliseconds(const ChoiceInputs& in, const Choice& choice);
-/// [1] sum of the errors of the steps, each times its weight.
+/// [1] Sum of the errors of the levels, weighted by the techniques' weights.
 double estimatedError(const ChoiceInputs& in, const Choice& choice);
 
-/// Climbs from `from` by the step that takes most error away per millisecond, as long as `milliseconds` are
-/// not exceeded. A step may skip others. Gives `from` back when that is too slow already.
-/// @param most no technique goes above this
+/// Raises levels, beginning at `from`, as long as `milliseconds` are not exceeded. Each time it takes the
+/// rise with the largest decrease of error per millisecond; a rise may skip levels. Returns `from` if `from`
+/// is already too slow.
+/// @param most upper limit of the level of each technique
 Choice climb(const ChoiceInputs& in, const Choice& from, const Choice& most, double milliseconds);
 
-/// The last step of each technique.
+/// The highest level of each technique.
 Choice highest(std::span<const ScalabilityLevels> techniqueLevels);
 
 } // namespace fx::quality

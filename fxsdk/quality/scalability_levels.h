@@ -1,5 +1,5 @@
 /// @file scalability_levels.h
-/// Cost and error of a technique at each level, from which quality is chosen.
+/// Cost and error of a technique at each level. Quality is chosen by them.
 #pragma once
 
 #include "rendering/techniques/draw_techniques.h"
@@ -14,18 +14,18 @@
 
 namespace fx::quality {
 
-constexpr size_t kMaxTechniques = 8; ///< techniques that are chosen at once
-constexpr size_t kMaxSteps = 16;     ///< of one technique
-constexpr size_t kMaxKnobs = 16;     ///< of all techniques
+constexpr size_t kMaxTechniques = 8; ///< maximum number of techniques in a choice
+constexpr size_t kMaxSteps = 16;     ///< maximum number of levels of one technique
+constexpr size_t kMaxKnobs = 16;     ///< maximum number of knobs of all techniques
 
-/// Settings that a step lowers, by render::QualityKnob::name; all others keep the host's values.
+/// Settings that a level lowers, by render::QualityKnob::name. All other settings keep the host's values.
 class Knobs
 {
 public:
     struct Setting
     {
         std::string_view name; ///< has static storage
-        float value;           ///< as of render::QualityKnob::lower
+        float value;           ///< as for render::QualityKnob::lower
     };
 
     Knobs() = default;
@@ -36,7 +36,7 @@ public:
     }
 
     std::optional<float> valueOf(std::string_view name) const;
-    void set(std::string_view name, float value); ///< no more than kMaxKnobs names
+    void set(std::string_view name, float value); ///< at most kMaxKnobs names
 
 private:
     std::array<Setting, kMaxKnobs> settings_{};
@@ -46,12 +46,13 @@ private:
 /// One setting of a technique.
 struct ScalabilityLevel
 {
-    double cost = 0;  ///< [1] time in units of the last step's, >= 0
-    double error = 0; ///< [1] mean difference from the last step's picture, in units of the light in it
+    double cost = 0; ///< [1] time relative to the highest level, >= 0
+    /// [1] mean difference from the picture of the highest level, relative to the light in it
+    double error = 0;
     Knobs knobs;
 };
 
-/// The settings of one technique worth having: each costs more than the one before and is less wrong.
+/// The useful levels of one technique. Each level has a higher cost and a lower error than the one before.
 struct ScalabilityLevels
 {
     std::string technique;
@@ -68,7 +69,7 @@ struct Calibration
     std::vector<ScalabilityLevels> techniqueLevels;
 };
 
-/// The levels of each technique for views that ask for `composition`, in the order of the calibration.
+/// The levels of each technique for views with `composition`, in the order of the calibration.
 std::vector<ScalabilityLevels> levelsFor(const Calibration& calibration, render::Composition composition);
 
 /// Calls f(knob) for every render::QualityKnob of the techniques, in their order.
@@ -81,10 +82,10 @@ void forEachKnob(F&& f, render::DrawTechniques techniques = render::drawTechniqu
                 f(knob);
 }
 
-/// The knobs of `first`, and those of `second` that `first` lacks.
+/// The knobs of `first`, and those of `second` that `first` does not contain.
 Knobs merged(const Knobs& first, const Knobs& second);
 
-/// Index of the step of each technique.
+/// Index of the chosen level of each technique.
 using Choice = std::array<uint8_t, kMaxTechniques>;
 
 /// Lowers `ioSettings` to the values of the knobs; never raises them.

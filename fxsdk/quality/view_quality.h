@@ -1,5 +1,6 @@
 /// @file view_quality.h
-/// Gives each frame of a view the settings that the controller chose, and the controller the times.
+/// Applies the levels chosen by the controller to each frame of a view, and passes frame times to the
+/// controller.
 ///
 /// Threads: [GL thread]. Steady state allocates nothing.
 #pragma once
@@ -31,13 +32,14 @@ public:
     /// Forces a setting, for measurements. Frames are timed, and the cost model does not change.
     void force(const std::optional<Knobs>& knobs) { forced_ = knobs; }
 
-    /// Lowers the renderer's settings for the next frame; end() restores them.
+    /// Lowers the renderer's settings for the next frame. end() restores them.
     void begin(render::ViewRenderer& renderer, double deltaTime, bool hold);
     void end(render::ViewRenderer& renderer);
-    /// Collects the available frame times; begin() and end() do so too.
+    /// Collects the available frame times. begin() and end() call it too.
     void collect(render::ViewRenderer& renderer);
 
-    /// Off without a budget; Gpu or Host as requested; empty when GL has no timestamps, and quality is fixed.
+    /// Clock in use: Off without a budget; Gpu or Host as requested; empty if GL has no timestamps, when
+    /// quality is fixed.
     std::optional<render::TimingClock> clock() const { return clock_; }
     /// Whether the controller chose the settings of the last frame.
     bool isControlled() const
@@ -50,10 +52,10 @@ public:
     {
         return hasCalibration() ? &*controllers_[active_] : nullptr;
     }
-    const Choice& choice() const { return chosen_; } ///< of the last frame
+    const Choice& choice() const { return chosen_; } ///< levels of the last frame
     bool wasHeld() const { return held_; }
-    std::span<const double> weights() const { return weights_; } ///< of the last frame
-    /// The last frame that has finished; nothing before one has.
+    std::span<const double> weights() const { return weights_; } ///< weights of the last frame
+    /// Times of the last finished frame; empty before the first one.
     const std::optional<render::GroupTimes>& times() const { return times_; }
 
 private:
@@ -65,7 +67,7 @@ private:
     std::optional<BudgetController>& active() { return controllers_[active_]; }
 
     std::array<std::optional<BudgetController>, render::kCompositionCount>
-        controllers_; ///< by the composition that is asked for; all or none
+        controllers_; ///< by requested composition; all are set or none
     size_t active_ = 0;
     std::optional<Knobs> forced_;
     std::optional<render::TimingClock> clock_ = render::TimingClock::Off;
@@ -73,7 +75,7 @@ private:
     Choice chosen_{};
     bool held_ = false;
     std::optional<render::GroupTimes> times_;
-    std::optional<render::ViewSettings> asked_; ///< by the host, between begin() and end()
+    std::optional<render::ViewSettings> asked_; ///< settings of the host, between begin() and end()
 };
 
 } // namespace fx::quality

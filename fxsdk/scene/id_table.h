@@ -15,11 +15,12 @@
 
 namespace fx::scene {
 
-constexpr unsigned kIdPartBits = 24; ///< of index and of generation
+constexpr unsigned kIdPartBits = 24; ///< bits of the index, and bits of the generation
 constexpr uint64_t kIdPartMask = (uint64_t(1) << kIdPartBits) - 1;
 
-/// Identity within one table: index (24 bits) | use of that index (24 bits), 0 for none. The same calls give
-/// the same identities in every run, so they may enter hashes; ids of the C API do not (see IdCodec).
+/// Identity within one table: index (24 bits) | generation of that index (24 bits); 0 for none. The same
+/// calls give the same identities in every run, so identities may be hashed. Ids of the C API differ from run
+/// to run (see IdCodec).
 using LocalId = uint64_t;
 
 constexpr uint32_t indexOf(LocalId id)
@@ -27,16 +28,16 @@ constexpr uint32_t indexOf(LocalId id)
     return uint32_t(id & kIdPartMask);
 }
 
-/// A table of T. Removed indices are reused first-in first-out, so that an id goes stale as long ago as
-/// possible; an index whose generations are used up is never used again, so that ids are unique.
+/// A table of T. Removed indices are reused first-in first-out, so that an index stays unused for as long as
+/// possible. An index whose generations are used up is never used again, so ids are unique.
 ///
-/// An index takes a few bytes. Values are stored densely in a separate array, whose length is the largest
-/// number of values at a time, independent of the number of indices.
+/// An index takes a few bytes. Values are stored densely in a separate array. The length of that array is the
+/// largest number of simultaneous values, independent of the number of indices.
 template <class T>
 class IdTable
 {
 public:
-    /// @param capacity most values at a time, at most 2^24 - 1
+    /// @param capacity maximum number of simultaneous values, at most 2^24 - 1
     /// @param lastUse  uses of an index before it is retired, 1..2^24 - 1
     IdTable(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t lastUse = uint32_t(kIdPartMask))
         : slots_(memory), values_(memory), freePlaces_(memory), capacity_(capacity), lastUse_(lastUse)
@@ -48,7 +49,7 @@ public:
         if (count_ == capacity_ || (firstFree_ == kNone && slots_.size() == kIdPartMask))
             return 0;
         if (freePlaces_.empty())
-            makePlace(); // may throw, as the next may; afterwards nothing does
+            makePlace(); // may throw, as emplace_back() may; nothing throws afterwards
         if (firstFree_ == kNone) {
             slots_.emplace_back();
             firstFree_ = lastFree_ = uint32_t(slots_.size() - 1);
@@ -68,7 +69,7 @@ public:
         const uint32_t index = indexOf(id);
         Slot& slot = slots_[index];
         drop(slot);
-        if (--slot.use == 0) { // made by that add()
+        if (--slot.use == 0) { // the index was created by that add()
             slots_.pop_back();
             return;
         }
@@ -78,7 +79,7 @@ public:
         firstFree_ = index;
     }
 
-    /// Null when the id names no object of this table. Valid until the next add() or remove().
+    /// Finds a value; null when the id is stale. The pointer is valid until the next add() or remove().
     T* find(LocalId id)
     {
         const uint32_t index = indexOf(id);
@@ -119,8 +120,8 @@ public:
                 f(index, values_[slots_[index].link]);
     }
 
-    /// Writes which identities are in use and in which order indices will be given out again, and calls
-    /// saveValue(value) for each value.
+    /// Writes the identities in use and the order in which indices will be reused. Calls saveValue(value) for
+    /// each value.
     template <class F>
     void save(sim::StateWriter& writer, F&& saveValue) const
     {
@@ -136,8 +137,8 @@ public:
         writer.value(kNone);
     }
 
-    /// Fills an empty table with identities, values from restoreValue(). Memory grows with the bytes read and
-    /// the number of values, which is at most the capacity of the table.
+    /// Restores identities into an empty table; restoreValue() returns the values. Memory grows with the
+    /// bytes read and the number of values, which must not exceed the capacity.
     template <class F>
     void restore(sim::StateReader& reader, F&& restoreValue)
     {
@@ -169,7 +170,7 @@ private:
     static constexpr uint32_t kNone = ~0u;
     struct Slot
     {
-        uint32_t use = 0;      ///< number of times the index has been given out
+        uint32_t use = 0;      ///< number of times the index has been used, its generation
         uint32_t link = kNone; ///< index of the value while in use, otherwise the next free index
         bool used = false;
     };
@@ -221,7 +222,7 @@ private:
     }
 
     std::pmr::vector<Slot> slots_; ///< by index
-    std::pmr::vector<T> values_;   ///< by place
+    std::pmr::vector<T> values_;   ///< values, in any order; Slot::link is the index
     std::pmr::vector<uint32_t> freePlaces_;
     uint32_t capacity_;
     uint32_t lastUse_;
@@ -230,9 +231,9 @@ private:
     uint32_t lastFree_ = kNone;
 };
 
-/// Turns local identities into ids of the C API and back: index 24 | generation 24 | owner 8 | type 8 bits.
-/// Owner and the offset of the generation differ from object to object, so an id of another owner, or of an
-/// owner that is gone, is mistaken for a valid one with a chance of 2^-32 at most.
+/// Converts local identities to ids of the C API and back: index 24 | generation 24 | owner 8 | type 8 bits.
+/// The owner bits and an offset of the generation differ from object to object. Therefore an id of another
+/// owner is mistaken for a valid one with a probability of at most 2^-32.
 class IdCodec
 {
 public:

@@ -1,6 +1,6 @@
 /// @file scene.h
-/// The instance table over the simulated world: existing instances, active instances, and the snapshots for
-/// views.
+/// A scene: the table of existing instances over the simulated world, the active instances, and the snapshots
+/// for views.
 ///
 /// Threads: one thread at a time (the scene thread); acquire() and release() from any thread.
 #pragma once
@@ -37,21 +37,22 @@ struct SceneOptions
     uint32_t maxInstances = 65'536;
     sim::Environment environment;
     bool shareInstances = true; ///< false: identical instances are simulated one by one
-    bool culling = true;        ///< false: everything is stepped always
+    bool culling = true;        ///< false: every instance is always stepped
     bool lockStep = false;      ///< instances that cannot be caught up bit for bit are never hidden
-    base::Ticks releaseAfter = 5 * base::kTicksPerSecond; ///< out of sight, until memory is given back
-    base::Ticks maxCatchUp = 30 * base::kTicksPerSecond;  ///< longest absence that is replayed
-    uint64_t catchUpSteps = 200'000;          ///< particle steps of an update that may be spent on replays
-    uint64_t workBudget = base::kNoWorkLimit; ///< [unit] of base::WorkBudget that an update may spend
+    /// time out of sight after which memory is released
+    base::Ticks releaseAfter = 5 * base::kTicksPerSecond;
+    base::Ticks maxCatchUp = 30 * base::kTicksPerSecond; ///< longest absence that is replayed
+    uint64_t catchUpSteps = 200'000;          ///< particle steps that one update may spend on replays
+    uint64_t workBudget = base::kNoWorkLimit; ///< [unit] of base::WorkBudget that one update may spend
 };
 
-/// Lifecycle state of an instance. Dormant, hidden, resting and finished ones are never visited.
+/// Lifecycle state of an instance. An update does not visit dormant, hidden, resting and finished instances.
 enum class InstanceState : uint32_t
 {
     Dormant,  ///< before its start; not in the world
     Active,   ///< stepped and shown
     Finished, ///< after its end; not in the world
-    Waking,   ///< in sight again, on its way to the present
+    Waking,   ///< in sight again and catching up
     Resting,  ///< has no particles, and no births before a known time
     Hidden,   ///< out of sight: paused
 };
@@ -61,11 +62,11 @@ enum class Reason : uint32_t
 {
     None,
     NotStarted,
-    Outside, ///< of all frusta
+    Outside, ///< outside of all frusta
     TooFar,
     TooSmall,
     Occluded,   ///< marked as occluded by the host
-    Budget,     ///< others matter more
+    Budget,     ///< hidden by the budget, because other instances are more significant
     CatchingUp, ///< its past is being simulated
     NothingMoves,
     Ended,
@@ -91,47 +92,48 @@ struct ActivationHints
 /// Counters of the last update; all but the estimate are exact.
 struct UpdateCounters
 {
-    uint32_t judged = 0;   ///< instances and nodes whose place was compared with the focus
-    uint32_t hidden = 0;   ///< went out of sight
-    uint32_t returned = 0; ///< are at the present again
-    uint32_t denied = 0;   ///< in sight, but beyond the budget: now
+    uint32_t judged = 0;   ///< instances and tree nodes that were tested against the frusta
+    uint32_t hidden = 0;   ///< instances that went out of sight
+    uint32_t returned = 0; ///< instances that have reached the present again
+    uint32_t denied = 0;   ///< instances that are now in sight but beyond the budget
     base::Ticks catchUpTicks = 0;
     uint64_t catchUpParticleSteps = 0;
-    uint64_t workUnits = 0; ///< see base::WorkBudget, those of catching up included
+    uint64_t workUnits = 0; ///< see base::WorkBudget, including the work of catching up
     sim::StepCounters work;
 };
 
-/// How an instance starts, checked by the caller.
+/// Initial values of an instance. The caller has validated them.
 struct InstanceSetup
 {
     std::shared_ptr<const sim::EffectDef> effect;
     uint64_t seed = 0;
-    base::Ticks startTick = 0; ///< a time in the past means the next step
+    base::Ticks startTick = 0; ///< if it is in the past, the instance starts with the next step
     base::Placement placement;
-    /// Placement at the last step, when the host has moved it since; only where the effect depends on it.
+    /// Placement at the last step, if the host has moved the instance since. Set only if the effect depends
+    /// on it.
     std::optional<base::Placement> cameFrom = {};
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
     sim::QualityLevel quality = sim::QualityLevel::Medium;
     uint32_t rate = sim::kNormalRate;             ///< see sim::InstanceClock
-    std::optional<sim::InstanceClock> clock = {}; ///< once the host has changed its time
+    std::optional<sim::InstanceClock> clock = {}; ///< set after the host has changed the instance's time
 };
 
 /// Exact counts since the scene was created, unless marked "now".
 struct SceneCounters
 {
-    uint32_t instances = 0;   ///< now; the sum of the next six
+    uint32_t instances = 0;   ///< now; the sum of the six members that follow
     uint32_t dormant = 0;     ///< now
     uint32_t active = 0;      ///< now
     uint32_t finished = 0;    ///< now
     uint32_t waking = 0;      ///< now
     uint32_t resting = 0;     ///< now
     uint32_t hidden = 0;      ///< now
-    uint32_t simulations = 0; ///< now; at most `active`: identical instances share one
+    uint32_t simulations = 0; ///< now; at most `active`, because identical instances share one
     uint64_t steps = 0;
     uint64_t wakeFailures = 0;
     uint64_t refusedUpdates = 0;
-    uint64_t catchUpsSkipped = 0; ///< absences too long to be replayed
+    uint64_t catchUpsSkipped = 0; ///< number of absences that were too long to be replayed
     base::Ticks droppedTicks = 0;
     sim::StepCounters work;
 };
@@ -140,9 +142,9 @@ struct SceneCounters
 struct Presentation
 {
     base::SnapshotPair snapshots;
-    double interpolation = 0; ///< [0, 1), 0 shows the older
-    double time = 0;          ///< [s] scene time of the moment shown
-    /// What the instances prefer. All instances that have not ended count, so that it does not depend on the
+    double interpolation = 0; ///< [0, 1), 0 shows the older step
+    double time = 0;          ///< [s] scene time that is shown
+    /// What the instances prefer. It includes all instances that have not ended, so it does not depend on the
     /// camera.
     sim::DrawingHints hints;
 };
@@ -153,23 +155,23 @@ public:
     Scene(const SceneOptions& options, const base::SnapshotSchema* schema, base::TaskRunner* tasks,
           std::pmr::memory_resource* memory);
 
-    /// Strong guarantee, also when memory runs out. @return 0 when the scene is full
+    /// Adds an instance. Strong guarantee, also when memory is exhausted. @return 0 when the scene is full
     LocalId add(InstanceSetup setup);
     bool contains(LocalId id) { return instances_.find(id) != nullptr; }
 
-    // Changes during an incomplete step, which a former update began, take effect at its end; a step ends
-    // with its publication.
+    // If an earlier update has left a step incomplete, changes take effect at the end of that step. A step
+    // ends with its publication.
 
     // The id must name an instance of this scene.
     void remove(LocalId id);
-    /// In lock-step mode the instance is caught up first, so that the result does not depend on cameras.
+    /// In lock-step mode the instance is first caught up, so that the result does not depend on cameras.
     InstanceState state(LocalId id);
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     /// @param rate see sim::InstanceClock
     void setRate(LocalId id, uint32_t rate);
-    /// Takes an instance to a local time; the next update() shows it, also one without a step.
+    /// Moves an instance to a local time. The next update() shows it, even if that update takes no step.
     /// @return InvalidArgument before its start and after its end
     base::Status seek(LocalId id, base::Ticks local);
     /// Triggers the host event `name` of an instance's preset `count` times.
@@ -187,11 +189,12 @@ public:
         double significance = 0; ///< [pixel] times priority
         double reach = 0;        ///< [m] world; infinite when unknown
         uint32_t particles = 0;
-        double milliseconds = 0; ///< of a step, estimated
+        double milliseconds = 0; ///< estimated time of a step
     };
     Activity activity(LocalId id);
 
-    /// Strong guarantee. @param frusta none: everything is in sight
+    /// Sets the frusta that decide visibility. Strong guarantee. @param frusta empty: every instance is in
+    /// sight
     void setFocus(std::span<const activation::Frustum> frusta);
     void setBudget(const activation::Budget& budget);
 
@@ -199,7 +202,7 @@ public:
     /// @param cellSize see sim::DistanceField::build
     /// @return the error of building the field
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
-    /// The same with a field that has been built already.
+    /// Replaces the geometry by a field that has already been built.
     void setCollisionField(std::shared_ptr<const sim::DistanceField> field)
     {
         world_.setField(std::move(field));
@@ -211,36 +214,36 @@ public:
         completeStep();
         world_.setContact(contact);
     }
-    /// Answers of the host since the last call that were none.
+    /// Number of invalid results of the contact callback since the last call.
     uint64_t takeContactFaults() { return world_.takeContactFaults(); }
     /// See sim::World::setGpuParticles.
     void setGpuParticles(bool onGpu) { world_.setGpuParticles(onGpu); }
 
     /// Advances by dt [s] and publishes the last two of the steps taken. If the work budget is used up before
-    /// all steps are complete, the next updates continue them, and simulated time lags. Throws std::bad_alloc
-    /// after all steps when memory ran out in one: time has advanced, and instances without memory are
-    /// missing.
+    /// all steps are complete, the next updates continue them, and simulated time lags. If memory is
+    /// exhausted in a step, throws std::bad_alloc after all steps: time has advanced, and instances without
+    /// memory are missing.
     /// @return false when dt was negative or not finite; then only the counter of refused updates has changed
     bool update(double dt);
 
     SceneCounters counters() const;
-    uint32_t particles() const; ///< of all active instances
+    uint32_t particles() const; ///< sum over all active instances
     const UpdateCounters& lastUpdate() const { return update_; }
-    double nanosecondsPerParticle() const; ///< [ns] of a step, given or measured
+    double nanosecondsPerParticle() const; ///< [ns] time of one particle in one step, given or measured
     const base::StepClock& clock() const { return clock_; }
-    /// Hash of the published particles of the last step and of its time, independent of the division into
-    /// updates.
+    /// Hash of the published particles of the last step and of the time of that step. It does not depend on
+    /// the division of time into updates.
     uint64_t stateHash();
 
-    /// Hash of everything that later steps depend on, except the remainder of the clock, so that it does not
-    /// depend on the frame rate. Hidden instances are caught up first if that does not change later results.
+    /// Hash of everything that later steps depend on. It excludes the remainder of the clock and so does not
+    /// depend on the frame rate. Hidden instances are first caught up if that does not change later results.
     uint64_t simulationHash();
-    /// Writes the state for restore(). Hidden instances are caught up first.
+    /// Writes the state for restore(). Hidden instances are first caught up.
     void save(sim::StateWriter& writer);
     /// Finds an effect without instances by its fingerprint; null when it does not exist.
     using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
-    /// Takes the state of a scene with the same step, gravity, ground and geometry, identities included, and
-    /// publishes it. Strong guarantee.
+    /// Restores the state, including identities, of a scene with the same step, gravity, ground and geometry,
+    /// and publishes it. Strong guarantee.
     /// @return Parse, NotFound (an effect), InvalidArgument (another step, gravity, ground or
     /// geometry), Capacity
     base::Status restore(std::span<const std::byte> bytes, const FindEffect& findEffect);
@@ -251,7 +254,8 @@ public:
         instances_.forEach([&](uint32_t index, const Instance&) { f(instances_.idAt(index)); });
     }
 
-    /// While enabled, each update() writes a mark of every instance, which visits all instances. [any thread]
+    /// While enabled, each update() writes a mark for every instance; then it visits all instances. [any
+    /// thread]
     void wantMarks(bool more) { marksWanted_.fetch_add(more ? 1 : -1); }
     /// Copies the marks of the last update(). [any thread]
     void copyMarks(std::pmr::vector<Mark>& out);
@@ -266,19 +270,20 @@ private:
     {
         InstanceSetup setup;
         uint64_t serial = 0; ///< order of creation
-        sim::Slot slot = 0;  ///< in the world, unless dormant or finished
+        sim::Slot slot = 0;  ///< slot in the world, unless dormant or finished
         InstanceState state = InstanceState::Finished;
-        Reason reason = Reason::None; ///< of being hidden
+        Reason reason = Reason::None; ///< reason for being hidden
         sim::CatchUp policy = sim::CatchUp::Replay;
         activation::SphereHierarchy::Leaf leaf = activation::SphereHierarchy::kNone;
         bool hasAlarm = false;
-        bool wasResting = false;    ///< before it began to wake
-        bool isLate = false;        ///< waking: its past was too much work for the update in which it began
-        uint32_t lastParticles = 0; ///< when it was hidden
+        bool wasResting = false; ///< whether it was resting when it began to wake
+        /// waking, and its replay exceeded the work of the update in which it began to wake
+        bool isLate = false;
+        uint32_t lastParticles = 0; ///< number of particles when it was hidden
         ActivationHints hints;
-        double reach = 0;                    ///< [m] world
-        float localReach = 0;                ///< [m] of the effect in a wind of reachWind
-        float reachWind = -1;                ///< [m/s] local; negative before it was measured
+        double reach = 0;     ///< [m] world
+        float localReach = 0; ///< [m] reach of the effect in local space, in a wind of reachWind
+        float reachWind = -1; ///< [m/s] local; negative before reachWind was measured
         std::unique_ptr<MotionHistory> past; ///< null while present values suffice for the bounds
     };
     struct Restored; ///< a state that is being restored
@@ -305,7 +310,7 @@ private:
     void makeChanges();
     void letArrive();
     void wait(uint32_t index);
-    /// Tick from which changes made now take effect.
+    /// Tick from which a change made now takes effect.
     base::Ticks present() const
     {
         return clock_.simulated() + (world_.isStepping() ? clock_.stepTicks() : 0);
@@ -316,7 +321,7 @@ private:
     void finish(uint32_t index);
     void countHints(const Instance& instance, int more);
 
-    // in and out of sight
+    // visibility
     bool mayHide(const Instance& instance) const;
     activation::Ball ballOf(const Instance& instance) const;
     double significanceOf(const Instance& instance) const;
@@ -340,7 +345,7 @@ private:
     void setAlarm(uint32_t index, base::Ticks tick);
     void restOrNot(base::Ticks now);
     void settle(bool alsoInexact);
-    void forgetSight(); ///< after restore(): everything is active
+    void forgetSight(); ///< after restore(): makes every instance active
     std::vector<sim::Slot> slotsBySerial() const;
     void settleOne(uint32_t index, bool alsoInexact);
     base::Ticks endOf(const Instance& instance) const;
@@ -357,7 +362,7 @@ private:
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
     using Effects = std::vector<std::shared_ptr<const sim::EffectDef>>;
-    Effects effects() const; ///< each content once, in the order of first use
+    Effects effects() const; ///< distinct effects, in the order of first use
     static size_t placeOf(const Effects& effects, const sim::EffectDef& wanted);
     void saveRules(sim::StateWriter& writer) const;
     void saveInstances(sim::StateWriter& writer) const;
@@ -378,27 +383,29 @@ private:
     activation::TimerQueue dormant_;
     activation::ActiveList active_;
     activation::ActiveList waking_;
-    activation::ActiveList denied_;    ///< in sight, beyond the budget
-    activation::ActiveList coarse_;    ///< hidden, stepped coarsely
-    activation::SphereHierarchy tree_; ///< hidden because of their position
-    activation::TimerQueue alarms_;    ///< of hidden and resting ones
+    activation::ActiveList denied_;    ///< instances in sight, beyond the budget
+    activation::ActiveList coarse_;    ///< instances that are hidden and stepped coarsely
+    activation::SphereHierarchy tree_; ///< instances that are hidden because of their position
+    activation::TimerQueue alarms_;    ///< wake-up times of hidden and resting instances
     activation::FocusSet focus_;
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch
-    std::pmr::vector<LocalId> arrived_; ///< entered the world with a past that is not simulated yet
-    std::pmr::vector<Seek> seeks_;      ///< requested during an incomplete step
-    base::WorkBudget work_;             ///< of the update
-    uint64_t stepWork_ = 0;             ///< [unit] spent on the open step
-    uint64_t shownWork_ = 0;            ///< [unit] spent on the open publication, or the last one
-    base::Ticks published_ = 0;         ///< scene time of the last publication
-    std::pmr::vector<LocalId> moved_;   ///< instances with InstanceSetup::cameFrom, and perhaps others
-    bool visibilityStale_ = false;      ///< an instance or a camera has moved
+    /// instances that entered the world with a past that is not simulated yet
+    std::pmr::vector<LocalId> arrived_;
+    std::pmr::vector<Seek> seeks_;    ///< seeks requested during an incomplete step
+    base::WorkBudget work_;           ///< budget of the present update
+    uint64_t stepWork_ = 0;           ///< [unit] spent on the open step
+    uint64_t shownWork_ = 0;          ///< [unit] spent on the open publication, or the last one
+    base::Ticks published_ = 0;       ///< scene time of the last publication
+    std::pmr::vector<LocalId> moved_; ///< instances with InstanceSetup::cameFrom, and possibly others
+    bool visibilityStale_ = false;    ///< an instance or a camera has moved
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;
     /// Number of empty publications after which a further one has no effect.
     static constexpr uint32_t kMaxEmptyPublications = 2;
-    uint32_t emptyPublications_ = 0; ///< one after the other, counted up to kMaxEmptyPublications + 1
+    /// number of consecutive empty publications, counted up to kMaxEmptyPublications + 1
+    uint32_t emptyPublications_ = 0;
     uint32_t hidden_ = 0;
     uint32_t resting_ = 0;
     double measuredNanoseconds_ =
@@ -407,14 +414,14 @@ private:
     SceneCounters counters_;
     uint64_t nextSerial_ = 0;
 
-    std::mutex presentation_; ///< makes publication and the members below one change for acquire()
+    std::mutex presentation_; ///< lets acquire() see publication and the members below change together
     std::atomic<double> interpolation_{0}; ///< changed without the mutex while nothing is visible
     std::atomic<double> shownTime_{0};     ///< likewise
     std::atomic<bool> showsNothing_{false};
     sim::HintCounts preferring_; ///< of the instances that have not ended
     std::atomic<sim::DrawingHints> hints_{sim::DrawingHints()};
     std::pmr::vector<Mark> marks_;
-    std::pmr::vector<Mark> newMarks_; ///< of the scene thread
+    std::pmr::vector<Mark> newMarks_; ///< written by the scene thread
     std::atomic<int> marksWanted_{0};
 };
 

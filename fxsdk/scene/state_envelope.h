@@ -1,8 +1,8 @@
 /// @file state_envelope.h
-/// Header of a saved state, by which foreign, outdated, truncated and damaged states are recognized.
+/// Header of a saved state. It detects foreign, outdated, truncated and damaged states.
 ///
-/// magic u32 · version of the SDK u32 · layout u32 · 0 u32 · size of the state u64 · checksum u64 · the
-/// state. In the byte order of the machine; the magic number reveals another order.
+/// magic u32 · version of the SDK u32 · layout u32 · 0 u32 · size of the state u64 · checksum u64 · state.
+/// Numbers are in the byte order of the machine; the magic number detects another byte order.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -15,14 +15,14 @@ namespace fx::scene {
 
 constexpr size_t kStateHeaderBytes = 32;
 
-/// Incremented with every change of the state's layout within one version of the SDK.
+/// Incremented with every change of the layout of the state within one version of the SDK.
 constexpr uint32_t kStateLayout = 2;
 
 /// @param sdkVersion as FX_VERSION
 /// @param out room for kStateHeaderBytes
 void writeStateHeader(std::span<const std::byte> state, uint32_t sdkVersion, std::byte* out);
 
-/// The state inside of `bytes`.
+/// Returns the state inside of `bytes`.
 /// @return Parse (not a state, cut or damaged), Version (of another SDK or layout)
 base::Result<std::span<const std::byte>> openState(std::span<const std::byte> bytes, uint32_t sdkVersion);
 

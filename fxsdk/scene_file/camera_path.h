@@ -1,5 +1,5 @@
 /// @file camera_path.h
-/// The camera of a scene: fixed, or moved smoothly through keys.
+/// The camera of a scene, fixed or moved smoothly through keys.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -16,14 +16,15 @@ struct CameraKey
     glm::dvec3 target{0};   ///< [m]
 };
 
-/// Where the camera is at one moment.
+/// Camera position and target at one moment.
 struct CameraPose
 {
     glm::dvec3 position;
     glm::dvec3 target;
 };
 
-/// Camera and its motion. Keys have rising times; before the first and after the last the camera rests.
+/// Camera and its motion. Key times increase. Before the first key and after the last the camera stands
+/// still.
 struct CameraPath
 {
     glm::dvec3 position{0, 2, 12}; ///< [m] without keys
@@ -34,12 +35,11 @@ struct CameraPath
     float nearPlane = 0.1f;       ///< [m] > 0
     std::vector<CameraKey> keys;
 
-    /// Position and target at `time` [s]: cubic Hermite through the keys with Catmull-Rom tangents for uneven
-    /// times, so that velocity is continuous inside the path.
+    /// Position and target at `time` [s]: cubic Hermite interpolation through the keys with Catmull-Rom
+    /// tangents for nonuniform times, so that velocity is continuous inside the path.
     CameraPose at(double time) const;
 
-    /// World to eye, relative to the camera's position (rotation only): pair it with an origin at that
-    /// position.
+    /// Rotation from world to eye. Use it with an origin at the camera's position.
     glm::mat4 viewRotation(double time) const;
     /// Infinite far plane for perspective, 10 km for orthographic; OpenGL clip space, z in [-w, w].
     glm::mat4 projection(float aspect) const;

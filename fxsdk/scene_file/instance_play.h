@@ -1,5 +1,5 @@
 /// @file instance_play.h
-/// Changes of one effect of a scene over time, which a host would make by API calls.
+/// Changes of one effect of a scene over time, corresponding to API calls of a host.
 ///
 /// All times are those of the scene [s], not of the effect.
 #pragma once
@@ -13,34 +13,34 @@
 
 namespace fx::scene_file {
 
-/// Where the effect is at one time.
+/// Placement of the effect at one time.
 struct InstanceKey
 {
-    double time = 0;               ///< [s] later than that of the key before
-    glm::dvec3 position{0};        ///< [m] world; not used unless the play moves
-    glm::dvec3 rotationDegrees{0}; ///< about x, then y, then z; not used unless the play turns
+    double time = 0;               ///< [s] later than that of the previous key
+    glm::dvec3 position{0};        ///< [m] world; used only if InstancePlay::moves
+    glm::dvec3 rotationDegrees{0}; ///< about x, then y, then z; used only if InstancePlay::turns
 };
 
-/// A value that holds from a time on.
+/// A value that is valid from a time on.
 struct TimedValue
 {
-    double time = 0; ///< [s] later than that of the one before
+    double time = 0; ///< [s] later than that of the previous value
     double value = 0;
 };
 
 /// An event of the host.
 struct Trigger
 {
-    double time = 0; ///< [s] not before the instance's start or the trigger before
+    double time = 0; ///< [s] not before the start of the instance or the previous trigger
     std::string name;
     uint32_t count = 1;
 };
 
-/// A jump in the effect's own time.
+/// A jump in the local time of the effect.
 struct TimeJump
 {
-    double time = 0; ///< [s] not before the instance's start or the jump before
-    double to = 0;   ///< [s] since the effect's beginning
+    double time = 0; ///< [s] not before the start of the instance or the previous jump
+    double to = 0;   ///< [s] local time after the jump
 };
 
 struct InstancePlay
@@ -59,7 +59,7 @@ struct InstancePlay
     }
 };
 
-/// The last value whose time is not in the future, `before` when no value is.
+/// The last value with a time up to `time`; `before` if there is none.
 double valueAt(const std::vector<TimedValue>& values, double time, double before);
 
 /// Rotation about x, then y, then z.

@@ -1,5 +1,5 @@
 /// @file mesh_reader.h
-/// Wavefront OBJ with its MTL to triangles.
+/// Converts Wavefront OBJ files with MTL materials to triangles.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -12,10 +12,10 @@ namespace fx::scene_file {
 
 constexpr size_t kMaxTriangles = 1'000'000;
 
-/// Reads asset `name`; materials come through the same resolver. Polygons are triangulated; colors are the
-/// materials' Kd, taken as linear and clamped to [0, 1], 0.5 gray without material; missing normals are
-/// replaced by those of the triangles.
-/// @param outWarning names unknown statements of the file; empty without such
+/// Reads the asset `name`; the same resolver finds its materials. Polygons are triangulated. Colors are the
+/// Kd of the materials, taken as linear and clamped to [0, 1], or 0.5 gray without a material. Missing
+/// normals are replaced by those of the triangles.
+/// @param outWarning names unknown statements of the file; empty if there are none
 /// @return the resolver's error, Parse, TooLarge
 base::Result<render::StageMesh> readMesh(const std::string& name, const asset::AssetResolver& resolver,
                                          std::string& outWarning);

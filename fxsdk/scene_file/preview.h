@@ -1,5 +1,5 @@
 /// @file preview.h
-/// The member "preview" of a preset, by which tools show it.
+/// The member "preview" of a preset, which defines how tools show it.
 #pragma once
 
 #include "fxsdk/scene_file/scene_file.h"
@@ -13,13 +13,13 @@ namespace fx::scene_file {
 
 struct Preview
 {
-    std::optional<double> time; ///< [s] of a still, when the preset names one
-    bool hasCamera = false;     ///< the scene's camera is the preset's
+    std::optional<double> time; ///< [s] time of a still, if the preset states one
+    bool hasCamera = false;     ///< true: the preset defines the camera of the scene
 };
 
-/// Reads the member "preview" of a valid preset into a scene with one instance; absent members do not change
+/// Reads the member "preview" of a valid preset into a scene with one instance. Absent members do not change
 /// the scene.
-/// @param text     the preset
+/// @param text     text of the preset
 /// @param resolver finds the mesh and the image of the preview
 /// @param outDiagnostics receives all findings; may be null
 /// @return Schema, or the error of an asset

@@ -1,7 +1,7 @@
 /// @file scene_file.h
 /// Loads a scene (`*.scene.json`) for tools: camera, lights, background, mesh, instances.
 ///
-/// libfxsdk does not contain it. Threads: any; calls share no data.
+/// Not part of libfxsdk. Threads: any; calls share no data.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -32,18 +32,18 @@ struct SceneInstance
     double start = 0.0;                         ///< [s] scene time, >= 0
     uint64_t seed = 1;
     sim::InstanceParameters parameters;
-    InstancePlay play; ///< its changes over time
+    InstancePlay play; ///< changes over time
 
     /// Placement at a scene time [s].
     base::Placement placementAt(double time) const;
 };
 
-/// A preset that instances use. Tools that go through the C API load it again by its text.
+/// A preset that instances use. Tools that use the C API load it again from its text.
 struct ScenePreset
 {
-    std::string name; ///< as written in the scene file
-    std::string text; ///< the JSON behind it
-    std::string file; ///< path; empty: in the library
+    std::string name; ///< name in the scene file
+    std::string text; ///< JSON text
+    std::string file; ///< path; empty: the preset is in the library
     std::shared_ptr<const sim::EffectDef> effect;
 };
 
@@ -51,20 +51,20 @@ struct SceneFile
 {
     std::string name;
     CameraPath camera;
-    std::vector<render::SceneLight> lights; ///< besides sun and sky
+    std::vector<render::SceneLight> lights; ///< lights other than sun and sky
     render::ViewSettings view;              ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
     render::StageBackground background;
     render::StageMesh mesh;    ///< empty when the scene has none
-    std::string meshFile;      ///< path; empty: in the library, or no mesh
-    bool meshCollides = false; ///< effects collide with it
-    /// [m] cell size of its collision grid; 0: the smallest with at most four million cells.
+    std::string meshFile;      ///< path; empty: the mesh is in the library, or there is none
+    bool meshCollides = false; ///< whether effects collide with the mesh
+    /// [m] cell size of the collision grid; 0: the smallest size that gives at most four million cells.
     float meshCellSize = 0.0f;
     std::vector<ScenePreset> presets;
     std::vector<SceneInstance> instances;
     std::vector<preset::Diagnostic> warnings;
 };
 
-/// What the presets of the instances prefer; the greatest value of each member is used.
+/// Drawing hints of the scene: for each member, the greatest value among the presets of the instances.
 sim::DrawingHints preferredHints(const SceneFile& scene);
 
 /// Largest scene, mesh and image that are read [byte].
@@ -79,7 +79,7 @@ base::Result<SceneFile> loadSceneText(std::string_view text, const std::string& 
                                       const asset::AssetResolver& resolver,
                                       std::vector<preset::Diagnostic>* outDiagnostics = nullptr);
 
-/// The same for a file; assets are looked for in its folder.
+/// Loads a scene from a file; assets are searched in the folder of the file.
 base::Result<SceneFile> loadSceneFile(const std::string& path,
                                       std::vector<preset::Diagnostic>* outDiagnostics = nullptr);
 

@@ -12,22 +12,22 @@
 
 namespace fx::scene_file {
 
-// Plain values, in scene_settings.cpp: camera, light, view settings, placement of instances.
+// Plain values (scene_settings.cpp): camera, light, view settings, placement of instances.
 
 CameraPath readCamera(const preset::PresetValue& camera);
 render::SceneLight readLight(const preset::PresetValue& light);
-/// Exposure, lighting, shimmer, dazzle, form, detail, tone map.
+/// Reads exposure, lighting, shimmer, dazzle, form, detail, tone map.
 render::ViewSettings readView(const preset::PresetValue& root);
-/// All but the preset.
+/// Reads everything except the preset.
 SceneInstance readInstance(const preset::PresetValue& instance);
 
-// The opaque surroundings, in scene_stage.cpp, with the files that the members name.
+// Opaque surroundings (scene_stage.cpp), with the files that the members name.
 
-/// Adds to `findings` that the asset named by the member could not be read.
+/// Adds a finding that the asset named by the member could not be read.
 void reportAsset(const preset::PresetValue& value, const char* member, const base::Status& status,
                  preset::Findings& findings);
 
-/// Reads the member "mesh" of a scene into `scene`; without it, `scene` does not change.
+/// Reads the member "mesh" of a scene into `scene`. If it is absent, `scene` does not change.
 void readSceneMesh(const preset::PresetValue& mesh, const asset::AssetResolver& resolver,
                    preset::Findings& findings, SceneFile& scene);
 
@@ -35,14 +35,14 @@ void readSceneMesh(const preset::PresetValue& mesh, const asset::AssetResolver& 
 void readBackground(const preset::PresetValue& background, const asset::AssetResolver& resolver,
                     preset::Findings& findings, SceneFile& scene);
 
-// Changes of an instance over time, in instance_play_reader.cpp.
+// Changes of an instance over time (instance_play_reader.cpp).
 
-/// @param value the instance; faults are added to the findings
-/// @param start  [s] of the instance
+/// Reads the changes. @param value the instance; findings are added for faults
+/// @param start  [s] start of the instance
 InstancePlay readPlay(const preset::PresetValue& value, double start);
 
-/// Findings for triggers that the preset does not hear.
-/// @param known names of its events of the kind "host"
+/// Adds findings for triggers whose event the preset does not define.
+/// @param known names of the preset's events of the kind "host"
 void checkTriggers(const preset::PresetValue& value, const InstancePlay& play,
                    std::span<const std::string> known);
 

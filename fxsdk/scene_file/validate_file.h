@@ -1,5 +1,5 @@
 /// @file validate_file.h
-/// Checks one file of a user.
+/// Validates a preset or scene file.
 #pragma once
 
 #include "fxsdk/presets/diagnostic.h"
@@ -14,11 +14,11 @@ namespace fx::preset {
 /// Estimated cost of an instance of a preset.
 struct Needs
 {
-    uint64_t solverBytes = 0; ///< [byte] that its solvers can take
+    uint64_t solverBytes = 0; ///< [byte] maximum memory of its solvers
     sim::EffectCost cost;
 };
 
-/// All faults of the preset (`*.fx.json`) or scene (`*.scene.json`) at `path`; empty when it is valid. The
+/// Findings about the preset (`*.fx.json`) or scene (`*.scene.json`) at `path`; empty if it is valid. The
 /// presets, mesh and image of a scene are checked too.
 /// @param outNeeds receives the estimated cost of an instance of a valid preset; may be null
 std::vector<Diagnostic> validateFile(const std::string& path, Needs* outNeeds = nullptr);

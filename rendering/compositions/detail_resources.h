@@ -1,5 +1,5 @@
 /// @file detail_resources.h
-/// What compositions need on the GPU to draw the detail of fields. Threads: [GL thread].
+/// Resources on the GPU with which compositions draw the detail of fields. Threads: [GL thread].
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -11,20 +11,21 @@
 
 namespace fx::render {
 
-constexpr int kCoarseOctaves = 3; ///< of detail, where a picture is coarse
+constexpr int kCoarseOctaves = 3; ///< octaves of detail in coarse pictures
 
-/// What the GPU gets of the detail of a group.
+/// Converts the detail of a group to the layout of the GPU. @param octaves 1 .. kMaxDetailOctaves
 FieldDetailBlock detailBlock(const GroupDetail& detail, int octaves);
 
-/// The periodic cube of lumps, which is filled once. Nothing is created before makeRoom().
+/// The texture of the periodic cube of noise (formula lump-noise). It is created by makeRoom() and filled
+/// once.
 class LumpTileTexture
 {
 public:
     /// @return OutOfMemory, InvalidArgument (the context has no textures of this size)
     base::Status makeRoom(GlDevice& device);
-    /// Imports it, and adds the pass that fills it if none has. After makeRoom().
+    /// Imports the texture, and adds the pass that fills it if it is not filled. Requires makeRoom().
     [[nodiscard]] ResourceId addTo(FrameGraph& graph);
-    /// The passes of the last addTo() have not run.
+    /// Call this if the passes of the last addTo() have not run: the next addTo() fills the texture.
     void forget() { isFilled_ = false; }
     void release() { texture_ = {}; }
     uint64_t bytes() const { return texture_.name() != 0 ? texture_.bytes() : 0; }

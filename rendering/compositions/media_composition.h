@@ -15,28 +15,28 @@
 
 namespace fx::render {
 
-/// State of a view for its composition. It gathers after all techniques, and its passes of a stage follow
-/// theirs. gather() moves the streams that it draws itself out of GatheredFrame::streams; the media pass
-/// draws the others, sorted, over what compose() draws.
+/// State of a view for its composition. The composition gathers after all techniques, and in each stage its
+/// passes follow those of the techniques. gather() removes the streams that the composition draws from
+/// GatheredFrame::streams. The media pass draws the remaining streams, sorted, over the result of compose().
 class CompositionView : public TechniqueView
 {
 public:
-    /// Whether the last gather() took any stream.
+    /// Whether the last gather() took a stream.
     virtual bool hasMedia() const = 0;
 
-    /// Adds passes that refine light slices, after these have been filled with balls and before any pass
-    /// reads them. Called by frames and by the preparation of lights.
+    /// Adds passes that refine light slices. They run after the slices have been filled with balls and before
+    /// any pass reads them. Called for frames and for the preparation of lights.
     /// @return bindings for the following passes
     [[nodiscard]] virtual LightBindings addLightPasses(FrameGraph&, const LightBindings& lights)
     {
         return lights;
     }
 
-    /// Adds the passes that draw the streams taken by gather(). A frame calls it once or, with layers smaller
-    /// than the picture, for each end of the depth of their texels.
+    /// Adds the passes that draw the streams taken by gather(). A frame calls it once. With layers smaller
+    /// than the picture, it calls it twice: for the near and the far end of the depth in each texel.
     /// @param in as for the media pass; `in.batches` is empty
-    /// @param under the targets to draw over; invalid members: none
-    /// @return targets as those of the media pass
+    /// @param under the targets to draw over; invalid members: nothing is drawn over
+    /// @return the targets, as MediaPass returns them
     [[nodiscard]] virtual MediaPass::Outputs compose(FrameGraph& graph, const MediaPass::Inputs& in,
                                                      const MediaPass::Outputs& under) = 0;
 };
@@ -44,13 +44,13 @@ public:
 /// One composition. Has static storage.
 struct MediaComposition
 {
-    Composition value;        ///< of ViewSettings
-    std::string_view meaning; ///< one line
-    /// Whether balls of medium have to be sorted for it; false: they come as they were gathered.
+    Composition value;        ///< the value in ViewSettings
+    std::string_view meaning; ///< description in one line
+    /// Whether the composition needs sorted balls of medium; false: they have the order of gathering.
     bool needsOrder = true;
     /// Creates the state of a view; null: the media pass draws everything.
     std::unique_ptr<CompositionView> (*create)(const TechniqueSetup& setup) = nullptr;
-    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all programs it may use; null: none
+    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all programs that it may use; null: none
     std::span<const TimedPass> timedPasses = {};                 ///< passes with a timer group of their own
 };
 

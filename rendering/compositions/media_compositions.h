@@ -1,20 +1,20 @@
 /// @file media_compositions.h
-/// The explicit list of compositions that are built in.
+/// The list of built-in compositions.
 #pragma once
 
 #include "rendering/compositions/media_composition.h"
 
 namespace fx::render {
 
-/// Slabs across each ray, in which overlapping media are summed.
+/// Divides each ray into depth intervals (slabs), in which overlapping media are summed.
 extern const MediaComposition kSlabComposition;
 
-/// Voxels in which the balls of each effect are summed, and through which rays march.
+/// Sums the balls of each effect in voxels, and marches rays through the voxels.
 extern const MediaComposition kVolumeComposition;
 
 std::span<const MediaComposition* const> mediaCompositions();
 
-/// Null: it is not built in.
+/// Null if the composition is not built in.
 const MediaComposition* findComposition(Composition value);
 
 } // namespace fx::render

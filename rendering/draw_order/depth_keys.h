@@ -1,6 +1,6 @@
 /// @file depth_keys.h
-/// Distances of a group's rows, and whole numbers that sort like them: loops over whole columns, compiled for
-/// each instruction set.
+/// Distances of a group's rows, and integer keys with the same order. The loops run over whole columns and
+/// are compiled for each instruction set.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,21 +15,23 @@ constexpr uint32_t kAbsentKey = ~0u; ///< key of NaN
 /// Range and order of a list of keys.
 struct KeySpan
 {
-    uint32_t lowest, highest; ///< of keys other than kAbsentKey; both 0 without such
-    uint32_t absent;          ///< how many are kAbsentKey
-    uint32_t changed;         ///< how many are others than before
-    uint32_t newcomers;       ///< number of those that were kAbsentKey before
+    uint32_t lowest, highest; ///< extremes of the keys other than kAbsentKey; both 0 if there are none
+    uint32_t absent;          ///< number of keys that are kAbsentKey
+    uint32_t changed;         ///< number of keys that differ from the previous list
+    uint32_t newcomers;       ///< number of changed keys that were kAbsentKey in the previous list
 };
 
-/// Sets of elements: element i is bit i % 8 of byte i / 8, with room for a multiple of 64 bits.
+/// Sets of elements as bits: element i is bit i % 8 of byte i / 8. Each array has room for a multiple of 64
+/// bits.
 struct KeyChanges
 {
     uint8_t* changed;
     uint8_t* newcomers;
 };
 
-/// Keys whose ascending order is that of the values, or their descending order with flip = ~0.
-/// @param ioKeys keys of the previous list; replaced by the new ones @param out further outputs
+/// Computes keys whose ascending order is that of the values, or with flip = ~0 their descending order.
+/// @param flip 0 or ~0  @param ioKeys keys of the previous list; replaced by the new keys
+/// @param out receives the sets of changed keys
 KeySpan makeKeys(const float* values, uint32_t flip, uint32_t* ioKeys, const KeyChanges& out, size_t count);
 
 /// Columns of one group.
@@ -39,8 +41,8 @@ struct RowColumns
     size_t count;
 };
 
-/// Distance of each row from `eye`, or, with `isParallel`, along the unit vector `eye`; NaN for rows whose
-/// radius is not above 0.
+/// Distance of each row from the point `eye` or, with `isParallel`, along the unit vector `eye`. NaN for rows
+/// whose radius is not above 0.
 /// @param scale, offset the output is distance * scale + offset @param out [m]
 void rowDistances(const RowColumns& rows, const glm::vec3& eye, bool isParallel, float scale, float offset,
                   float* out);

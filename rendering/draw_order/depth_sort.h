@@ -1,5 +1,5 @@
 /// @file depth_sort.h
-/// Order of drawing: by distance or age, ties by position in the list.
+/// Order of drawing: by distance or age; elements with equal keys keep the order of the list.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace fx::render {
 
-/// Radix sort that keeps its memory and starts from its last order: if few elements have moved, been added or
-/// removed since, only those are sorted and merged. The result is that of a full sort.
+/// Radix sort that keeps its memory and starts from its last order. If few elements have moved, been added or
+/// been removed since, only these are sorted and merged. The result equals that of a full sort.
 ///
 /// Stable: equal keys keep the order of the input, so that elements at equal distances do not flicker.
 class DepthSort
 {
 public:
-    /// Key of elements to leave out.
+    /// Distance of elements that are not part of the result.
     static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
     explicit DepthSort(std::pmr::memory_resource* memory)
@@ -28,11 +28,12 @@ public:
     /// @param distances [m] any sign; NaN leaves the element out
     /// @return indices into `distances`, farthest first; valid until the next call
     std::span<const uint32_t> farthestFirst(std::span<const float> distances) { return sort(distances, ~0u); }
-    /// The other way round.
+    /// As farthestFirst(), but nearest first.
     std::span<const uint32_t> nearestFirst(std::span<const float> distances) { return sort(distances, 0u); }
 
-    void forget() { order_.clear(); } ///< the next order is unrelated to the last one
-    /// Elements that the last call sorted; fewer than it returned when it began with the order before.
+    void forget() { order_.clear(); } ///< the next call sorts all elements
+    /// Number of elements that the last call sorted. It is smaller than the number of returned elements if
+    /// the call started from the last order.
     size_t sortedElements() const { return sortedElements_; }
 
 private:
@@ -43,15 +44,15 @@ private:
     void sortAll();
     void sortMoved(size_t count);
 
-    std::pmr::vector<uint32_t> keys_; ///< to be put in ascending order; ~0 for absent elements
+    std::pmr::vector<uint32_t> keys_; ///< sorted in ascending order; ~0 for absent elements
     std::pmr::vector<uint32_t> order_;
     std::pmr::vector<uint64_t> changed_;   ///< bit set of elements whose keys differ from the previous call
     std::pmr::vector<uint64_t> arrived_;   ///< bit set of elements that were absent in the previous call
-    std::pmr::vector<uint32_t> blockEnds_; ///< of the sorted part: the key of each block's last
+    std::pmr::vector<uint32_t> blockEnds_; ///< key of the last element of each sorted block
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;
     std::pmr::vector<uint64_t> scratch_;
-    uint32_t lowest_ = 0, highest_ = 0; ///< of the keys that are present
+    uint32_t lowest_ = 0, highest_ = 0; ///< extremes of the keys that are present
     size_t presentCount_ = 0;
     size_t sortedElements_ = 0;
 };

@@ -1,6 +1,6 @@
 /// @file draw_batcher.h
-/// Divides blobs and groups of particles into batches by depth slabs, so that they cover each other by
-/// distance.
+/// Divides blobs and groups of particles into batches by depth slabs, so that nearer elements cover farther
+/// ones.
 #pragma once
 
 #include "rendering/passes/media_source.h"
@@ -12,23 +12,23 @@
 
 namespace fx::render {
 
-/// Things that are drawn one after the other in a fixed order.
+/// Elements of one source that are drawn one after another in a fixed order.
 struct DrawStream
 {
-    uint32_t batch = 0; ///< number of the source's batch
+    uint32_t batch = 0; ///< index of the batch in its source
     uint32_t count = 0;
-    const float* distances =
-        nullptr; ///< [m] of the elements; null: all count as `distance`, and stay together
+    /// [m] of the elements; null: all have `distance`, and the stream is not divided
+    const float* distances = nullptr;
     const uint32_t* order = nullptr;     ///< element drawn as number i, farthest first
     bool isSquared = false;              ///< `distances` holds squares
     float distance = 0.0f;               ///< [m]
-    bool adds = false;                   ///< the order among streams that only add does not matter
-    const MediaSource* source = nullptr; ///< that draws them
+    bool adds = false;                   ///< additive blending: the order among such streams does not matter
+    const MediaSource* source = nullptr; ///< draws the elements
 
     float at(uint32_t i) const;
 };
 
-/// Keeps its memory from frame to frame.
+/// Builds the batches of a frame. The memory is kept from frame to frame.
 class DrawBatcher
 {
 public:
@@ -39,13 +39,13 @@ public:
     static constexpr uint32_t kMaxBatches = 16;
 
     /// Cuts the streams into batches, farthest first. Streams are not divided if their ranges of distance do
-    /// not overlap or their blending is additive. Where others overlap, that range is divided into slabs of
-    /// equal thickness, 32 or as many as kMaxBatches batches allow. Slabs are sorted by distance. Within a
-    /// slab, streams are drawn one after the other: first the stream that was drawn last, to avoid a state
-    /// change, then by the distance of their centers. Elements in a wrong order are at most one slab
-    /// thickness apart: for two streams 1/13 of the range that they share, for three 1/6.
+    /// not overlap or their blending is additive. The range in which other streams overlap is divided into
+    /// slabs of equal thickness: 32, or as many as kMaxBatches batches allow. Slabs are sorted by distance.
+    /// Within a slab, streams are drawn one after the other: first the stream that was drawn last, to avoid a
+    /// state change, then the others by the distance of their centers. Elements in a wrong order are at most
+    /// one slab thickness apart. For two streams, this is 1/13 of the range that they share; for three, 1/6.
     ///
-    /// More than kMaxBatches streams give about one batch each.
+    /// If there are more than kMaxBatches streams, each gives about one batch.
     /// @param streams each of at least one element
     /// @return valid until the next call
     std::span<const DrawBatch> build(std::span<const DrawStream> streams);
@@ -71,7 +71,7 @@ private:
     std::pmr::vector<uint32_t> begin_;
     std::pmr::vector<Part> parts_;
     std::pmr::vector<DrawBatch> batches_;
-    uint32_t lastStream_ = 0; ///< of batches_
+    uint32_t lastStream_ = 0; ///< stream of the last batch in batches_
 };
 
 } // namespace fx::render

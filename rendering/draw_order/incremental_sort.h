@@ -1,6 +1,6 @@
 /// @file incremental_sort.h
-/// Incremental sorting: keeps the sorted part of the last order and merges the moved elements. Vectorized
-/// loops, compiled for each instruction set.
+/// Incremental sorting: keeps the sorted part of the last order and merges the moved elements. The loops are
+/// vectorized and compiled for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -10,30 +10,33 @@ namespace fx::render {
 
 constexpr size_t kSortedBlock = 8; ///< sorted elements that share an entry of SortedPart::blockEnds
 
-/// A scan of the last order; elements still in ascending order are compacted at its front.
+/// State of a scan of the last order. Elements that are still in ascending order are moved to the front of
+/// the order.
 struct SortedPart
 {
-    const uint32_t* keys; ///< by element
+    const uint32_t* keys; ///< key of each element
     uint32_t* order;      ///< [0, kept) is sorted, [at, count) is not scanned yet; kept <= at
     uint32_t* blockEnds;  ///< room for the last key of each sorted block
     size_t kept;
     size_t at;
     size_t count;
-    uint64_t last;       ///< key * 2^32 + element of the last sorted element; 0 when it is empty
-    uint64_t* displaced; ///< key * 2^32 + element of elements out of order
+    uint64_t last;       ///< key * 2^32 + element of the last sorted element; 0 if no element is sorted
+    uint64_t* displaced; ///< key * 2^32 + element of each element that is out of order
     size_t displacedCount;
     size_t mostDisplaced;
 };
 
-/// Continues while whole vectors of elements ascend, at most one element apart, and none is absent.
+/// Continues the scan by whole vectors of elements. Stops at a vector with an absent element or with more
+/// than one element out of order, or when `displaced` is full.
 void extendSortedByVectors(SortedPart& sorted);
 
-/// Removes the elements of the set `changed` from the last order; the rest is sorted.
+/// Removes the elements of the set `changed` from the last order. The remaining elements are sorted.
 /// @param changed see KeyChanges
 void keepUnchanged(SortedPart& sorted, const uint8_t* changed);
 
-/// Merges elements into the sorted part, whose order then holds all of them.
-/// @param moved key * 2^32 + element, ascending  @param count so many entries are free behind the sorted part
+/// Merges elements into the sorted part. Afterwards its `order` contains all elements.
+/// @param moved key * 2^32 + element, ascending
+/// @param count number of moved elements; SortedPart::order must have room for as many behind its sorted part
 void mergeMoved(const SortedPart& sorted, const uint64_t* moved, size_t count);
 
 } // namespace fx::render

@@ -1,9 +1,9 @@
 /// @file exr_encoder.h
-/// Images with named channels as the bytes of an OpenEXR file (scan lines, ZIP). Write only.
+/// Encodes images with named channels as OpenEXR files (scan lines, ZIP).
 ///
-/// The bytes are made in memory, so that the caller can put them in place whole or not at all.
-/// Threads: any; one call uses up to `threads` workers of OpenEXR's own pool. The bytes do not depend on
-/// their number.
+/// The file is encoded in memory, so that the caller can write it completely or not at all. Threads: any. One
+/// call uses up to `threads` workers of OpenEXR's own pool. The encoded bytes do not depend on the number of
+/// workers.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -20,16 +20,16 @@ enum class ExrPrecision
 {
     Half,  ///< 16 bits, relative error 2^-11; finite values outside its range are written as +-65504
     Float, ///< 32 bits, exact
-    Whole, ///< 32 bits, whole numbers from 0 to 2^24; others are rounded, or cut to these
+    Whole, ///< 32 bits, integers from 0 to 2^24; values are rounded and clamped
 };
 
 /// One channel: `values[(row * width + column) * stride + offset]`, rows from the top.
 struct ExrChannel
 {
-    std::string name; ///< "R", or "layer.R"; unique in the image, not empty, at most 255 bytes
+    std::string name; ///< such as "R" or "layer.R"; unique in the image, not empty, at most 255 bytes
     std::span<const float> values;
-    size_t offset = 0; ///< [float] of the first value
-    size_t stride = 1; ///< [float] from pixel to pixel, >= 1
+    size_t offset = 0; ///< [float] index of the first value
+    size_t stride = 1; ///< [float] distance of neighboring pixels, >= 1
     ExrPrecision precision = ExrPrecision::Half;
 };
 
@@ -38,17 +38,18 @@ struct ExrImage
     int width = 0;  ///< [pixel] 1..16384
     int height = 0; ///< [pixel] 1..16384
     std::vector<ExrChannel> channels;
-    float whiteLuminance = 0.0f; ///< [cd/m2] of the value 1; 0 when unknown
+    float whiteLuminance = 0.0f; ///< [cd/m2] luminance of the value 1; 0 if unknown
 };
 
-/// Channels R, G, B, A of an interleaved RGBA image; `layer` is put before the names ("fire" gives "fire.R").
+/// Adds channels R, G, B, A of an interleaved RGBA image, with `layer` before their names ("fire" gives
+/// "fire.R").
 void addRgba(ExrImage& image, const std::string& layer, std::span<const float> rgba, ExrPrecision precision);
 
-/// A single channel of an image with one value a pixel.
+/// Adds one channel from an image with one value per pixel.
 void addPlane(ExrImage& image, const std::string& name, std::span<const float> values,
               ExrPrecision precision);
 
-/// The file. Primaries are written as Rec. 709. NaN and infinities are kept.
+/// Returns the bytes of the file. The file declares Rec. 709 primaries. NaN and infinities are kept.
 /// @param threads maximum number of threads; 0: all hardware threads
 /// @return InvalidArgument (size, a channel that is too short, a repeated name), OutOfMemory, Internal
 base::Result<std::string> encodeExr(const ExrImage& image, uint32_t threads = 0);

@@ -1,5 +1,5 @@
 /// @file field_fill_pass.h
-/// The pass that sums the balls of each brick at its samples.
+/// The pass that sums the balls of each brick at the samples of the brick.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -8,15 +8,17 @@
 
 namespace fx::render {
 
+/// Sums emission, absorption and scattering of balls.
+///
 /// reads   balls        buffer of BlobInstance
 ///         fieldTexels  of FieldTexelPass
 ///         bricks       buffer of FieldBrickBlock
 ///         brickBalls   buffer of numbers of balls
-///         materials    buffer of BlobMaterial, one a ball; lumpTile of LumpTilePass
-/// writes textures emission, absorption and scattering of the balls, and the table of bricks. Each sample is
-/// written by one invocation, which adds its balls in the order of the list, so that equal
-///                      inputs give equal bits
-/// Formula: kernel-optical-depth (1).
+///         materials    buffer of BlobMaterial, one per ball
+///         lumpTile     of LumpTilePass
+/// writes  textures     emission, absorption and scattering of the balls, and the table of bricks
+/// Each sample is written by one invocation, which adds the balls of the brick in the order of the list. So
+/// equal inputs give equal bits. Formula: kernel-optical-depth (1).
 class FieldFillPass
 {
 public:

@@ -10,23 +10,25 @@
 
 namespace fx::render {
 
-/// Textures of the grids of FieldGlowPlan, one above the other along z.
+/// Textures of the grids of FieldGlowPlan. The grids are stacked along z.
 struct GlowTextures
 {
     ResourceId cells = {};   ///< RGBA32F emitted light, later with what is scattered once; extinction
     ResourceId scatter = {}; ///< RGBA16F extinction times albedo; mean cosine of the phase function
-    ResourceId rays = {};    ///< RGBA16F radiance, of all directions beside each other
+    ResourceId rays = {};    ///< RGBA16F radiance; one block per direction, side by side along x and y
     ResourceId first = {};   ///< RGBA16F mean radiance of emitted light
     ResourceId light = {};   ///< RGBA16F logarithm of the mean radiance of emitted and scattered light
 };
 
-/// Mean radiance in each cell of the light of all media of a grid, any number of times scattered.
+/// Computes the mean radiance in each cell of a grid of the light that media emit and scatter any number of
+/// times.
 ///
 /// reads   fieldTexels    of FieldTexelPass
 ///         grids          buffer of FieldGlowBlock
 ///         field          filled textures, not yet lit
 ///         lumpTile       of LumpTilePass
-/// writes  all of GlowTextures; `light` is the result Formula: field-glow.
+/// writes  all of GlowTextures; `light` is the result
+/// Formula: field-glow.
 class FieldGlowPass
 {
 public:
@@ -34,20 +36,21 @@ public:
     {
         ResourceId fieldTexels;
         FieldTextures field;
-        ResourceId lumpTile; ///< not used without detail
+        ResourceId lumpTile; ///< used with detail only
         bool detail;         ///< some field has detail
         ResourceId grids;
         GlowTextures glow;
         uint32_t fieldCount;    ///< > 0
         uint32_t gridCount;     ///< > 0
-        int cells = kGlowCells; ///< along a side of a grid, a multiple of 8; others for addSourcesTo() only
+        int cells = kGlowCells; ///< along a side of a grid, a multiple of 8; addTo() requires kGlowCells
     };
     struct Outputs
     {
         GlowTextures glow;
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
-    /// Only what the cells emit, extinguish and scatter: writes `cells` and `scatter`.
+    /// Adds only the pass that writes `cells` and `scatter`: emission, extinction and scattering of each
+    /// cell.
     [[nodiscard]] static GlowTextures addSourcesTo(FrameGraph& graph, const Inputs& in);
 };
 

@@ -1,8 +1,8 @@
 /// @file field_glow_plan.h
-/// Grids in which light is spread over fields: one for all fields that overlap each other, of which one emits
-/// or all are carried by an illumination network.
+/// Grids in which light is propagated through fields. Fields that overlap each other share one grid. Without
+/// illumination networks, a grid is made only if one of its fields emits light.
 ///
-/// A grid is fixed in the world as lattices of fields are, so that cells do not swim.
+/// Like the lattices of fields, a grid is fixed in the world, so that its cells do not move with the eye.
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -16,20 +16,20 @@
 
 namespace fx::render {
 
-constexpr size_t kMaxGlowGrids = 4; ///< of a view; fields that emit least have none
+constexpr size_t kMaxGlowGrids = 4; ///< per view; the fields that emit least get no grid
 
-/// Keeps its memory from frame to frame. Threads: one at a time.
+/// Builds the list of grids of a frame. The memory is kept from frame to frame. Threads: one at a time.
 class FieldGlowPlan
 {
 public:
     explicit FieldGlowPlan(std::pmr::memory_resource* memory);
 
-    /// Writes the number of its grid + 1 into FieldBlock::limits.w of each field, 0 for fields without a
-    /// grid.
-    /// @param emitted [exposed m2] of each field: cross section times light of its balls
-    /// @param eye [m] world position that fields are relative to
-    /// @param networkCells along a side of a grid, for all fields, the largest on the picture first; 0: grids
-    /// of kGlowCells for fields that emit
+    /// Builds the grids, and sets FieldBlock::limits.w of each field to the number of its grid + 1, or to 0
+    /// if it has no grid.
+    /// @param emitted [exposed m2] of each field: sum of cross section times emitted light over its balls
+    /// @param eye [m] world position to which fields are relative
+    /// @param networkCells > 0: cells along a side of a network's grid; all fields get grids, the largest on
+    ///         the picture first. 0: fields that emit get grids of kGlowCells
     void build(std::span<FieldBlock> ioFields, std::span<const float> emitted, const glm::dvec3& eye,
                int networkCells = 0);
     void clear() { grids_.clear(); }
@@ -37,18 +37,18 @@ public:
     std::span<const FieldGlowBlock> grids() const { return grids_; }
 
 private:
-    /// Fields that emit and overlap.
+    /// Overlapping fields that share a grid.
     struct Source
     {
         glm::vec3 low, high; ///< [m] relative to the eye
-        float emitted;       ///< [exposed m2]; of a network: its size on the picture [sr]
+        float emitted;       ///< [exposed m2]; with networks: size on the picture [sr]
     };
 
-    static bool brighter(const Source& a, const Source& b); ///< or, of the same, in any fixed order
+    static bool brighter(const Source& a, const Source& b); ///< sorts by `emitted`; if equal, by position
     void listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all);
     void placeGrid(const Source& source, std::span<FieldBlock> ioFields, const glm::dvec3& eye);
 
-    int cells_; ///< along a side of a grid
+    int cells_; ///< cells along a side of a grid
     std::pmr::vector<Source> sources_;
     std::pmr::vector<FieldGlowBlock> grids_;
 };

@@ -10,17 +10,17 @@
 
 namespace fx::render {
 
-/// Light of the sun, of points, of sky and ground, scattered once and again:
-/// shaders/shared/scattered_light.glsl, shaders/shared/sky_light.glsl.
+/// Single and multiple scattering of the light of the sun, of point lights, of sky and ground; see
+/// shaders/shared/scattered_light.glsl and shaders/shared/sky_light.glsl.
 ///
 /// reads   fields, bricks  as in FieldFillPass
-///         lights
-///         network         light that an illumination network carries
-///         glow, grids     mean radiance of what media emit, of FieldGlowPass, and buffer of FieldGlowBlock
-/// writes  textures        without layers, adds the light to what the medium emits; with them keeps it in
-/// `scatter`,
-///                         rgb over the field's largest extinction. Albedos are lost: fill again to light
-///                         again
+///         lights          all lights, with light slices
+///         network         light of an illumination network
+///         glow            mean radiance of the light that media emit, of FieldGlowPass
+///         grids           buffer of FieldGlowBlock
+/// writes  textures        without layers, the light is added to the emitted light of the medium; with
+///                         layers, it is written to `scatter`, rgb over the field's largest extinction
+/// The albedos are overwritten: before this pass can run again, FieldFillPass must run.
 class FieldLightPass
 {
 public:
@@ -32,8 +32,9 @@ public:
         const ViewBlock* view;            ///< of the picture
         uint32_t brickCount;              ///< > 0
         ResourceId glow = {}, grids = {}; ///< invalid: no field has a grid
-        ResourceId network = {};          ///< moments of NetworkPasses for the same grids, in place of `glow`
-        int networkCells = 0;             ///< along a side of those
+        /// Moments of NetworkPasses for the same grids; used instead of `glow`.
+        ResourceId network = {};
+        int networkCells = 0; ///< along a side of the network's grids
     };
     struct Outputs
     {

@@ -1,5 +1,6 @@
 /// @file field_march_pass.h
-/// The pass that marches through all fields of a view, summed with balls and cards outside of fields.
+/// The pass that marches rays through all fields of a view, and sums them with balls and cards outside of
+/// fields.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -8,32 +9,30 @@
 namespace fx::render {
 
 constexpr size_t kFieldMarchPrograms = 2 * 2 * 2;
-/// The program with or without layers, detail of fields, and balls and cards outside of fields.
+/// The program with or without layers, detail of fields, and loose media (balls and cards outside of fields).
 const ProgramDesc& fieldMarchProgram(bool layers, bool detail, bool loose);
 const ProgramDesc& fieldMarchProgramAt(size_t index);
 
-/// Balls and cards that no field holds, in lists of tiles of 16 x 16 texels, as the composition `slabs` makes
-/// them.
+/// Balls and cards outside of fields, listed per tile of 16 x 16 texels as in the composition `slabs`.
 struct LooseMedia
 {
-    /// Non-empty tiles, with or without fields: arguments of a draw; invalid without balls and cards outside
-    /// of fields.
+    /// Draw arguments of the non-empty tiles, with or without fields; invalid without loose media.
     ResourceId tiles;
-    ResourceId lists; ///< of balls
-    ResourceId balls; ///< as texels; invalid: none
+    ResourceId lists; ///< numbers of balls, see SlabTilePass
+    ResourceId balls; ///< texture of SlabBallPass; invalid: no balls
     CardLists cards;
-    int slabs = 16; ///< that balls and cards are at least divided into, along a ray
+    int slabs = 16; ///< least number of slabs along a ray for balls and cards
 };
 
-/// Marches front to back. Each step is a slab across the ray, in which fields, balls and cards are summed up,
-/// so that no order is seen. A ray ends at what is opaque, and without layers where less than 1e-4 of the
-/// light passes. Formula: slab-light.
+/// Marches rays front to back. Each step is a slab of the ray in which fields, balls and cards are summed, so
+/// that the result does not depend on their order. A ray ends at opaque geometry and, without layers, where
+/// the transmittance is below 1e-4. Formula: slab-light.
 ///
-/// reads   textures         that FieldFillPass and FieldLightPass have written; fieldTexels, tiles
+/// reads   textures         results of FieldFillPass and FieldLightPass; fieldTexels, tiles
 ///         distance         [m] along the ray to opaque geometry
-///         loose            and lights, for its balls
-/// writes  media            as the media pass, drawn over `under` Parts of the window without fields, balls
-/// and cards cost nothing. Keeps no state.
+///         loose            loose media; lights, for its balls
+/// writes  media            as written by MediaPass, drawn over `under`
+/// Parts of the window without fields, balls and cards cost nothing. Keeps no state.
 class FieldMarchPass
 {
 public:
@@ -41,12 +40,13 @@ public:
     {
         const MediaPass::Inputs* media;
         FieldTextures textures;
-        ResourceId fieldTexels;   ///< of FieldTexelPass
+        ResourceId fieldTexels;   ///< texture of FieldTexelPass
         ResourceId tiles;         ///< buffer of FieldTexels::tiles()
-        ResourceId lumpTile = {}; ///< of LumpTilePass; invalid: no field has detail
+        ResourceId lumpTile = {}; ///< texture of LumpTilePass; invalid: no field has detail
         LooseMedia loose = {};
     };
-    /// Of SlabTilePass: each step of a ray reads all of them.
+    /// Value of SlabTilePass::Inputs::maxOfTile. It is low because each step of a ray reads the whole list of
+    /// a tile.
     static constexpr uint32_t kMaxLooseOfTile = 256;
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);

@@ -2,9 +2,9 @@
 /// Layout of the voxels in which the balls of each effect are summed: lattices, their occupied bricks, the
 /// balls of each brick, and the rectangle of each field in the window.
 ///
-/// Lattices are fixed in the world, so that voxels do not swim when the effect or the eye moves; the sides of
-/// voxels are powers of 2^(1/4). A brick exists if a ball touches it and it may be visible. A sample sums the
-/// balls of its brick in the order of the list of balls, so that equal inputs give equal bits.
+/// Lattices are fixed in the world, so that voxels do not move with the effect or the eye. The sides of
+/// voxels are powers of 2^(1/4) m. A brick exists if a ball touches it and it may be visible. A sample sums
+/// the balls of its brick in the order of the list of balls, so that equal inputs give equal bits.
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -24,17 +24,19 @@ namespace fx::render {
 
 struct FieldPlanInputs
 {
-    std::span<const BlobInstance> balls; ///< those that can be seen
-    std::span<const BlobEffect> effects; ///< of all balls, in their order
+    std::span<const BlobInstance> balls; ///< the balls that may be visible
+    std::span<const BlobEffect> effects; ///< effects of all balls, in the order of the balls
     const CameraGeometry* camera;
-    int width, height;       ///< [pixel] of the picture
-    int resolution = 96;     ///< voxels along 16 radii of an effect's balls, 16..256
-    uint32_t mostBricks = 0; ///< of all fields together; 0: of a full cube of that many voxels
-    bool glows = true;       ///< fields that emit light the media around them: glows()
-    int networkCells = 0;    ///< along a side of glows(), which then are of all fields; 0: see kGlowCells
+    int width, height;   ///< [pixel] of the picture
+    int resolution = 96; ///< voxels along 16 radii of an effect's balls, 16..256
+    /// of all fields together; 0: as in a full cube with `resolution` voxels along a side
+    uint32_t mostBricks = 0;
+    bool glows = true; ///< emitted light is propagated in grids, see FieldPlan::glows()
+    /// Cells along a side of each grid of an illumination network, for all fields; 0: no networks.
+    int networkCells = 0;
 };
 
-/// Keeps its memory from frame to frame. Threads: one at a time.
+/// Builds the layout of a frame. The memory is kept from frame to frame. Threads: one at a time.
 class FieldPlan
 {
 public:
@@ -45,29 +47,33 @@ public:
 
     std::span<const FieldBlock> fields() const { return fields_; }
     std::span<const FieldBrickBlock> bricks() const { return bricks_; }
-    /// One entry a brick of each field's box, x fastest: number of the brick + 1, or 0 without a brick.
+    /// One entry for each possible brick of each field's box, x fastest: number of the brick + 1, or 0 if
+    /// there is no brick.
     std::span<const uint32_t> table() const { return table_; }
-    std::span<const uint32_t> balls() const { return balls_; } ///< of all bricks
-    /// One a part of the window, from clip position -1, -1, x fastest; none without bricks.
+    std::span<const uint32_t> balls() const { return balls_; } ///< numbers of balls of all bricks
+    /// One entry for each part of the window, beginning at clip position -1, -1, x fastest; empty without
+    /// bricks.
     std::span<const FieldTileBlock> tiles() const { return tiles_; }
-    std::span<const uint32_t> tileFields() const { return tileFields_; } ///< of all tiles
-    /// Balls that are too small for the voxels of their effect, in their order; no brick has them.
+    std::span<const uint32_t> tileFields() const { return tileFields_; } ///< numbers of fields of all tiles
+    /// Numbers of the balls that are too small for the voxels of their effect, in ascending order. They are
+    /// in no brick.
     std::span<const uint32_t> loose() const { return loose_; }
-    /// Balls near the eye, of which bricks have the rest only once FieldNearPass has taken shares out.
+    /// Balls near the eye. FieldNearPass takes their shares out of the bricks.
     const FieldNearPlan& near() const { return near_; }
-    /// In which the light that fields emit is spread; FieldBlock::limits names those of fields.
+    /// Grids in which light is propagated. FieldBlock::limits.w gives the grid of each field.
     std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
     bool isEmpty() const { return bricks_.empty(); }
 
-    /// [m] radius below which a ball is widened, its cross section kept: smaller ones fall between samples.
+    /// [m] Least radius of a ball in a field. A smaller ball would fall between samples: its radius is
+    /// increased to this, with the same cross section.
     static float leastRadius(float voxel) { return 2.0f * voxel; }
 
 private:
     struct Lattice
     {
         float voxel = 0.0f;   ///< [m]
-        glm::vec3 low{0.0f};  ///< [m] of all balls that can be seen, relative to the eye
-        glm::vec3 high{0.0f}; ///< [m]
+        glm::vec3 low{0.0f};  ///< [m] lower corner of the visible balls, relative to the eye
+        glm::vec3 high{0.0f}; ///< [m] upper corner
         uint32_t field = 0;   ///< number among the fields with balls
 
         bool hasBalls() const { return low.x <= high.x; }
@@ -88,7 +94,7 @@ private:
     void markTiles(const FieldPlanInputs& in, const FieldBrickBlock& brick);
     glm::vec3 middleOf(const FieldBrickBlock& brick) const; ///< [m] relative to the eye
 
-    std::pmr::vector<Lattice> lattices_; ///< one an effect
+    std::pmr::vector<Lattice> lattices_; ///< one per effect
     std::pmr::vector<FieldBlock> fields_;
     std::pmr::vector<FieldBrickBlock> bricks_;
     std::pmr::vector<uint32_t> table_;
@@ -98,8 +104,8 @@ private:
     std::pmr::vector<float> emitted_; ///< [exposed m2] of each field
     FieldGlowPlan glow_;
     FieldNearPlan near_;
-    std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1
-    std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields
+    std::pmr::vector<uint32_t> stamps_; ///< by tile: number of the last field that marked it + 1
+    std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and visible field, in the order of fields
     std::pmr::vector<FieldTileBlock> tiles_;
     std::pmr::vector<uint32_t> tileFields_;
 };

@@ -1,5 +1,5 @@
 /// @file field_slices_pass.h
-/// The pass that adds the effect of detail on fields to the light slices.
+/// The pass that adds the change of extinction by the detail of fields to the light slices.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -12,12 +12,11 @@ namespace fx::render {
 extern const ProgramDesc kFieldSlicesProgram;
 
 /// reads   fieldTexels    of FieldTexelPass
-///         table          of FieldFillPass
-///         change         of extinction by detail
+///         table          table of bricks, of FieldFillPass
+///         change         change of extinction by detail, see FieldTextures
 ///         stacks         buffer of SliceStackBlock
-/// writes  planes         of all lights, which have just been filled with smooth balls. Where a field has no
-/// bricks, because
-///                        the view does not see it, balls stay smooth
+/// writes  planes         light slices of all lights, which have just been filled with smooth balls
+/// Where a field has no bricks because it is not visible, balls stay smooth.
 class FieldSlicesPass
 {
 public:
@@ -26,7 +25,7 @@ public:
         ResourceId fieldTexels, table;
         ResourceId change;
         ResourceId stacks;
-        LightBindings lights; ///< with planes
+        LightBindings lights; ///< must have planes
         uint32_t fieldCount;
         uint32_t stackCount;
     };

@@ -1,6 +1,6 @@
 /// @file field_texels.h
-/// Fields, their details and the lists of fields as texels: software renderers read those many times faster
-/// than buffers.
+/// Fields, their details and the lists of fields as texels of a texture. Software renderers read textures
+/// many times faster than buffers.
 #pragma once
 
 #include "rendering/field/field_plan.h"
@@ -9,16 +9,18 @@
 namespace fx::render {
 
 constexpr int kFieldColumns = 1024; ///< texels in a row; also in shaders/field/field_blocks.glsl
-constexpr int kTableColumns = 1024; ///< of the table of bricks; also in the shader
-constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4); ///< also in the shaders
+constexpr int kTableColumns = 1024; ///< texels in a row of the table of bricks; also in the shader
+/// the shaders have the same number
+constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4);
 constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12; ///< texture units; also in the shader
 
-/// Rows of a texture that holds so many texels, a power of two so that it is seldom made anew.
+/// Number of rows of a texture for `count` texels. It is a power of two, so that the texture is seldom
+/// reallocated.
 int rowsOfTexels(size_t count, int columns);
 
-/// Three texels a field, as FieldBlock, but limits.z is the first texel of its detail; nine a detail, as
-/// FieldDetailBlock; one with a number of a field for each entry of FieldPlan::tileFields(). Keeps its memory
-/// from frame to frame.
+/// Builds the texels of a frame: first each FieldBlock, with limits.z replaced by the first texel of the
+/// field's detail; then each FieldDetailBlock; then one texel with the field's number for each entry of
+/// FieldPlan::tileFields(). The memory is kept from frame to frame.
 class FieldTexels
 {
 public:
@@ -27,7 +29,7 @@ public:
     void build(const FieldPlan& plan, std::span<const FieldDetailBlock> details);
 
     std::span<const glm::vec4> texels() const { return texels_; }
-    /// As FieldPlan::tiles(), but `first` is a texel.
+    /// As FieldPlan::tiles(), but `first` is the index of a texel.
     std::span<const FieldTileBlock> tiles() const { return tiles_; }
 
 private:
@@ -37,8 +39,10 @@ private:
 
 extern const ProgramDesc kFieldTexelProgram;
 
+/// Copies a buffer to a texture.
+///
 /// reads   list     buffer of vec4
-/// writes  texture  RGBA32F of kFieldColumns; invalid: a new one
+/// writes  texture  RGBA32F with kFieldColumns columns; if invalid, a new texture is created
 class FieldTexelPass
 {
 public:

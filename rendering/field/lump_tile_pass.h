@@ -1,18 +1,17 @@
 /// @file lump_tile_pass.h
-/// The pass that fills the periodic cube of lumps for the detail of fields.
+/// The pass that fills the periodic cube of noise for the detail of fields.
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
 
 namespace fx::render {
 
-constexpr int kLumpTileTexels = 64; ///< along a side: 1 MiB
+constexpr int kLumpTileTexels = 64; ///< along a side; the texture has 1 MiB
 
 extern const ProgramDesc kLumpTileProgram;
 
-/// writes  tile  R32F, three-dimensional, kLumpTileTexels a side: lumps of mean 0 and deviation 1, as class
-/// LumpTile of
-///               rendering/field_detail
+/// writes  tile  R32F, three-dimensional, kLumpTileTexels along each side: noise of mean 0 and deviation 1,
+///               equal to class LumpTile of rendering/field_detail
 /// Formula: lump-noise.
 class LumpTilePass
 {

@@ -13,42 +13,44 @@
 
 namespace fx::render {
 
-/// Detail of all blobs of a group.
+/// Parameters of the detail of all blobs of a group.
 struct GroupDetail
 {
-    FieldDetailNumbers numbers; ///< lengths in the space of the group
-    glm::mat3
-        /// Coordinates in cells of the generations, without the offsets of blobs: toCells p + first.
-        toCells[2];
-    glm::vec3 first[2]; ///< [cell] p in m relative to the eye, world axes
-    float scale = 1;    ///< [1] metres of the world over those of the group
+    FieldDetailNumbers numbers; ///< lengths are in the space of the group
+    /// Affine maps to the noise coordinates of each generation, without the offsets of blobs: toCells p +
+    /// first.
+    glm::mat3 toCells[2];
+    glm::vec3 first[2]; ///< [cell] offset of the map; p [m] is relative to the eye, along world axes
+    float scale = 1;    ///< [1] scale of the placement: length in the world over length in the group
     float factor = 1;   ///< [1] multiplies the eroded extinction, so that its integral is preserved
 };
 
-/// [1] v of field-detail of a ball by itself.
-/// @param crossSection [m2], radius [m] in the world
+/// [1] v of field-detail for a single ball.
+/// @param crossSection [m2] in the world  @param radius [m] in the world
 float thinningOf(const GroupDetail& detail, float crossSection, float radius);
 
 /// Reads the group of the kind "material" that follows a group of blobs.
 class BlobDetail
 {
 public:
-    BlobDetail() = default; ///< none
-    /// @param group number of the group of blobs in the newer snapshot  @param t moment, 0 older .. 1 newer
+    BlobDetail() = default; ///< no detail
+    /// @param group index of the group of blobs in the newer snapshot
+    /// @param t the moment: 0 is the older snapshot, 1 the newer
     BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t);
 
     bool isGiven() const { return chosen_ != nullptr; }
-    /// @param place of the group at the moment, relative to the eye
+    /// @param place placement of the group at the moment, relative to the eye
     GroupDetail groupDetail(const base::Placement& place) const;
-    /// Offset of a blob in noise space, in cells.
-    /// @param newer, older number of the blob in its group of blobs; older is not used when !hasOlder
+    /// Offset of a blob's noise coordinates [cell], for each generation.
+    /// @param newer, older index of the blob in the newer and older group; older is not used if !hasOlder
     /// @param position [m] of the blob at the shown time, in the space of the group
     std::array<glm::vec3, 2> carried(size_t newer, size_t older, bool hasOlder,
                                      const glm::vec3& position) const;
 
 private:
     const base::SnapshotGroup* newer_ = nullptr;
-    const base::SnapshotGroup* chosen_ = nullptr; ///< whose generations live at the moment
+    /// Snapshot group whose generations are valid at the moment.
+    const base::SnapshotGroup* chosen_ = nullptr;
     FieldDetailNumbers numbers_;
 };
 

@@ -1,35 +1,35 @@
 /// @file conservation_factor.h
-/// The factor that gives a group of media back the extinction that its detail has eroded.
+/// The factor that restores the total extinction of a group of media after its detail has eroded it.
 ///
 /// @formula detail-conservation
-/// Erosion by noise keeps the mean over all noise only; one effect at one time has the noise that is there.
+/// Erosion keeps the total extinction only in the mean over all possible noise. For the actual noise of an
+/// effect, a factor corrects the total.
 ///
 /// symbol   unit   meaning
-///   x_i, r_i m    middle and radius of ball i
+///   x_i, r_i m    center and radius of ball i
 ///   K_i      m2   its extinction cross section
 ///   k        1/m  summed extinction of all balls
 ///   g        1    share of k that detail leaves at a point: n g of field-detail
-///   d_sj,q_j 1    nodes of set s and weights of a quadrature over a ball, by the weight of its kernel
+///   d_sj,q_j 1    nodes of set s, and weights, of a quadrature over a ball weighted by its kernel
 ///   u_is     1    rank of set s = 0..3 of ball i: (s + random number 0..1 of the ball's id) / 4
-///   N, M     1    count of the balls, count of sets that are sampled at most, about
+///   N, M     1    number of balls; approximate upper limit of the number of sampled sets
 ///   f        1    factor, the same at every point of the group
 /// @derivation
-///   The extinction is a sum over balls, so that its integral with the share g is a sum of means over balls:
+///   The extinction is a sum over balls. So the integral of k g is a sum of means of g over balls:
 ///       integral of k g = sum over i of K_i (mean of g over ball i by its kernel)              (1)
-///   The factor is the whole over what is left of it:
+///   The factor is the total extinction over the eroded total:
 ///       f = clamp(sum_is w_is K_i / sum_is w_is K_i sum_j q_j g(x_i + r_i d_sj), 1/4, 4)       (2)
-///   The nodes follow their balls, and so do the coordinates of the noise: g changes there as slowly as the
-///   noise is renewed, and f does not pulse. Each ball has four sets s of nodes; of many balls fewer sets are
-///   sampled. They come and go by a weight, as N changes:
+///   Nodes and noise coordinates both move with their balls. So g at a node changes only as slowly as the
+///   noise is renewed, and f does not flicker. Each ball has four sets s of nodes. If there are many balls,
+///   fewer sets are sampled. The weight of a set changes continuously with N:
 ///       w_is = sat((p - u_is) / (p / 10)), p = (10 / 9) M / (4 N)                              (3)
-///   Lumps that are finer than an eighth of the largest are not sampled: their share is its mean, equation
-///   (7) of field-detail. There are so many of them that their mean is what is there.
-/// @source    own; the nodes in r^2 are Gauss's for the kernel's weight r^2 (1 - r^2)^2: moments up to the
-/// third
-///            are exact
+///   Lumps smaller than an eighth of the largest are not sampled. Their share is replaced by its mean,
+///   equation (7) of field-detail, because there are enough of them to average out.
+/// @source    own; the nodes in r^2 are Gauss nodes for the kernel's weight r^2 (1 - r^2)^2: moments up to
+///            the third are exact
 /// @deviation none
-/// @valid     any balls; none give 4, as do those of which nothing is left
-/// @accuracy  the extinction of the effects of the library is kept within 2 % at any time, see
+/// @valid     any balls; f = 4 without balls, and if the eroded total is 0
+/// @accuracy  the total extinction of the library's effects is kept within 2 % at any time, see
 ///            `fx accuracy detail`
 /// @tests     tests/rendering/view/test_conservation_factor.cpp
 #pragma once
@@ -45,32 +45,32 @@
 
 namespace fx::render {
 
-/// A ball of medium with what its detail needs.
+/// A ball of medium with the data for its detail.
 struct DetailedCaster
 {
     MediumCaster ball;
     std::array<glm::vec3, 2> carried; ///< [cell] coordinates of both generations, see BlobDetail
-    uint64_t id;                      ///< of the ball, while it lives
+    uint64_t id;                      ///< constant during the life of the ball
 };
 
-/// Keeps its memory from call to call. Threads: one at a time.
+/// Computes the factor f. The memory is kept from call to call. Threads: one at a time.
 class ConservationFactor
 {
 public:
-    static constexpr float kMin = 0.25f; ///< [1] less would make mist of dense lumps
-    static constexpr float kMax = 4.0f;  ///< [1] more would make a solid of what is left of thin medium
+    static constexpr float kMin = 0.25f; ///< [1] smaller factors would make dense lumps look like mist
+    static constexpr float kMax = 4.0f;  ///< [1] larger factors would make remnants of thin medium look solid
 
     explicit ConservationFactor(std::pmr::memory_resource* memory);
 
-    /// [1] kMin .. kMax. Equal input gives equal bits.
-    /// @param balls all of the group, visible or not
+    /// [1] Returns f of formula detail-conservation, kMin .. kMax. Equal input gives equal bits.
+    /// @param balls all balls of the group, visible or not
     float of(const GroupDetail& detail, std::span<const DetailedCaster> balls);
 
 private:
     struct Cells
     {
         glm::vec3 low{0.0f};  ///< [m]
-        glm::vec3 side{1.0f}; ///< [m] of a cell, > 0
+        glm::vec3 side{1.0f}; ///< [m] sides of a cell, > 0
     };
     static glm::ivec3 cellAt(const Cells& cells, const glm::vec3& point);
     void sortIntoCells(std::span<const DetailedCaster> balls);
@@ -80,9 +80,9 @@ private:
                   const glm::vec3& point) const;
 
     Cells cells_;
-    std::pmr::vector<float> thinning_;   ///< [1] of each ball
-    std::pmr::vector<uint32_t> starts_;  ///< of each cell in inCells_
-    std::pmr::vector<uint32_t> inCells_; ///< numbers of balls, in their order
+    std::pmr::vector<float> thinning_;   ///< [1] thinning of each ball
+    std::pmr::vector<uint32_t> starts_;  ///< by cell: index of its first entry in inCells_
+    std::pmr::vector<uint32_t> inCells_; ///< numbers of balls, sorted by cell
 };
 
 } // namespace fx::render

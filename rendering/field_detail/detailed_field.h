@@ -1,5 +1,5 @@
 /// @file detailed_field.h
-/// The field of a group of balls with its detail, point by point: the plain and slow answer.
+/// Reference evaluation of the field of a group of balls with its detail, at single points; simple and slow.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"
@@ -16,24 +16,24 @@ struct DetailedBall
     glm::vec3 center;   ///< [m]
     float radius;       ///< [m] > 0
     float crossSection; ///< [m2] >= 0
-    glm::vec3 place[2]; ///< [m] of both generations
+    glm::vec3 place[2]; ///< [m] carried coordinates of both generations
 };
 
-/// In the space of the group. Const calls from any thread.
+/// Positions are in the space of the group. Threads: any thread may call const functions.
 class DetailedField
 {
 public:
-    /// @param tile outlives the field
+    /// @param tile must outlive the field
     DetailedField(std::vector<DetailedBall> balls, const FieldDetailNumbers& numbers, const LumpTile& tile);
 
     SmoothMedium smoothAt(const glm::vec3& point) const;
-    /// With the factor that keeps the whole extinction.
+    /// [1/m] Eroded extinction, multiplied by factor().
     float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
     MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
 
-    /// Computes the factor that restores the integral of the smooth field after erosion: the sum of smooth
-    /// extinctions over the sum of eroded ones, at the points of a lattice.
-    /// @param spacing [m] of the lattice, at most half of the lumps
+    /// Computes factor(), which restores the integral of the smooth field after erosion: the sum of smooth
+    /// extinctions over the sum of eroded extinctions, at the points of a lattice.
+    /// @param spacing [m] distance of lattice points, at most half of the size of lumps
     void conserveIntegral(float spacing);
     float factor() const { return factor_; } ///< [1] > 0
 

@@ -13,7 +13,7 @@
 namespace fx::render {
 
 constexpr int kMaxDetailOctaves = 5;
-constexpr float kMaxDetailGain = 6.0f; ///< n of field-detail is no more
+constexpr float kMaxDetailGain = 6.0f; ///< upper bound of n of field-detail
 
 /// Constants of a group of the kind "material" at a moment.
 struct FieldDetailNumbers
@@ -21,30 +21,30 @@ struct FieldDetailNumbers
     /// One of the two generations of coordinates.
     struct Generation
     {
-        float length = 1;       ///< [m] of the largest lumps at birth
+        float length = 1;       ///< [m] size of the largest lumps when the generation began
         float growth = 1;       ///< [1] see foundation/snapshot/material_kind.h
-        glm::vec3 offset{0.0f}; ///< [cell] added to its coordinates, so that no two are alike
+        glm::vec3 offset{0.0f}; ///< [cell] added to the coordinates, so that generations have different noise
     };
-    std::array<Generation, 2> generations; ///< in the order of the columns
-    float fade = 0;                        ///< [1] weight of the second in that order, 0 .. 1
+    std::array<Generation, 2> generations; ///< in the order of the columns Place0, Place1
+    float fade = 0;                        ///< [1] weight of generations[1], 0 .. 1
     float thinnest = 0, densest = 0;       ///< [1] t0, t1 of field-detail; densest 0: no detail
-    float ramp = 0.25f;                    ///< [1] w
-    float gain = 0.55f;                    ///< [1] amplitude of an octave over that of the one before
-    float cooling = 0, glow = 0;           ///< [1] c, b
-    float softening = 0;                   ///< [1] a over v
+    float ramp = 0.25f;                    ///< [1] w of field-detail
+    float gain = 0.55f;                    ///< [1] amplitude of an octave over that of the octave before
+    float cooling = 0, glow = 0;           ///< [1] c, b of field-detail
+    float softening = 0;                   ///< [1] a over v of field-detail
 
     bool isGiven() const { return densest > thinnest; }
-    float length() const; ///< [m] of the largest lumps now, mean of the two by their weights
+    float length() const; ///< [m] present size of the largest lumps, weighted mean of both generations
 };
 
-/// @param constants of a group of the kind "material"
+/// Parameters from the constants of a group of the kind "material".
 FieldDetailNumbers fieldDetailNumbers(std::span<const float> constants);
 
 /// The smooth field at a point.
 struct SmoothMedium
 {
     float extinction = 0;           ///< [1/m]
-    std::array<glm::vec3, 2> place; ///< [m] carried coordinates
+    std::array<glm::vec3, 2> place; ///< [m] carried coordinates of both generations
     float thinning = 0;             ///< [1] v of field-detail
 };
 
@@ -53,22 +53,22 @@ struct MediumDetail
 {
     float share = 1;       ///< [1] extinction over that of the smooth field
     float temperature = 1; ///< [1] multiplies the temperature
-    float noise = 0;       ///< [1] z
+    float noise = 0;       ///< [1] z of field-detail
 };
 
-/// [1] v of field-detail of a ball by itself.
+/// [1] v of field-detail for a single ball. @param crossSection [m2] @param radius [m]
 float thinningOf(const FieldDetailNumbers& numbers, float crossSection, float radius);
 
-/// Formulas field-detail and lump-noise.
-/// @param pixel [m] width of a pixel there  @param octaves 1 .. kMaxDetailOctaves
+/// Evaluates the detail at a point by the formulas field-detail and lump-noise.
+/// @param pixel [m] width of a pixel at the distance of the point  @param octaves 1 .. kMaxDetailOctaves
 MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, const SmoothMedium& medium,
                       float pixel, int octaves);
 
-/// [1/m] upper bound of the eroded extinction for a smooth extinction of at most `most`, for any noise and
-/// thinning, before the multiplication by GroupDetail::factor.
+/// [1/m] Upper bound of the eroded extinction, for any noise and thinning, where the smooth extinction is at
+/// most `most` [1/m]. The result is not multiplied by GroupDetail::factor.
 float maxErodedExtinction(const FieldDetailNumbers& numbers, float most);
 
-/// n m of field-detail: mean eroded extinction over the smooth one.
+/// [1] n m of field-detail: mean eroded extinction over smooth extinction. @param extinction [1/m] smooth
 float meanErodedShare(const FieldDetailNumbers& numbers, float extinction, float thinning = 0);
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file lump_tile.h
-/// A periodic cube of lump noise, from which the octaves of a field's detail are read.
+/// A periodic cube of noise (formula lump-noise), from which the octaves of a field's detail are sampled.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,23 +9,25 @@
 
 namespace fx::render {
 
-constexpr int kLumpCells = 8;         ///< along a side of the cube, after which it repeats
-constexpr float kLumpMean = 0.54464f; ///< [1] of lumpAt(), see tests/rendering/core/test_field_detail.cpp
-/// [1] standard deviation; 5 % less with linear interpolation between 64 texels.
+constexpr int kLumpCells = 8; ///< period of the cube, in cells
+/// [1] mean of lumpAt(), see tests/rendering/core/test_field_detail.cpp
+constexpr float kLumpMean = 0.54464f;
+/// [1] standard deviation of lumpAt(); 5 % less with linear interpolation between 64 texels.
 constexpr float kLumpDeviation = 0.13360f;
 
-/// 0 .. 2^24 - 1 for a corner or a cell of the lattice, equal for GLSL: shaders/field/lump_tile.comp.glsl.
+/// Hash of a corner or a cell of the lattice, 0 .. 2^24 - 1; equal to the one in
+/// shaders/field/lump_tile.comp.glsl.
 uint32_t lumpHash(uint32_t x, uint32_t y, uint32_t z, uint32_t purpose);
 
-/// B of formula lump-noise at a place in cells, none below -kLumpCells; 0 .. 1.
+/// B of formula lump-noise, 0 .. 1. @param cells coordinates [cell], each >= -kLumpCells
 float lumpAt(const glm::vec3& cells);
 
-/// The same at the texels of a cube, brought to mean 0 and deviation 1, and read linearly between them.
-/// Immutable; any thread.
+/// lumpAt() at the texels of a cube, normalized to mean 0 and deviation 1; interpolated linearly between
+/// texels. Immutable; callable from any thread.
 class LumpTile
 {
 public:
-    /// @param texels along a side, a multiple of kLumpCells; a power of two times that: 64 take 1 MiB
+    /// @param texels along a side, kLumpCells times a power of two; 64 texels use 1 MiB
     explicit LumpTile(int texels = 64);
 
     float at(const glm::vec3& cells) const;
@@ -37,7 +39,7 @@ private:
     std::vector<float> values_;
 };
 
-/// The tile that all renderers share. It is filled at the first call. Any thread.
+/// The tile that all renderers share. It is filled at the first call. Callable from any thread.
 const LumpTile& sharedLumpTile();
 
 } // namespace fx::render

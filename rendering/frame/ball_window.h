@@ -10,11 +10,13 @@
 
 namespace fx::render {
 
-/// [pixel] radius of the smallest blob that is drawn: the pixels then sum its light within 6 %.
+/// [pixel] Least radius at which blobs are drawn. With it, the sum of the pixels is the blob's light within 6
+/// %.
 inline constexpr float kMinPixels = 1.15f;
 
-/// Range of slopes of a ball in the plane of one screen axis and the view axis; as tangentSlopes() of
-/// blob_quad.glsl.
+/// Slopes of the two tangents from the eye to a ball, in the plane of one screen axis and the view axis;
+/// limited to +-1e9. Equal to tangentSlopes() of blob_quad.glsl.
+/// @param c, depth [m] of the center along the screen axis and along the view axis
 inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)
 {
     constexpr float kAll = 1e9f;
@@ -28,8 +30,8 @@ inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)
             highDepth > 0.0f ? (c * l + depth * radius) / highDepth : kAll};
 }
 
-/// Clip coordinates between which a ball lies along one screen axis, the smaller one first.
-/// @param c, depth [m] of its center along that axis and along the view axis
+/// Range of clip coordinates of a ball along one screen axis, the smaller one first.
+/// @param c, depth [m] of the center along the screen axis and along the view axis
 inline std::pair<float, float> clipRange(const CameraGeometry& camera, int axis, float c, float depth,
                                          float radius)
 {

@@ -16,7 +16,7 @@ inline constexpr std::pair<std::string_view, Composition> kCompositionNames[] = 
     {"automatic", Composition::Automatic},
 };
 
-/// Empty: there is none of this value.
+/// Name of a composition; empty if the value has no name.
 constexpr std::string_view nameOf(Composition composition)
 {
     for (const auto& [name, value] : kCompositionNames)

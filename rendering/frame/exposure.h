@@ -1,10 +1,11 @@
 /// @file exposure.h
-/// From luminance to the values of a picture.
+/// Conversion from luminance to the values of a picture.
 #pragma once
 
 namespace fx::render {
 
-/// exposure of an EV100 setting: a luminance of 1.2 * 2^EV cd/m2 becomes 1 (ISO 12232, as used by [LdR14]).
+/// Factor from luminance to stored values for an EV100 setting: a luminance of 1.2 * 2^EV cd/m2 becomes 1
+/// (ISO 12232, as used by [LdR14]).
 float exposureFromEv100(float ev100);
 
 } // namespace fx::render

@@ -1,6 +1,5 @@
 /// @file fragment_counts.h
-/// Fragments of a frame at each size at which layers can be drawn, and the share of the picture that they
-/// cover.
+/// Number of fragments of a frame for each size of layers, and the share of the picture that media cover.
 #pragma once
 
 #include <array>
@@ -9,10 +8,10 @@
 
 namespace fx::render {
 
-/// Divisors of the size of layers.
+/// Layers can be drawn at the picture's width and height divided by these numbers.
 inline constexpr std::array<int, 3> kLayerDivisors = {1, 2, 4};
 
-/// Fragments if the layers were drawn at each of kLayerDivisors.
+/// Number of fragments for layers of each of kLayerDivisors.
 using FragmentCounts = std::array<uint64_t, kLayerDivisors.size()>;
 
 inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
@@ -21,7 +20,7 @@ inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
         ioSum[i] += counts[i];
 }
 
-/// Shares of the picture that techniques cover, [0, 1): the weights of their errors.
+/// Shares of the picture that techniques cover, [0, 1). They weight the errors of scalability levels.
 struct ScreenShare
 {
     double media = 0; ///< covered by blobs

@@ -1,8 +1,8 @@
 /// @file row_revisions.h
-/// Revisions of rows of particles and ribbons, by group. Equal revisions show that rows have been uploaded
-/// before, or that several groups have the same rows, as instances of a shared simulation.
+/// Revisions of the rows of particles and ribbons, by group. Equal revisions mean equal rows: rows that were
+/// uploaded before, or rows that instances of a shared simulation have in common.
 ///
-/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+/// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -14,11 +14,11 @@
 
 namespace fx::render {
 
-/// Some rows of a group. Equal numbers other than 0 mean equal columns, bit for bit.
+/// A range of rows of a group. Ranges with equal revisions other than 0 have equal columns, bit for bit.
 struct RowRevision
 {
     uint32_t first = 0, count = 0;
-    uint64_t revision = 0; ///< 0: nothing is known
+    uint64_t revision = 0; ///< 0: unknown content
 
     bool operator==(const RowRevision&) const = default;
 };
@@ -26,9 +26,10 @@ struct RowRevision
 /// Revisions of the rows of all groups of a snapshot.
 struct SnapshotRowRevisions
 {
-    std::span<const RowRevision> parts; ///< of all groups, one after the other
-    std::span<const size_t> begin;      ///< of each group, and the end; empty: one part a group
-    std::span<const uint32_t> alike;    ///< first group with the same rows, or the group; empty: all differ
+    std::span<const RowRevision> parts; ///< ranges of all groups, one group after another
+    std::span<const size_t> begin;      ///< first part of each group, and the end; empty: one part per group
+    /// by group: first group with the same rows, which may be itself; empty: all differ
+    std::span<const uint32_t> alike;
 
     std::span<const RowRevision> of(size_t group) const
     {
@@ -43,12 +44,12 @@ struct SnapshotRowRevisions
 bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
                   std::span<const base::ColumnDesc> columns);
 
-/// Whether two pools that were written one after the other have equal data in all rows, including rows of
-/// dead particles. Also false where a comparison would be expensive.
+/// Whether two pools of successive snapshots have equal data in all rows, including rows of dead particles.
+/// Also false if a comparison would be expensive.
 bool haveSameRows(const base::PooledRows& a, const base::PooledRows& b,
                   std::span<const base::ColumnDesc> columns);
 
-/// Whether two groups are in pools with equal rows.
+/// Finds the pools of two snapshots that have equal rows.
 class SamePools
 {
 public:
@@ -62,10 +63,11 @@ public:
 
 private:
     static constexpr uint32_t kNone = ~0u;
-    std::pmr::vector<uint32_t> same_; ///< by pool of the newer snapshot: of the older one
+    /// by pool of the newer snapshot: equal pool of the older one, or kNone
+    std::pmr::vector<uint32_t> same_;
 };
 
-/// Gives revisions to the groups of some kinds of snapshots that follow each other.
+/// Assigns revisions to the groups of some kinds, for successive snapshots.
 class RowRevisions
 {
 public:
@@ -73,10 +75,11 @@ public:
         : parts_(memory), before_(memory), alike_(memory), table_(memory), pools_(memory)
     {}
 
-    /// @param older null, or a snapshot of the same scene; rows that it shares with `newer` get the same
+    /// @param older null, or a snapshot of the same scene; rows that are equal in both snapshots get equal
     ///         revisions
-    /// @param before revisions of `older`; unknown without parts
-    /// @param kinds kinds that get revisions; pools always get them
+    /// @param before revisions of `older`; without parts they are unknown
+    /// @param kinds kinds that get revisions; pools always get revisions
+    /// @param ioLast the last assigned revision; increased for each new one
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
                const SnapshotRowRevisions& before, std::span<const base::KindId> kinds, uint64_t& ioLast);
     SnapshotRowRevisions revisions() const { return {parts_, {}, alike_}; }

@@ -1,5 +1,5 @@
 /// @file scene_light.h
-/// Lights that a scene lists besides sun and sky.
+/// Lights of a scene besides sun and sky.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,14 +10,15 @@
 
 namespace fx::render {
 
-/// A point, a ball or a spot. The light itself is not visible.
+/// A point light, a ball or a spot. The light source itself is not drawn.
 struct SceneLight
 {
-    glm::dvec3 position{0.0};  ///< [m] world
-    glm::vec3 intensity{0.0f}; ///< [cd] in every direction; of a spot inside the inner angle
-    float radius = 0.0f;       ///< [m] of a ball whose surface has the same luminance everywhere; 0: a point
-    glm::vec3 direction{0.0f, -1.0f, 0.0f};       ///< unit, direction of a spot's light
-    float innerAngle = std::numbers::pi_v<float>; ///< [rad] half angle up to which a spot has its intensity
+    glm::dvec3 position{0.0};               ///< [m] world
+    glm::vec3 intensity{0.0f};              ///< [cd] in every direction; of a spot, inside of the inner angle
+    float radius = 0.0f;                    ///< [m] of a ball of uniform luminance; 0: a point
+    glm::vec3 direction{0.0f, -1.0f, 0.0f}; ///< unit, direction of a spot's light
+    /// [rad] half angle up to which a spot has its full intensity
+    float innerAngle = std::numbers::pi_v<float>;
     float outerAngle = std::numbers::pi_v<float>; ///< [rad] >= inner; pi: light in all directions
 
     bool isSpot() const { return outerAngle < std::numbers::pi_v<float>; }
@@ -25,18 +26,18 @@ struct SceneLight
 };
 
 /// @formula spot-falloff
-/// Share of its intensity that a spot sends in a direction.
+/// Intensity of a spot in a direction, over its full intensity.
 ///
 /// symbol    unit   meaning
-///   c       1      cosine of the angle between the direction and the spot's
+///   c       1      cosine of the angle between the direction and the axis of the spot
 ///   ci, co  1      cosines of the inner and the outer angle, ci >= co
 ///   s       1      share
 /// @derivation
-///   s = x^2 (3 - 2 x),  x = (c - co) / (ci - co), limited to 0..1; a step at c = co where ci = co   (1)
+///   s = x^2 (3 - 2 x),  x = (c - co) / (ci - co), limited to 0..1; if ci = co, a step at c = co   (1)
 /// @source    textbook: the cubic Hermite step
 /// @deviation none
 /// @valid     ci >= co
-/// @accuracy  some roundings
+/// @accuracy  a few roundings
 /// @tests     tests/rendering/reference/render/test_scene_lights.cpp
 inline double spotFalloff(double cosine, double cosInner, double cosOuter)
 {

@@ -13,7 +13,7 @@ namespace fx::render {
 
 constexpr size_t kNoGroup = ~size_t(0);
 
-/// Index of the group of the same instance, solver and kind; kNoGroup when it does not exist.
+/// Index of the group of `older` with the given name (instance, solver and kind); kNoGroup if there is none.
 /// @param older may be null @param hint most likely index
 size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint);
 
@@ -22,7 +22,7 @@ size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& na
 base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
                             const glm::dvec3& eye);
 
-/// Velocity of points that rest in a group's axes, relative to the world.
+/// World velocity of points that are fixed in the local space of a group.
 struct PlaceDrift
 {
     glm::mat3 turn{0.0f};  ///< [1/s]
@@ -31,7 +31,8 @@ struct PlaceDrift
     glm::vec3 at(const glm::vec3& local) const { return turn * local + shift; }
 };
 
-/// @param older may be null: the group rests  @param seconds between both
+/// Velocity by the motion of the placement. @param older may be null: the placement is constant
+/// @param seconds [s] time between the two snapshots
 PlaceDrift placeDrift(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float seconds);
 
 } // namespace fx::render

@@ -1,7 +1,7 @@
 /// @file snapshot_revisions.h
 /// Revisions of snapshots. Equal revisions mean equal content, so that data derived from it can be reused.
 ///
-/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+/// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -12,9 +12,9 @@
 
 namespace fx::render {
 
-/// Whether every group, id, column, constant and placement is the same, bit for bit. The comparison ends at
-/// the first difference, so it is cheap for snapshots of moving particles. Rows of pools are compared where
-/// they lie; the same groups in another order of rows count as different.
+/// Whether all groups, ids, columns, constants and placements of two snapshots are equal, bit for bit. The
+/// comparison ends at the first difference, so it is cheap for snapshots of moving particles. Pooled rows are
+/// compared in the order of the pool: equal groups with another order of pooled rows count as different.
 bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b);
 
 /// Revisions of the two snapshots of a frame; 0: no snapshot.
@@ -24,11 +24,12 @@ struct RevisionPair
     uint64_t older = 0;
 
     bool operator==(const RevisionPair&) const = default;
-    bool isSteady() const { return newer == older; } ///< any moment between the two looks the same
+    /// Every moment between the two snapshots is drawn the same.
+    bool isSteady() const { return newer == older; }
 };
 
-/// Gives every content its own revision. A snapshot is compared with its predecessor once; scenes in which
-/// nothing moves keep their revision however often they publish.
+/// Assigns a revision to each different content. A snapshot is compared with its predecessor once. While
+/// nothing moves in a scene, all its snapshots have the same revision.
 class SnapshotRevisions
 {
 public:
@@ -37,11 +38,12 @@ public:
           rowIds_(memory), known_{Known(memory), Known(memory), Known(memory), Known(memory)}
     {}
 
-    /// Revisions rows of groups of `kind`, which must stay, from the next snapshot on.
+    /// From the next snapshot on, rows of groups of `kind` get revisions too. `kind` must stay valid.
     void stampRowsOf(const base::KindDesc& kind) { rowKinds_.push_back(&kind); }
 
     RevisionPair revisionsOf(const base::SnapshotPair& snapshots);
-    /// Revisions of the rows of a snapshot of the last revisionsOf(); valid until the next one.
+    /// Revisions of the rows of a snapshot that was passed to the last revisionsOf(); valid until the next
+    /// call of revisionsOf().
     SnapshotRowRevisions rowsOf(const base::FrameSnapshot& snapshot) const;
 
 private:
@@ -49,17 +51,17 @@ private:
     {
         explicit Known(std::pmr::memory_resource* memory) : rows(memory) {}
 
-        uint64_t snapshot = 0; ///< serial; 0: none
+        uint64_t snapshot = 0; ///< FrameSnapshot::serial(); 0: none
         uint64_t revision = 0;
         RowRevisions rows;
     };
-    const Known* find(const base::FrameSnapshot& snapshot) const; ///< null: not known
+    const Known* find(const base::FrameSnapshot& snapshot) const; ///< null if not found
     void remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older, uint64_t revision);
 
     std::pmr::vector<const base::KindDesc*> rowKinds_;
-    std::pmr::vector<base::KindId> rowIds_; ///< of rowKinds_ in the schema of the last snapshot
+    std::pmr::vector<base::KindId> rowIds_; ///< ids of rowKinds_ in the schema of the last snapshot
     std::array<Known, 4> known_;
-    size_t next_ = 0; ///< of known_, to be overwritten
+    size_t next_ = 0; ///< index in known_ of the entry to overwrite next
     uint64_t last_ = 0;
     uint64_t lastRows_ = 0;
 };

@@ -1,5 +1,6 @@
 /// @file view_block.h
-/// The uniform block that the passes of a view share: rays of pixels, camera axes, depth linearisation.
+/// The uniform block that the passes of a view share: rays of pixels, camera axes, constants to linearize
+/// depth.
 #pragma once
 
 #include "rendering/frame/view_types.h"
@@ -34,9 +35,9 @@ struct CameraGeometry
     glm::dvec3 eye;               ///< [m] world
     glm::vec3 right, up, forward; ///< unit, world axes
     bool orthographic;
-    float nearDistance;   ///< [m] along the axis
-    glm::vec2 clipScale;  ///< clip x, y per unit of slope (perspective) or per metre (orthographic)
-    glm::vec2 clipOffset; ///< clip position of the axis
+    float nearDistance;   ///< [m] of the near plane along the view axis
+    glm::vec2 clipScale;  ///< change of clip x, y per unit of slope (perspective) or per meter (orthographic)
+    glm::vec2 clipOffset; ///< clip x, y of the view axis
 };
 
 CameraGeometry cameraGeometry(const CameraView& camera);

@@ -1,5 +1,5 @@
 /// @file view_volume.h
-/// View frustum as half-spaces in eye space.
+/// The view frustum (or box) as half-spaces in eye space, without a far plane.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -15,7 +15,7 @@ class ViewVolume
 public:
     explicit ViewVolume(const CameraGeometry& camera) : camera_(camera) {}
 
-    /// Whether a part of a sphere may be inside the view volume.
+    /// False if the sphere is certainly outside of the view volume.
     /// @param center [m] relative to the eye, world axes
     bool touches(const glm::vec3& center, float radius) const
     {

@@ -1,9 +1,9 @@
 /// @file backend.h
-/// Interface of passes to a graphics system: draws and dispatches, each with its complete state.
+/// Interface of passes to a graphics API: draws and dispatches, each with its complete state.
 ///
-/// No state persists between calls, so passes cannot depend on the state of other passes, and all changes of
-/// GL state are in one place (rendering/gl/gl_backend.cpp). Two backends exist: OpenGL, and a recording one
-/// for tests.
+/// No state persists between calls, so passes cannot depend on the state of other passes. All changes of GL
+/// state are in one place (rendering/gl/gl_backend.cpp). There are two backends: OpenGL, and one for tests
+/// that records calls.
 #pragma once
 
 #include <cstddef>
@@ -46,17 +46,17 @@ constexpr size_t formatBytes(Format format)
     return 0;
 }
 
-/// A texture or a buffer of the frame graph, in one of its versions. Obtained from FrameGraph.
+/// One version of a texture or buffer of the frame graph. FrameGraph returns these ids.
 struct ResourceId
 {
     uint32_t index = ~0u;
     bool valid() const { return index != ~0u; }
 };
 
-/// One program: names of embedded sources (shaders/) and the permutation's macro definitions. Instances
-/// are constants with static storage. Those of the frame's own passes are listed in
-/// rendering/passes/programs.cpp, those of a technique by its DrawTechnique::programs, so that all
-/// permutations are known beforehand.
+/// One program: names of embedded sources (shaders/) and the macro definitions of one permutation.
+/// Descriptions are constants with static storage. rendering/passes/programs.cpp lists those of the frame's
+/// own passes, and DrawTechnique::programs those of a technique, so that all permutations can be compiled in
+/// advance.
 struct ProgramDesc
 {
     const char* name;
@@ -68,8 +68,8 @@ struct ProgramDesc
 
 enum class Blend : uint8_t
 {
-    None,          ///< source replaces
-    Premultiplied, ///< source + (1 - source alpha) * destination, color and alpha, every target
+    None,          ///< the source replaces the destination
+    Premultiplied, ///< source + (1 - source alpha) * destination, for color and alpha of every target
     Additive,      ///< source + destination
 };
 
@@ -78,7 +78,7 @@ enum class Sampling : uint8_t
     Nearest, ///< clamped to the edge
     Linear,  ///< clamped to the edge
     LinearRepeat,
-    Trilinear, ///< between the levels of a texture as well; clamped to the edge
+    Trilinear, ///< also between mip levels; clamped to the edge
     TrilinearRepeat,
 };
 
@@ -99,17 +99,17 @@ struct BufferBinding
 {
     uint32_t binding;
     ResourceId buffer;
-    uint64_t offset = 0;    ///< [byte] a multiple of the context's alignment for storage buffers
-    uint64_t bytes = 0;     ///< 0: up to the end
-    bool isUniform = false; ///< a std140 block at uniform binding 1 instead of a storage buffer
+    uint64_t offset = 0;    ///< [byte] a multiple of GlLimits::storageAlignment
+    uint64_t bytes = 0;     ///< [byte] 0: up to the end of the buffer
+    bool isUniform = false; ///< true: a std140 block at uniform binding 1; false: a storage buffer
 };
 
-/// One draw of `vertices` x `instances` without vertex attributes (the shader fetches), triangles.
+/// One draw of triangles: `vertices` x `instances`, without vertex attributes. The shader fetches its data.
 struct DrawCall
 {
     const ProgramDesc* program = nullptr;
-    /// Color targets, all of one size, which is the viewport; what the program writes to an invalid one is
-    /// lost.
+    /// Color targets, all of the same size, which is that of the viewport. Output to an invalid target is
+    /// discarded.
     std::span<const ResourceId> targets = {};
     std::span<const TextureBinding> textures = {};
     std::span<const BufferBinding> buffers = {};
@@ -119,8 +119,8 @@ struct DrawCall
     uint32_t instances = 1;
     ResourceId depthTarget = {}; ///< depth texture; tested and written when valid
     bool reversedDepth = false;  ///< depth test GREATER instead of LESS
-    /// Indirect draw arguments: a buffer that begins with vertices, instances, 0, 0 as 32-bit words and
-    /// replaces the numbers above. Written by a dispatch.
+    /// Indirect draw arguments: a buffer that begins with vertices, instances, 0, 0 as 32-bit words. If
+    /// valid, it replaces `vertices` and `instances`. A dispatch writes it.
     ResourceId indirect = {};
 };
 
@@ -134,18 +134,19 @@ struct DispatchCall
     uint32_t groups[3] = {1, 1, 1};
 };
 
-/// Sequence of operations inside a pass. Data given in spans is copied before the call returns.
+/// Executes the operations of a pass. Data of spans is copied before a call returns.
 class Backend
 {
 public:
     virtual ~Backend() = default;
 
-    virtual void beginPass(std::string_view name) = 0; ///< opens a debug group of this name
+    virtual void beginPass(std::string_view name) = 0; ///< opens a debug group with this name
     virtual void endPass() = 0;
 
     virtual void clear(ResourceId texture, const float (&rgba)[4]) = 0;
     virtual void draw(const DrawCall& call) = 0;
-    /// Makes earlier writes visible, runs, and makes its own writes visible to later operations.
+    /// Runs a compute program. The program sees all earlier writes; later operations see the writes of the
+    /// program.
     virtual void dispatch(const DispatchCall& call) = 0;
     virtual void upload(ResourceId buffer, std::span<const std::byte> bytes) = 0;
     virtual void copyTexture(ResourceId source, ResourceId destination) = 0; ///< same size and format
@@ -154,7 +155,7 @@ public:
     virtual int height(ResourceId texture) const = 0;
 };
 
-/// Uniform bytes of a trivially copyable struct with std140 layout.
+/// Bytes of a trivially copyable struct with std140 layout, for uniforms.
 template <class T>
 std::span<const std::byte> asUniforms(const T& block)
 {

@@ -1,11 +1,11 @@
 /// @file frame_graph.h
-/// The passes of one frame as declared reads and writes: unread results are not computed, and resources of
-/// disjoint lifetimes share memory.
+/// The passes of one frame with their declared reads and writes. Unread results are not computed, and
+/// resources of disjoint lifetimes share memory.
 ///
 /// Use: begin(), import external resources, addPass() in order of execution, keep() the results, compile(),
 /// execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). Misuse (a stale version, reading an unwritten
-/// resource, an empty size) is stored in status(); then nothing executes. Frames that are no larger than one
-/// before allocate nothing. Threads: one thread at a time.
+/// resource, an empty size) is stored in status(); then nothing executes. A frame allocates nothing if an
+/// earlier frame was at least as large. Threads: one thread at a time.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -36,7 +36,7 @@ struct BufferDesc
     size_t bytes = 0;      ///< > 0
 };
 
-/// The physical resource that a virtual resource occupies during one frame; a backend creates it.
+/// A physical texture, which one or more virtual textures use during a frame; a backend creates it.
 struct PhysicalTexture
 {
     int width, height;
@@ -46,18 +46,17 @@ struct PhysicalTexture
 class FrameGraph
 {
 public:
-    /// Argument of a pass's setup: declares its resources.
+    /// Argument of the setup function of a pass, which declares the resources of the pass.
     class Builder
     {
     public:
         ResourceId create(const TextureDesc& desc);
         ResourceId create(const BufferDesc& desc);
         void read(ResourceId resource);
-        /// Declares writing. Returns the new version; the one given is no longer valid for reading by later
-        /// passes. A write also reads (blending, partial update) unless the resource was created by this
-        /// pass.
+        /// Declares a write and returns the new version. Later passes must not read the old version. A write
+        /// also reads the old version (blending, partial update), unless this pass created the resource.
         [[nodiscard]] ResourceId write(ResourceId resource);
-        /// The pass is executed even when its results are not read.
+        /// Declares that the pass is executed even if its results are not read.
         void sideEffect();
 
     private:
@@ -72,15 +71,15 @@ public:
     /// Removes the passes and resources of the last frame, but keeps their memory.
     void begin();
 
-    /// A texture or buffer that exists outside of the graph under a GL name.
+    /// Adds a texture or buffer that exists outside of the graph. @param name GL name
     ResourceId importTexture(const TextureDesc& desc, uint32_t name);
-    /// A framebuffer of the host as a color target that can be drawn to but not sampled.
+    /// Adds a framebuffer of the host as a color target. Passes can draw to it but not sample it.
     ResourceId importFramebuffer(const TextureDesc& desc, uint32_t framebuffer);
     ResourceId importBuffer(const BufferDesc& desc, uint32_t name);
 
-    /// Adds a pass. `setup(Builder&)` runs now, may capture by reference and declares the resources of the
-    /// pass; it returns the function `execute(Backend&)`, which runs in execute() and captures by value, at
-    /// most kExecuteBytes of trivially copyable state, the resources it has just declared among them.
+    /// Adds a pass. `setup(Builder&)` is called at once, may capture by reference, and declares the resources
+    /// of the pass. It returns a function `execute(Backend&)`, which execute() calls later. This function
+    /// captures resource ids and other data by value: at most kExecuteBytes of trivially copyable state.
     template <class Setup>
     void addPass(std::string_view name, Setup&& setup)
     {
@@ -101,8 +100,8 @@ public:
     void compile();
     void execute(Backend& backend);
 
-    /// The first misuse since begin(): Internal, naming pass and resource. compile() does not change this
-    /// status.
+    /// The first misuse since begin(): the code Internal, with pass and resource in the message. compile()
+    /// does not change this status.
     const base::Status& status() const { return status_; }
 
     // ---- results of compile(), for backends, statistics and tests ----
@@ -116,14 +115,12 @@ public:
         Format format = Format::RGBA32F;
         size_t bytes = 0;
         uint32_t importedName = 0;
-        uint32_t physical = ~0u; ///< index of the pooled texture or buffer; ~0 when imported or never used
+        uint32_t physical = ~0u; ///< index of the physical texture or buffer; ~0 if imported or never used
     };
-    /// The resource behind any of its versions.
+    /// The resource of a version.
     const Resource& resource(ResourceId id) const { return resources_[versions_[id.index].resource]; }
-    bool contains(ResourceId id) const
-    {
-        return id.index < versions_.size();
-    } ///< whether it belongs to this frame
+    /// Whether the resource belongs to this frame.
+    bool contains(ResourceId id) const { return id.index < versions_.size(); }
     std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
     /// Planned memory of the frame's transient resources, without imported ones.
@@ -135,7 +132,7 @@ public:
     Memory memory() const;
     std::span<const std::string_view> executedPasses() const { return executed_; }
     uint32_t culledPasses() const { return static_cast<uint32_t>(passes_.size() - executed_.size()); }
-    /// Whether the executed pass of that index declared reading (writing) any version of the resource.
+    /// Whether the executed pass with this index declared to read (write) any version of the resource.
     bool passReads(size_t executedIndex, ResourceId id) const
     {
         return passAccesses(executedIndex, id, false);
@@ -144,14 +141,14 @@ public:
     {
         return passAccesses(executedIndex, id, true);
     }
-    std::string toGraphviz() const; ///< for people: the graph with culled passes dashed
+    std::string toGraphviz() const; ///< the graph in DOT language for display, with culled passes dashed
 
     static constexpr size_t kExecuteBytes = 512;
 
 private:
     static constexpr uint32_t kNone = ~0u;
 
-    /// A resource between two writes.
+    /// The state of a resource between two writes.
     struct Version
     {
         uint32_t resource;
@@ -169,7 +166,7 @@ private:
     {
         std::string_view name;
         uint32_t firstAccess;
-        uint32_t lastAccess; ///< one behind
+        uint32_t lastAccess; ///< one past the last
         bool sideEffect;
         bool alive;
         void (*run)(void* state, Backend& backend);
@@ -178,7 +175,7 @@ private:
     /// When a resource is used, as indices of executed passes.
     struct Lifetime
     {
-        uint32_t latest; ///< version
+        uint32_t latest; ///< latest version
         uint32_t creator;
         uint32_t first;
         uint32_t last;
@@ -202,15 +199,15 @@ private:
 
     base::Status status_;
     std::pmr::vector<Resource> resources_;
-    std::pmr::vector<Lifetime> lifetimes_; ///< one a resource
+    std::pmr::vector<Lifetime> lifetimes_; ///< one per resource
     std::pmr::vector<Version> versions_;
     std::pmr::vector<Pass> passes_;
     std::pmr::vector<Access> accesses_;
-    std::pmr::vector<uint32_t> executedIndex_; ///< of passes_
+    std::pmr::vector<uint32_t> executedIndex_; ///< by executed pass: index in passes_
     std::pmr::vector<std::string_view> executed_;
     std::pmr::vector<PhysicalTexture> physicalTextures_;
     std::pmr::vector<size_t> physicalBuffers_;
-    std::pmr::vector<uint32_t> order_;     ///< scratch: transient resources by first use
+    std::pmr::vector<uint32_t> order_;     ///< scratch: transient resources, sorted by first use
     std::pmr::vector<uint32_t> busyUntil_; ///< scratch: last use per physical resource
 };
 

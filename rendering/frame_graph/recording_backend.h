@@ -1,6 +1,6 @@
 /// @file recording_backend.h
-/// A backend without graphics: records the operations of passes and checks them against their declarations.
-/// For tests.
+/// A backend without graphics, for tests. It records the operations of passes and checks them against the
+/// declarations of the passes.
 ///
 /// Threads: one thread at a time.
 #pragma once
@@ -33,7 +33,7 @@ public:
         Kind kind = Kind::Draw;
         std::string_view pass;
         const ProgramDesc* program = nullptr;
-        std::vector<ResourceId> targets; ///< drawn to, cleared, uploaded to, copied to
+        std::vector<ResourceId> targets; ///< targets of the draw, clear, upload or copy
         std::vector<TextureBinding> textures;
         std::vector<ImageBinding> images;
         std::vector<BufferBinding> buffers;
@@ -55,8 +55,8 @@ public:
     std::vector<Operation> operationsOf(std::string_view pass) const;
     size_t count(Kind kind) const;
 
-    /// One sentence per violation of the graph's contract: use of an undeclared resource, sampling a current
-    /// render target, targets of unequal size, a draw without a program. Empty for correct passes.
+    /// One sentence per violation of the rules of the graph: use of an undeclared resource, sampling of a
+    /// current render target, targets of unequal size, a draw without a program. Empty for correct passes.
     const std::vector<std::string>& violations() const { return violations_; }
 
     void beginPass(std::string_view name) override;

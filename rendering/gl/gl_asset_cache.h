@@ -1,8 +1,8 @@
 /// @file gl_asset_cache.h
-/// Images and meshes of an asset table as GL objects, made when a frame first draws with them.
+/// Images and meshes of an asset table as GL objects. They are created when a frame first uses them.
 ///
 /// An image becomes a texture array with one layer for each frame of its atlas and with all mip levels, so
-/// that neither filtering nor minification mixes neighboring frames. Threads: [GL thread].
+/// that texture filtering does not mix neighboring frames. Threads: [GL thread].
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -29,7 +29,7 @@ struct GlMesh
 {
     uint32_t buffer = 0;
     uint64_t bytes = 0;
-    uint32_t firstIndex = 0; ///< place of the first index, in words of 4 bytes
+    uint32_t firstIndex = 0; ///< [word] offset of the first index, in words of 4 bytes
     uint32_t indexCount = 0;
     float reach = 0.0f;
 };
@@ -44,15 +44,15 @@ public:
     GlAssetCache(const GlAssetCache&) = delete;
     GlAssetCache& operator=(const GlAssetCache&) = delete;
 
-    /// The frames of image `id`, `columns` x `rows` of them, row by row from the upper left. An id that names
-    /// no image gives one white texel.
+    /// The texture array of image `id`, which has `columns` x `rows` frames, row by row from the upper left.
+    /// One white texel if no image has this id.
     /// @return OutOfMemory, InvalidArgument (more frames than the context's arrays have layers)
     base::Result<GlAtlas> atlas(const base::AssetTable* table, base::AssetId id, int columns, int rows);
-    /// @return OutOfMemory, NotFound for an id that names no mesh
+    /// The buffer of mesh `id`. @return OutOfMemory, NotFound if no mesh has this id
     base::Result<GlMesh> mesh(const base::AssetTable* table, base::AssetId id);
 
     void release();                           ///< deletes all objects; they are created again on use
-    uint64_t bytes() const { return bytes_; } ///< [byte] held
+    uint64_t bytes() const { return bytes_; } ///< [byte] size of all objects
 
 private:
     struct Atlas

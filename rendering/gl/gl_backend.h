@@ -1,16 +1,16 @@
 /// @file gl_backend.h
-/// Executes a compiled FrameGraph with OpenGL 4.5. One object a view: its textures are pooled from frame to
-/// frame.
+/// Executes a compiled FrameGraph with OpenGL 4.5. There is one backend per view. It keeps its textures from
+/// frame to frame.
 ///
 ///     graph.compile();
 ///     GlStateGuard guard(device);
 ///     if (backend.beginFrame(graph)) { graph.execute(backend); }
 ///     const base::Status status = backend.endFrame();
 ///
-/// Each draw gets exactly the state that it declares: beginFrame() sets all states, later calls only
+/// Each draw has exactly the state that it declares. beginFrame() sets all states; later calls set only
 /// differences. GlStateGuard lists the affected states. The host's clip control and multisampling are used
-/// and not changed. A frame with the same resources as the last one allocates nothing and makes no GL queries
-/// per draw. Threads: [GL thread].
+/// and not changed. A frame with the same resources as the last frame allocates nothing. No draw makes GL
+/// queries. Threads: [GL thread].
 #pragma once
 
 #include "foundation/result/status.h"
@@ -30,11 +30,11 @@
 
 namespace fx::render {
 
-/// Values that a frame writes into targets of an sRGB format.
+/// How a frame writes to targets of an sRGB format.
 enum class SrgbTargets : uint8_t
 {
-    Light, ///< linear light, which OpenGL blends as such and encodes
-    Codes, ///< encoded values, stored without conversion
+    Light, ///< writes linear light; OpenGL blends it linearly and encodes it
+    Codes, ///< writes encoded values, which are stored without conversion
 };
 
 class GlBackend final : public Backend
@@ -43,33 +43,34 @@ public:
     static constexpr uint32_t kTextureUnits = GlDrawState::kUnits;
     static constexpr uint32_t kImageUnits = 7;      ///< units 0..6
     static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
-    static constexpr uint32_t kUniformBindings = 2; ///< bindings 0 (of the call itself) and 1
+    static constexpr uint32_t kUniformBindings = 2; ///< binding 0 (uniforms of the call) and binding 1
     static constexpr uint32_t kColorTargets = 8;    ///< minimum that OpenGL 4.5 guarantees
 
     GlBackend(GlDevice& device, std::pmr::memory_resource* memory);
 
-    /// Realises the textures and buffers of `graph`, which is compiled and outlives endFrame(), and sets the
-    /// state that all draws share. A pending GL error of the host is discarded.
+    /// Creates or reuses the textures and buffers of `graph`, and sets the state that all draws share.
+    /// `graph` must be compiled and stay valid until endFrame(). A pending GL error of the host is discarded.
     /// @return the graph's own status, GlFailed (context lost), OutOfMemory, InvalidArgument (size)
     base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light);
     /// @return status()
     base::Status endFrame();
 
-    /// First failure since beginFrame. After it, drawing calls do nothing.
+    /// First failure since beginFrame(). After a failure, drawing calls do nothing.
     const base::Status& status() const { return status_; }
 
-    /// GL name behind a resource of the current graph; 0 for a framebuffer or when it was culled. Textures
-    /// that were kept stay valid and unchanged until the next beginFrame().
+    /// GL name of a resource of the current graph; 0 for a framebuffer or a culled resource. Textures marked
+    /// by FrameGraph::keep() stay valid and unchanged until the next beginFrame().
     uint32_t textureName(ResourceId texture) const;
     uint32_t bufferName(ResourceId buffer) const;
 
-    /// Whether the texture of that name belongs to the pool of transient textures.
+    /// Whether `texture` is the GL name of a transient texture of this backend.
     bool owns(uint32_t texture) const { return pool_.owns(texture); }
 
     uint32_t drawCalls() const { return drawCalls_; } ///< draws and dispatches of the last frame
-    /// [byte] of textures and buffers held
+    /// [byte] Size of all pooled textures and buffers.
     uint64_t pooledBytes() const { return pool_.bytes() + uniforms_.bytes(); }
-    /// Reports the begin of passes to `timer`, which may be null and must outlive its use.
+    /// Sets the timer to which the begin of each pass is reported; may be null. It must stay valid while it
+    /// is set.
     void setTimer(GlPassTimer* timer) { timer_ = timer; }
     void releasePool(); ///< deletes all pooled objects; the next frame creates them again
 
@@ -85,7 +86,7 @@ public:
 
 private:
     bool usable() const { return graph_ && status_.ok(); }
-    void fail(base::Code code, std::initializer_list<std::string_view> parts); ///< remembers the first
+    void fail(base::Code code, std::initializer_list<std::string_view> parts); ///< stores the first failure
     bool inRange(uint32_t index, uint32_t count, const char* what);
     uint32_t nameOrFail(ResourceId id, bool isTexture, const char* use);
     bool findFramebuffer(std::span<const ResourceId> targets, ResourceId depthTarget,
@@ -105,7 +106,7 @@ private:
     GlPassTimer* timer_ = nullptr;
     size_t pass_ = 0; ///< index of the running pass among the executed ones
     uint32_t drawCalls_ = 0;
-    bool hasDrawn_ = true; ///< since the last barrier, frames before included
+    bool hasDrawn_ = true; ///< whether draws were issued since the last barrier, in this frame or before
 };
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file gl_buffer.h
-/// A buffer in immutable storage that the CPU writes with glNamedBufferSubData.
+/// A buffer with immutable storage. The CPU writes it with glNamedBufferSubData.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -32,8 +32,8 @@ private:
     size_t bytes_ = 0;
 };
 
-/// Ensures that `ioBuffer` has at least `bytes`, rounded to a power of two. The content is undefined
-/// afterwards. Does nothing for 0 bytes. @return OutOfMemory
+/// Ensures that `ioBuffer` has at least `bytes`; a new buffer is as large as the next power of two. The
+/// content is undefined afterwards. Does nothing for 0 bytes. @return OutOfMemory
 base::Status makeRoom(GlDevice& device, GlBuffer& ioBuffer, size_t bytes, const char* label);
 
 } // namespace fx::render

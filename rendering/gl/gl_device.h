@@ -1,8 +1,8 @@
 /// @file gl_device.h
-/// Data about one OpenGL context: its functions, its limits, the programs compiled in it, the bytes held.
+/// Data about one OpenGL context: functions, limits, compiled programs, allocated bytes.
 ///
-/// Threads: [GL thread], the thread on which the context is current; also for create() and destruction.
-/// Ownership: everything made from a device must be destroyed before it.
+/// Threads: [GL thread], the thread on which the context is current; this includes create() and destruction.
+/// Ownership: all objects created with a device must be destroyed before the device.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -22,30 +22,30 @@
 
 namespace fx::render {
 
-/// Read once when the device is created; frames make no such queries.
+/// Limits of the context. They are queried once, when the device is created.
 struct GlLimits
 {
     int version = 0;           ///< 10 major + minor
     int textureSize = 0;       ///< [pixel] largest width and height
     int volumeSize = 0;        ///< [pixel] largest side of a texture of three dimensions
-    int uniformAlignment = 0;  ///< [byte] of offsets into uniform buffers
+    int uniformAlignment = 0;  ///< [byte] alignment of offsets into uniform buffers
     int uniformBlockBytes = 0; ///< [byte] largest uniform block
-    int storageAlignment = 0;  ///< [byte] of offsets into storage buffers
+    int storageAlignment = 0;  ///< [byte] alignment of offsets into storage buffers
     bool debugContext = false; ///< passes are named by debug groups
-    std::string renderer;      ///< as the driver names itself
+    std::string renderer;      ///< GL_RENDERER
     std::string versionText;
 };
 
 class GlDevice
 {
 public:
-    /// Replaces the embedded GLSL: complete text of `name` under `defines`, or nothing to use the embedded
-    /// one.
+    /// Replaces embedded GLSL. Returns the complete text of source `name` with `defines`, or nothing to use
+    /// the embedded text.
     using SourceOverride =
         std::function<std::optional<std::string>(std::string_view name, std::string_view defines)>;
 
-    /// @return GlUnsupported naming the functions or the version that are missing, InvalidArgument without a
-    /// loader
+    /// @return GlUnsupported with the missing functions or version in the message, InvalidArgument without a
+    ///         loader
     static base::Result<std::unique_ptr<GlDevice>> create(const GlLoader& loader,
                                                           std::pmr::memory_resource* memory);
     ~GlDevice();
@@ -58,31 +58,34 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     uint64_t callCount() const { return gl.monitor.calls; } ///< GL calls since creation
 
-    /// Compiles the program `desc` in advance unless it is compiled already. `desc` has static storage;
-    /// programs are identified by the address of their description.
+    /// Compiles the program `desc` in advance, unless it is compiled already. `desc` must have static
+    /// storage, because programs are identified by the address of their description.
     /// @return GlFailed with stage, file and the driver's log; NotFound when a source does not exist
     base::Status compile(const ProgramDesc& desc);
 
-    /// A program whose macro definitions are only known at run time: `like` with `defines`. Equal arguments
-    /// give the same object during the lifetime of the device.
+    /// A program whose macro definitions are computed at run time: `like` with its defines replaced by
+    /// `defines`. Equal arguments return the same object during the lifetime of the device.
     const ProgramDesc& generated(const ProgramDesc& like, std::string_view defines);
 
-    /// GL name of the program, which is compiled and counted now if it was not warmed up. 0 when it does not
-    /// compile; `outStatus` then has the reason.
+    /// GL name of the program. If it is not compiled yet, it is compiled now and counted in lateCompiles(). 0
+    /// if compilation fails; `outStatus` then has the reason.
     uint32_t program(const ProgramDesc& desc, base::Status& outStatus);
 
-    uint32_t programsCompiled() const { return programsCompiled_; } ///< since creation, late ones included
-    uint32_t lateCompiles() const { return lateCompiles_; } ///< compiled by a draw instead of by compile()
+    uint32_t programsCompiled() const { return programsCompiled_; } ///< since creation, with lateCompiles()
+    /// Programs compiled by a draw instead of by compile().
+    uint32_t lateCompiles() const { return lateCompiles_; }
 
     void setSourceOverride(SourceOverride sourceOverride) { sourceOverride_ = std::move(sourceOverride); }
-    void forgetPrograms() { programs_.clear(); } ///< the next use compiles again; for live editing
+    /// The next use of a program compiles it again; for live editing.
+    void forgetPrograms() { programs_.clear(); }
 
-    uint64_t textureBytes() const { return textureBytes_; } ///< [byte] of live GlTextures
-    uint64_t bufferBytes() const { return bufferBytes_; }   ///< [byte] of live GlBuffers
+    uint64_t textureBytes() const { return textureBytes_; } ///< [byte] size of all existing GlTextures
+    uint64_t bufferBytes() const { return bufferBytes_; }   ///< [byte] size of all existing GlBuffers
     void countTextureBytes(int64_t change) { textureBytes_ += static_cast<uint64_t>(change); }
     void countBufferBytes(int64_t change) { bufferBytes_ += static_cast<uint64_t>(change); }
 
-    /// Discards pending GL errors and names the first one; Ok without errors.
+    /// Discards pending GL errors. Returns the first one, or Ok without errors. @param where text for the
+    /// message
     base::Status takeError(std::string_view where);
 
 private:
@@ -99,7 +102,7 @@ private:
     {
         const ProgramDesc* like;
         std::string defines;
-        ProgramDesc desc; ///< its defines are those above
+        ProgramDesc desc; ///< refers to `defines`
     };
     std::vector<std::unique_ptr<Generated>> generated_;
     uint32_t programsCompiled_ = 0;

@@ -1,8 +1,8 @@
 /// @file gl_draw_state.h
-/// Sets all GL state for drawing: everything once a frame, then differences between draws.
+/// Sets all GL state for drawing: all states once per frame, then only differences between draws.
 ///
-/// It caches the state since reset(), so no other code may set state until the frame ends. The states that it
-/// changes are listed in gl_touched_state.cpp.
+/// The state is cached from reset() on, so no other code may set state until the frame ends. The states that
+/// it changes are listed in gl_touched_state.cpp.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"
@@ -16,24 +16,25 @@ namespace fx::render {
 class GlDrawState
 {
 public:
-    static constexpr uint32_t kUnits = 13; ///< of textures, from 0
+    static constexpr uint32_t kUnits = 13; ///< texture units 0 to 12
 
     explicit GlDrawState(GlDevice& device);
 
-    /// Sets every state that affects draws to the expected value, independent of the host's state.
+    /// Sets every state that affects draws, independent of the host's state.
     /// @param encodeSrgb linear values are written to targets of an sRGB format
     void reset(bool encodeSrgb);
 
     void useProgram(uint32_t program);
-    void bindFramebuffer(uint32_t framebuffer, int width, int height); ///< and its whole area as viewport
-    void drawToFirst(bool only); ///< draw buffers other than the first do not change
+    /// Sets the viewport to the whole framebuffer.
+    void bindFramebuffer(uint32_t framebuffer, int width, int height);
+    void drawToFirst(bool only); ///< `only`: color writes are disabled for draw buffers other than the first
     void setBlend(Blend blend);
     void setDepth(bool tested, bool reversed); ///< `tested` enables both depth test and depth writes
     void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);
 
 private:
     static constexpr uint32_t kTargets = 8;
-    static constexpr uint32_t kUnknown = ~0u; ///< no GL name
+    static constexpr uint32_t kUnknown = ~0u; ///< not a GL name
 
     struct Unit
     {
@@ -42,7 +43,7 @@ private:
     };
 
     GlDevice& device_;
-    GlVertexArray vertexArray_; ///< empty: shaders fetch
+    GlVertexArray vertexArray_; ///< without attributes: shaders fetch their data
     std::array<GlSampler, 5> samplers_;
     uint32_t program_ = kUnknown;
     uint32_t framebuffer_ = kUnknown;

@@ -1,5 +1,5 @@
 /// @file gl_framebuffer_cache.h
-/// Cache of framebuffer objects by their attachments, so that repeated frames create none.
+/// Cache of framebuffer objects by their attachments, so that repeated frames create no framebuffers.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-/// Names of the attached textures; 0 for none, also among the colors.
+/// GL names of the attached textures. 0 means no attachment, also between color attachments.
 struct GlAttachments
 {
     std::array<uint32_t, 8> colors{};
@@ -29,16 +29,17 @@ public:
         : device_(device), entries_(memory)
     {}
 
-    /// Deletes framebuffers that were not used for many frames.
+    /// Deletes framebuffers that have not been used for many frames.
     void beginFrame();
 
-    /// `foreign`: some attachment belongs to the host, which may have deleted the texture and reused its name
-    /// since the last frame. Such framebuffers are attached and checked again once a frame.
-    /// @return GlFailed with the fault of the attachments
+    /// Finds or creates the framebuffer with these attachments.
+    /// @param foreign an attachment belongs to the host, which may have deleted the texture and reused its
+    ///         name; the framebuffer is then attached and checked again once per frame
+    /// @return GlFailed with the reason why the framebuffer is incomplete
     base::Result<uint32_t> find(const GlAttachments& attachments, bool foreign);
 
-    void clear() { entries_.clear(); } ///< deletes all
-    /// To be called before a texture is deleted.
+    void clear() { entries_.clear(); } ///< deletes all framebuffers
+    /// Deletes the framebuffers that use a texture. Must be called before the texture is deleted.
     void forget(uint32_t texture);
 
 private:

@@ -1,9 +1,9 @@
 /// @file gl_functions.h
-/// The OpenGL functions of one context, loaded through the host and counted. Nothing here links an OpenGL
-/// library.
+/// The OpenGL functions of one context. They are loaded through the host, and calls are counted. The library
+/// does not link to an OpenGL library.
 ///
-/// Members carry the functions' names without "gl": gl.DrawArraysInstanced(...). A hook sees every call and
-/// can swallow it, which is how tests inject faults.
+/// Members have the names of the functions without "gl": gl.DrawArraysInstanced(...). A hook is called before
+/// every call and can suppress the call; tests inject faults with it.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -15,8 +15,8 @@
 
 namespace fx::render {
 
-/// The host's loader of OpenGL functions ("glDrawArrays") of the current context; returns null when a
-/// function does not exist.
+/// The host's loader. Returns a function of the current context by its name ("glDrawArrays"); null if it does
+/// not exist.
 struct GlLoader
 {
     void* user = nullptr;
@@ -27,7 +27,8 @@ struct GlLoader
 struct GlCallMonitor
 {
     uint64_t calls = 0;
-    /// Given the name with "gl"; false swallows the call, whose result is then zero. Empty in production.
+    /// Called with the name of each called function, with "gl". If it returns false, the call is suppressed
+    /// and returns zero. Only tests set a hook.
     std::function<bool(const char* name)> hook;
 };
 
@@ -47,7 +48,7 @@ public:
         return pointer_(arguments...);
     }
 
-    /// @return false when the loader does not find the function
+    /// @return false if the loader does not find the function
     bool load(const GlLoader& loader, const char* name, GlCallMonitor& monitor)
     {
         name_ = name;
@@ -64,14 +65,15 @@ private:
     GlCallMonitor* monitor_ = nullptr;
 };
 
-/// The table. Neither copied nor moved: its members point at its monitor.
+/// The table of functions. It must be neither copied nor moved, because its members point to `monitor`.
 struct GlFunctions
 {
     GlFunctions() = default;
     GlFunctions(const GlFunctions&) = delete;
     GlFunctions& operator=(const GlFunctions&) = delete;
 
-    /// @return GlUnsupported naming every function that is missing; then the table must not be used
+    /// Loads all functions.
+    /// @return GlUnsupported with all missing functions in the message; then the table must not be used
     base::Status load(const GlLoader& loader);
 
 #define FX_GL(type, name) GlFunction<PFNGL##type##PROC> name;

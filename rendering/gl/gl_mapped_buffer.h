@@ -1,6 +1,6 @@
 /// @file gl_mapped_buffer.h
-/// A persistently mapped buffer: the CPU writes into the memory that draws read, and a fence signals the end
-/// of reading.
+/// A persistently mapped buffer. The CPU writes to the memory that draws read; a fence signals that draws
+/// have finished reading.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -30,10 +30,10 @@ public:
 
     uint32_t name() const { return name_; }
     size_t bytes() const { return bytes_; } ///< [byte]
-    /// Mapped memory. Writes are visible to all later draws. Call wait() before writing.
+    /// The mapped memory. Writes are visible to all later draws. Call wait() before writing.
     std::byte* data() const { return data_; }
 
-    void fence(); ///< draws up to here may read the buffer; it must have been created
+    void fence(); ///< call this after the draws that read the buffer; requires create()
     /// Waits until all draws before the last fence() have finished reading.
     /// @return GlFailed after ten seconds
     base::Status wait();

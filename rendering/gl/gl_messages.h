@@ -1,5 +1,5 @@
 /// @file gl_messages.h
-/// Counts messages of the driver through KHR_debug. For contexts created with debug = true.
+/// Counts messages of the driver by KHR_debug, for contexts that were created with debug = true.
 #pragma once
 
 #include "rendering/gl/gl_device.h"
@@ -9,7 +9,7 @@
 
 namespace fx::render {
 
-/// Listens from construction to destruction; messages arrive during the GL call that causes them.
+/// Receives messages during its lifetime. A message is received during the GL call that causes it.
 class GlMessages
 {
 public:
@@ -20,8 +20,9 @@ public:
 
     uint32_t errors() const { return errors_; }             ///< messages of type error
     uint32_t highSeverity() const { return highSeverity_; } ///< messages of high severity, errors included
-    uint32_t serious() const { return serious_; }           ///< either; a correct program has none
-    const std::string& first() const { return first_; }     ///< text of the first serious message
+    /// Messages of type error or of high severity; 0 for a correct program.
+    uint32_t serious() const { return serious_; }
+    const std::string& first() const { return first_; } ///< text of the first serious message
 
 private:
     static void APIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,

@@ -1,5 +1,5 @@
 /// @file gl_name.h
-/// Owners of GL objects that are nothing but a name: vertex arrays, samplers, framebuffers.
+/// Owners of GL objects that need no data besides a name: vertex arrays, samplers, framebuffers.
 #pragma once
 
 #include "rendering/gl/gl_device.h"
@@ -9,7 +9,8 @@
 
 namespace fx::render {
 
-/// Deletes its name when destroyed, with the context current. `Delete` is the table's glDelete...s function.
+/// Deletes the GL object in its destructor, which requires the current context. `Delete` is the glDelete...
+/// function of the table.
 template <auto Delete>
 class GlName
 {

@@ -1,6 +1,6 @@
 /// @file gl_pass_timer.h
-/// Times groups of passes: by timestamps of the GPU, which are read some frames later without waiting, or by
-/// a clock of the host, waiting for the GPU after each group.
+/// Measures times of groups of passes. It uses timestamps of the GPU, which are read some frames later
+/// without waiting, or a clock of the host, with waiting for the GPU after each group.
 ///
 /// Threads: [GL thread]. Allocates nothing after construction.
 #pragma once
@@ -23,18 +23,18 @@ enum class TimingClock : uint8_t
     Host, ///< a clock of the host, with glFinish() wherever the group changes
 };
 
-/// One finished frame.
+/// Times of one finished frame.
 struct GroupTimes
 {
     uint64_t tag = 0;                                  ///< argument of beginFrame()
-    std::array<double, kMaxPassGroups> milliseconds{}; ///< by number of PassGroups
+    std::array<double, kMaxPassGroups> milliseconds{}; ///< by index of PassGroups
     double total() const                               ///< [ms]
     {
         return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
     }
 };
 
-/// A clock of the host. [ms] from any origin.
+/// A clock of the host, which returns the time since any origin [ms].
 using HostClock = double (*)();
 double steadyMilliseconds();
 
@@ -42,8 +42,8 @@ class GlPassTimer
 {
 public:
     static constexpr size_t kFrames = 6; ///< frames whose results may be pending
-    /// Maximum number of timestamps of one frame; further changes of the group are added to the last
-    /// timestamp.
+    /// Maximum number of timestamps of one frame. Passes after further changes of the group are counted in
+    /// the last group.
     static constexpr size_t kStamps = 12;
 
     GlPassTimer(GlDevice& device, PassGroups groups) : device_(device), groups_(std::move(groups)) {}
@@ -53,7 +53,7 @@ public:
 
     const PassGroups& groups() const { return groups_; }
 
-    /// Whether GL measures time: with a counter of 0 bits all times would be 0.
+    /// Whether GL can measure time: if its counter has 0 bits, all times would be 0.
     bool hasGpuClock();
 
     /// @param tag returned with the result
@@ -62,7 +62,8 @@ public:
     void beginPass(std::string_view name);
     void endFrame(bool succeeded); ///< a frame that failed gives no result
 
-    /// Takes the times of the oldest finished frame. Does not wait.
+    /// Returns the times of the oldest finished frame, and removes them. Does not wait. @return false if no
+    /// result is available
     bool take(GroupTimes& out);
 
     HostClock hostClock = steadyMilliseconds;
@@ -83,8 +84,8 @@ private:
     GlDevice& device_;
     PassGroups groups_;
     std::array<Frame, kFrames> frames_;
-    size_t first_ = 0;   ///< oldest frame whose result is awaited
-    size_t waiting_ = 0; ///< pending frames from there
+    size_t first_ = 0;   ///< index of the oldest frame whose result is pending
+    size_t waiting_ = 0; ///< number of pending frames
     Frame* open_ = nullptr;
     size_t group_ = 0;
     int counterBits_ = -1; ///< -1: not queried yet

@@ -9,8 +9,8 @@ namespace fx::render {
 
 class GlDevice;
 
-/// The first `channels` (1 to 4) of each texel as floats, row by row from texture coordinate 0 (GL's bottom)
-/// upwards; normalized formats give [0, 1]. GL's pixel-pack state is restored.
+/// The first `channels` (1 to 4) channels of each texel as floats, row by row upwards from texture coordinate
+/// 0. Normalized formats give [0, 1]. GL's pixel-pack state is restored.
 std::vector<float> readTexture(GlDevice& device, uint32_t texture, int width, int height, int channels);
 
 /// Depth values in [0, 1] of a depth texture, in the same order.
@@ -20,7 +20,8 @@ std::vector<float> readDepthTexture(GlDevice& device, uint32_t texture, int widt
 std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height,
                                       int channels = 1);
 
-/// The first color attachment of a framebuffer (0 is the window's back buffer) as for readTexture().
+/// Reads the first color attachment of a framebuffer, or the window's back buffer for 0. The result is as for
+/// readTexture().
 std::vector<float> readFramebuffer(GlDevice& device, uint32_t framebuffer, int width, int height,
                                    int channels);
 

@@ -1,5 +1,5 @@
 /// @file gl_resource_pool.h
-/// The textures and buffers that a view's frame graphs live in, kept from frame to frame.
+/// The textures and buffers that the frame graphs of a view use. They are kept from frame to frame.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -19,17 +19,17 @@ class GlResourcePool
 public:
     GlResourcePool(GlDevice& device, std::pmr::memory_resource* memory);
 
-    /// Assigns an object to every physical resource of the graph: that of the last frame if nothing has
-    /// changed. Textures and buffers that several frames have not used are deleted, and `framebuffers` is
-    /// notified.
+    /// Assigns a GL object to every physical resource of the graph. If nothing has changed, the objects are
+    /// those of the last frame. Textures and buffers that have not been used for several frames are deleted,
+    /// and `framebuffers` is notified.
     base::Status realise(const FrameGraph& graph, GlFramebufferCache& framebuffers);
-    /// Deletes everything; the next realise() starts anew.
+    /// Deletes all objects; the next realise() creates new ones.
     void release(GlFramebufferCache& framebuffers);
 
     uint32_t texture(uint32_t physical) const { return textures_[assigned_[physical]].texture.name(); }
     uint32_t buffer(uint32_t physical) const { return buffers_[physical].buffer.name(); }
-    bool owns(uint32_t texture) const; ///< whether it is the name of one of these textures
-    uint64_t bytes() const;            ///< [byte]
+    bool owns(uint32_t texture) const; ///< whether `texture` is the GL name of a texture of the pool
+    uint64_t bytes() const;            ///< [byte] size of all objects
 
 private:
     struct PooledTexture

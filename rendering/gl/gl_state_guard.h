@@ -1,9 +1,9 @@
 /// @file gl_state_guard.h
-/// Leaves the host's OpenGL state as it was: saves everything that GlBackend touches, restores it when
-/// destroyed.
+/// Preserves the host's OpenGL state: saves all states that GlBackend changes, and restores them in its
+/// destructor.
 ///
-/// One table (gl_touched_state.cpp) drives saving, restoring and the published list, so they cannot disagree.
-/// An object that the host had deleted while it was bound cannot be bound again. No GL error is left behind.
+/// Saving, restoring and the published list use one table (gl_touched_state.cpp), so they always agree. An
+/// object that the host deleted while it was bound cannot be bound again. Afterwards no GL error is pending.
 /// Threads: [GL thread].
 #pragma once
 
@@ -17,13 +17,13 @@ namespace fx::render {
 
 class GlDevice;
 
-/// States that drawing changes, as text: one line per state, such as "GL_BLEND (draw buffers 0 to 7)".
+/// The states that drawing changes as text, one line per state, such as "GL_BLEND (draw buffers 0 to 7)".
 std::span<const char* const> touchedState();
 
 class GlStateGuard
 {
 public:
-    /// `active` false makes a guard that does nothing (the host owns the state).
+    /// @param active false: the guard does nothing, because the host sets its states itself
     explicit GlStateGuard(GlDevice& device, bool active = true);
     ~GlStateGuard();
     GlStateGuard(const GlStateGuard&) = delete;

@@ -1,5 +1,5 @@
 /// @file gl_texture.h
-/// A texture of two or three dimensions without mipmaps, in immutable storage.
+/// A texture of two or three dimensions with immutable storage, without mipmaps.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -20,13 +20,13 @@ GLenum glInternalFormat(Format format); ///< GL_RGBA32F and so on
 class GlTexture
 {
 public:
-    /// `label` is a string literal shown by debuggers and error messages.
-    /// @return InvalidArgument when a side is not in [1, limits().textureSize] (no GL call is made),
-    /// OutOfMemory
+    /// @param label a string literal, shown in debuggers and error messages
+    /// @return InvalidArgument if a side is not in [1, limits().textureSize] (then no GL call is made),
+    ///         OutOfMemory
     static base::Result<GlTexture> create(GlDevice& device, int width, int height, GLenum internalFormat,
                                           const char* label);
 
-    /// The same with three dimensions.
+    /// Creates a texture of three dimensions.
     /// @return InvalidArgument when a side is not in [1, limits().volumeSize], OutOfMemory
     static base::Result<GlTexture> createVolume(GlDevice& device, int width, int height, int depth,
                                                 GLenum internalFormat, const char* label);
@@ -41,7 +41,7 @@ public:
     int height() const { return height_; } ///< [pixel]
     int depth() const { return depth_; }   ///< [pixel] 1 with two dimensions
     GLenum internalFormat() const { return internalFormat_; }
-    uint64_t bytes() const; ///< [byte] of its texels, 0 when it holds nothing
+    uint64_t bytes() const; ///< [byte] size of all texels; 0 without a texture
 
 private:
     base::Status finish(GlDevice& device, const std::string& what, const char* label);

@@ -1,5 +1,6 @@
 /// @file gl_touched_state.h
-/// The table of GL state that drawing touches, with how to read and how to write each. Used by GlStateGuard.
+/// The table of GL states that drawing changes, with functions that save and restore each state. Used by
+/// GlStateGuard.
 #pragma once
 
 #include "rendering/gl/gl_functions.h"
@@ -9,7 +10,8 @@
 
 namespace fx::render {
 
-/// Values of one entry at one index; which members are used is known to the entry's functions.
+/// Saved values of one state at one index. The save and restore functions of the state define which members
+/// are used.
 struct GlSavedState
 {
     GLint64 integers[6];
@@ -18,15 +20,15 @@ struct GlSavedState
 
 struct GlTouchedState
 {
-    const char* name; ///< for people
-    GLenum what;      ///< for the functions
-    uint32_t count;   ///< indices 0 to count - 1: draw buffers, units, bindings
+    const char* name; ///< shown to users
+    GLenum what;      ///< passed to `save` and `restore`
+    uint32_t count;   ///< number of indices (draw buffers, units, bindings); 0 to count - 1 are saved
     void (*save)(const GlFunctions& gl, GLenum what, uint32_t index, GlSavedState& outSaved);
     void (*restore)(const GlFunctions& gl, GLenum what, uint32_t index, const GlSavedState& saved);
 };
 
-/// States are saved in this order and restored in reverse. States that are changed while other states are
-/// saved or restored are at the beginning of the table.
+/// States are saved in this order and restored in reverse order. States that change while other states are
+/// saved or restored come first in the table.
 std::span<const GlTouchedState> glTouchedStates();
 
 constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts

@@ -1,5 +1,5 @@
 /// @file gl_uniform_ring.h
-/// Uniform blocks of a frame's draws in one buffer that is filled round and round.
+/// Uniform blocks of the draws of a frame in one ring buffer.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -10,25 +10,24 @@
 
 namespace fx::render {
 
-/// OpenGL orders later writes after the reads of earlier draws, so memory is reused without waiting.
+/// OpenGL executes later writes after the reads of earlier draws, so memory is reused without waiting.
 class GlUniformRing
 {
 public:
-    static constexpr size_t kCapacity = size_t(1) << 18; ///< [byte] a few frames' worth of blocks
+    static constexpr size_t kCapacity = size_t(1) << 18; ///< [byte] enough for the blocks of a few frames
 
     explicit GlUniformRing(GlDevice& device) : device_(device) {}
 
-    /// Copies `bytes` to the next place that the context's alignment allows and binds it at uniform binding
-    /// 0.
-    /// @return TooLarge when the context's uniform blocks are smaller, OutOfMemory
+    /// Copies `bytes` to the next aligned offset of the buffer and binds this range at uniform binding 0.
+    /// @return TooLarge if `bytes` exceeds GlLimits::uniformBlockBytes, OutOfMemory
     base::Status bind(std::span<const std::byte> bytes);
-    /// Deletes the buffer, until the next bind().
+    /// Deletes the buffer. The next bind() creates it again.
     void release()
     {
         buffer_ = {};
         cursor_ = 0;
     }
-    uint64_t bytes() const { return buffer_.bytes(); } ///< [byte] held
+    uint64_t bytes() const { return buffer_.bytes(); } ///< [byte] size of the buffer
 
 private:
     GlDevice& device_;

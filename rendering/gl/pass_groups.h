@@ -1,5 +1,5 @@
 /// @file pass_groups.h
-/// Groups of passes that are timed together.
+/// Groups of passes whose times are added.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace fx::render {
 
-/// A pass, and the group that its time is added to.
+/// A pass, and the group to which its time is added.
 struct TimedPass
 {
     std::string_view pass;
@@ -19,11 +19,12 @@ struct TimedPass
 
 constexpr size_t kMaxPassGroups = 8;
 
-/// Groups by number. Passes without a group, and groups beyond kMaxPassGroups, belong to group 0, "other".
+/// Numbered groups of passes. Passes without a group, and passes of groups beyond kMaxPassGroups, are in
+/// group 0, "other".
 class PassGroups
 {
 public:
-    /// @param passes names must stay
+    /// @param passes their names must stay valid
     void add(std::span<const TimedPass> passes)
     {
         for (const TimedPass& timed : passes) {
@@ -36,7 +37,7 @@ public:
 
     size_t count() const { return count_; }
     std::string_view name(size_t group) const { return names_[group]; }
-    /// 0 for an unknown group.
+    /// Number of a group; 0 for an unknown name.
     size_t find(std::string_view name) const
     {
         for (size_t i = 1; i < count_; ++i)

@@ -1,48 +1,48 @@
 /// @file gpu_depth.h
-/// The depth texture of a frame, for emitters that collide with it. Text of the shader:
+/// The depth texture of a frame, for emitters that collide with it. The shader is
 /// shaders/gpu_particles/gpu_particle_depth.glsl.
 ///
 /// @formula depth-contact
-/// First place and time at which a particle's way meets what a depth texture shows.
+/// First point and time at which the path of a particle meets the surface in a depth texture.
 ///
 /// symbol   unit   meaning
-///   x, y, z  m      place in the camera's axes, z along the view
-///   u, v     pixel  place in the window
-///   k, c     pixel  window place per slope x/z (parallel: per metre x), window place of the view axis
-///   q        1/m    1 / z of what is seen at u, v (parallel: z itself, in m)
+///   x, y, z  m      position in the axes of the camera, z along the view
+///   u, v     pixel  position in the window
+///   k, c     pixel  change of u per slope x/z (parallel: per meter x), u of the view axis; k', c' for v
+///   q        1/m    1 / z of the surface at u, v (parallel: z itself, in m)
 ///   g, h     q/pixel  change of q with u, v
 ///   N        1/m    (A, B, C), see below
 ///   d, b     m      distance from the surface, positive towards the camera; depth behind it along the ray
-///   s        m      how deep a way begins inside of the surface, else 0
-///   e        m      what a step of 2^-24 of the stored depth, or of floats after it, is along the axis
+///   s        m      depth inside of the surface at which a path begins, else 0
+///   e        m      depth error along the axis: a step of 2^-24 of the stored depth, or a rounding
 ///   m, w     m      margin, thickness
 /// @derivation
-///   Of a plane, q is linear in the window: for A x + B y + C z = 1, q = A x/z + B y/z + C (parallel:
-///   z = A x + B y + C). So next to the middle (u0, v0) of a texel that shows a plane
+///   For a plane, q is linear in the window: for A x + B y + C z = 1, q = A x/z + B y/z + C (parallel:
+///   z = A x + B y + C). So near the center (u0, v0) of a texel that shows a plane,
 ///       q(u, v) = q0 + g (u - u0) + h (v - v0)                                                (1)
-///   exactly, with g and h the differences of q to neighbors. An edge lies at most on one side of a texel,
-///   where the difference is the larger one: g is the smaller of the two one-sided differences, in
-///   magnitude, and 0 where neither neighbor shows anything                                    (2)
+///   is exact; g and h are differences of q between neighboring texels. If an object ends next to a texel,
+///   the difference across its edge is the larger one. So g is the one-sided difference of smaller magnitude,
+///   and 0 if both neighbors show no surface                                                   (2)
 ///   From u = k x/z + c follows A = g k, B = h k', C = q0 + g (c - u0) + h (c' - v0), and
 ///       d = (1 - N.p) / |N| - m,  normal -N / |N|,  b = (N.p - 1) / (N.p / z)                 (3)
 ///   (parallel: d = (A x + B y + C - z) / |(A, B, -1)| - m, normal (A, B, -1) / |(A, B, -1)|,
 ///   b = z - (A x + B y + C)).
-///   A way p0 + v t + a t^2 / 2 is looked at at equal times, once for two pixels that it crosses, at most
-///   kMaxDepthSamples times. Between a place in front and one that is inside by more than the error, d < -2 e
-///   and d < -s - e / 4, the time at which d = -s is found by intersecting the way with the plane of the
-///   later place and halving by turns, until a place lies on its own plane within e; it is met there. When
-///   none does, the surface breaks off between the two: the way meets it where b <= w, and passes behind it
-///   otherwise                                                                             (4)
-///   A way that begins inside, b <= w, may go as deep as it began. Nothing is met by ways that lead out,
-///   outside of the window, behind the camera, where nothing is seen, and behind b > w         (5)
-///   What a contact finds sunk in by no more than 3 e comes back by at most e                  (6)
-/// @source    elementary; collision with the depth buffer as such is common practice
+///   A path p0 + v t + a t^2 / 2 is sampled at equal intervals of time, one sample for two crossed pixels, at
+///   most kMaxDepthSamples. A sample is inside if d < -2 e and d < -s - e / 4. Between a sample in front and
+///   the next inside, the time with d = -s is computed. Two methods alternate: intersection with the plane
+///   at the later point, and bisection. They end at a point that is on its own plane within e: the contact.
+///   If there is no such point, the surface ends between the two samples. The path then has a contact if
+///   b <= w; otherwise it passes behind the surface                                            (4)
+///   A path that begins inside, with b <= w, may go as deep as it began. There is no contact for paths that
+///   leave the surface, outside of the window, behind the camera, without a surface, and for b > w  (5)
+///   A particle that is inside by at most 3 e at a contact is moved back by at most e          (6)
+/// @source    elementary; collision with the depth buffer is common practice
 /// @deviation none
 /// @valid     finite numbers; perspective and parallel cameras with any depth convention of the view
-/// @accuracy  on a plane that fills its texels and their neighbors, (1)-(3) are exact but for rounding of
-///            the depth texture: contacts are moved by at most 3 e along the ray, and normals turned by at
-///            most 2 e / f, f the width of a pixel there; across an edge that no texel resolves, and for what
-///            is narrower than two pixels or 1 / kMaxDepthSamples of a way, nothing is promised
+/// @accuracy  on a plane that fills its texels and their neighbors, the only error of (1)-(3) is the rounding
+///            of the depth texture: contacts are moved by at most 3 e along the ray, and normals are rotated
+///            by at most 2 e / f, where f is the width of a pixel at the contact. There is no bound at edges
+///            within a texel, and for objects narrower than two pixels or 1 / kMaxDepthSamples of a path
 /// @tests     tests/gpu_particles/test_gpu_depth.cpp, tests/gpu_particles/test_gpu_depth_limits.cpp
 #pragma once
 
@@ -58,21 +58,23 @@ namespace fx::render {
 /// The depth texture of a frame.
 struct GpuDepth
 {
-    ResourceId distance;                ///< as SceneDistancePass writes it; invalid: nothing is known
-    const CameraView* camera = nullptr; ///< that has seen it
+    ResourceId distance;                ///< output of SceneDistancePass; invalid: no contacts
+    const CameraView* camera = nullptr; ///< camera of the depth texture
     int width = 0, height = 0;          ///< [pixel]
 };
 
 /// Layout of the last members of the uniform block in shaders/gpu_particles/gpu_particles.comp.glsl.
 struct GpuDepthBlock
 {
-    glm::vec4 right, up, forward; ///< local place and 1 to the camera's axes [m]
+    glm::vec4 right, up, forward; ///< xyz, w: affine map of a local position to the camera's axes [m]
     glm::vec4 window;             ///< k, k', c, c'
-    glm::vec4 error;              ///< of 24 bits: e = x + y z + z z^2
-    glm::vec4 size;               ///< [pixel] of the texture; 1: parallel; [m] per local length
+    /// Coefficients of the depth error e = x + y d + z d^2 of 24 bits, d [m] along the view axis.
+    glm::vec4 error;
+    /// x, y size of the texture [pixel]; z 1: parallel camera; w meters per local unit of length
+    glm::vec4 size;
 };
 
-/// @param place of the emitter, in the world
+/// @param place placement of the emitter in the world
 GpuDepthBlock makeGpuDepthBlock(const GpuDepth& depth, const base::Placement& place);
 
 /// True for emitters that collide with the depth texture.

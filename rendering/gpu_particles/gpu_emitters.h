@@ -1,6 +1,6 @@
 /// @file gpu_emitters.h
-/// GPU data of emitters that are computed there: a program for each combination of features, and the numbers
-/// of each emitter's definition in a buffer.
+/// GPU data of emitters whose particles are computed on the GPU: a program for each combination of features,
+/// and a buffer with the constants of each emitter.
 ///
 /// Nothing is created before the first such emitter. Threads: [GL thread].
 #pragma once
@@ -29,17 +29,17 @@ public:
         uint64_t usedFrame;
     };
 
-    /// Compiles the compute and sorting programs of emitters with the same features, unless they are compiled
+    /// Compiles the compute and sorting programs for the features of `emitter`, unless they are compiled
     /// already.
-    /// @return GlFailed (the driver refuses), GlUnsupported (built without FXSDK_GPU_PARTICLES)
+    /// @return GlFailed (compilation failed), GlUnsupported (built without FXSDK_GPU_PARTICLES)
     base::Status compile(const base::GpuParticleProgram& emitter);
-    /// Valid until the next call. Compiles and uploads at the first call for an emitter.
-    /// @return as compile(), OutOfMemory, TooLarge (for the context's storage buffers)
+    /// GPU data of an emitter, valid until the next call. The first call for an emitter compiles and uploads.
+    /// @return as compile(), OutOfMemory, TooLarge (exceeds the limit of storage buffers)
     base::Result<const Entry*> find(const std::shared_ptr<const base::GpuParticleProgram>& emitter);
     /// Removes emitters that have not been used for a long time.
     void nextFrame();
 
-    uint64_t bytes() const; ///< [byte] held
+    uint64_t bytes() const; ///< [byte] size of all buffers
 
 private:
     GlDevice& device_;

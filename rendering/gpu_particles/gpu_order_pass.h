@@ -11,33 +11,33 @@
 
 namespace fx::render {
 
-/// The draw order of particles of one batch that the GPU has computed: by age, or by the distances of
-/// rowDistances().
+/// Sorts the particles of one batch that the GPU has computed: by age, or by the distances of rowDistances().
 struct GpuOrderJob
 {
     uint32_t batch;
-    bool byAge;       ///< otherwise by distance
-    bool leastFirst;  ///< otherwise the farthest or oldest
+    bool byAge;       ///< true: by age; false: by distance
+    bool leastFirst;  ///< true: nearest or youngest first; false: farthest or oldest first
     bool isParallel;  ///< `eye` is a direction
-    glm::vec3 eye;    ///< [m] in the group's axes
-    float scale = 1;  ///< [1]
-    float offset = 0; ///< [m]
+    glm::vec3 eye;    ///< [m] position in the space of the group
+    float scale = 1;  ///< [1] as in rowDistances()
+    float offset = 0; ///< [m] as in rowDistances()
 };
 
-/// Number of rows from which a radix sort is used instead of a bitonic sort. With a software renderer they
-/// cost the same at 8,000 rows; the radix sort has more dispatches, which count elsewhere.
+/// Number of rows from which a radix sort is used instead of a bitonic sort. With a software renderer both
+/// cost the same at 8,000 rows. The limit is higher because the radix sort has more dispatches, which are
+/// expensive on GPUs.
 constexpr uint32_t kRadixOrderRows = 16'384;
 
-/// Orders the rows of computed batches, and writes how many live into the arguments of their draws. The order
-/// is that of DepthSort: by key, equal keys by row.
+/// Sorts the rows of computed batches, and writes the number of living particles to the arguments of their
+/// draws. The order is that of DepthSort: by key, and for equal keys by row.
 ///
 /// reads   the newer rows of batches
-/// writes  their order and their arguments, which live for the frame
-/// Absent when no computed batch has an order.
+/// writes  the order and the draw arguments of batches; both are transient
+/// Not added if no computed batch has an order.
 class GpuOrderPass
 {
 public:
-    /// @param batches imported already
+    /// @param batches must be imported
     /// @param radixFrom number of rows from which a radix sort is used; the order is the same
     static void addTo(FrameGraph& graph, std::span<const GpuOrderJob> jobs, std::span<ParticleBatch> batches,
                       uint32_t radixFrom = kRadixOrderRows);

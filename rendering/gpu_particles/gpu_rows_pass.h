@@ -12,19 +12,19 @@
 
 namespace fx::render {
 
-/// Rows of a group that have not been computed yet.
+/// Input to compute the rows of a group.
 struct GpuRowsJob
 {
     const ProgramDesc* program;
-    uint32_t batch;                  ///< that draws them
-    bool isNewer;                    ///< as its newer rows, or as its older ones
+    uint32_t batch;                  ///< batch that draws the rows
+    bool isNewer;                    ///< true: newer rows of the batch; false: older rows
     BufferPart numbers;              ///< base::GpuParticleNumbers
     BufferPart words;                ///< base::GpuParticleMoment and the data after it
-    std::array<int32_t, 16> columns; ///< places of the columns, as in ParticleBlock
+    std::array<int32_t, 16> columns; ///< offsets of the columns, as in ParticleBlock
     uint32_t rows;
-    // Only of emitters that are stepped, see GpuStates:
-    BufferPart reached = {}; ///< state of their particles
-    BufferPart steps = {};   ///< that they take now
+    // Only for emitters whose motion is computed in steps, see GpuStates:
+    BufferPart reached = {}; ///< state of the particles
+    BufferPart steps = {};   ///< data of the steps to compute now
     uint32_t stepCount = 0;
     bool meetsDepth = false;
     base::Placement place = {}; ///< placement, for collisions with depth
@@ -33,13 +33,15 @@ struct GpuRowsJob
 /// Computes particles from the published data of their emitters. Program: gpu_particles, one permutation for
 /// each combination of features.
 ///
-/// reads   distance  [m] along each pixel's ray to what the frame shows, where an emitter collides with it
-/// writes  the rows of batches, in the layout in which the CPU's are uploaded Absent when there is no job.
+/// reads   distance  [m] along each pixel's ray to opaque geometry, for emitters that collide with it
+/// writes  the rows of batches, in the same layout as rows uploaded from the CPU
+/// Not added if there are no jobs.
 class GpuRowsPass
 {
 public:
-    /// @param batches imported already; the written parts get new versions
-    /// @param depth depth texture that all steps of the jobs collide with; its camera must outlive the call
+    /// @param batches must be imported; their written resources get new versions
+    /// @param depth depth texture with which particles collide in all steps of the jobs; its camera must
+    ///         outlive the call
     static void addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches,
                       const GpuDepth& depth = {});
 };

@@ -1,9 +1,10 @@
 /// @file gpu_states.h
-/// State of stepped particles on the GPU, in one view.
+/// State on the GPU of particles whose motion is computed in steps, for one view.
 ///
-/// The state of an emitter continues from step to step. If it belongs to another history (the host has gone
-/// back in time) or does not exist (the view is new, or the emitter was hidden for long), its particles take
-/// all steps since their births again, with the same bits.
+/// Each step continues from the state of an emitter after the last step. The state may belong to another
+/// history, if the host has gone back in time. Or it does not exist, because the view is new or the emitter
+/// was hidden for long. In both cases all steps since the births of the particles are computed again, with
+/// the same bits.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -27,13 +28,13 @@ class GpuStates
 public:
     GpuStates(GlDevice& device, std::pmr::memory_resource* memory) : device_(device), states_(memory) {}
 
-    /// Completes a job, and assumes that it will run after the earlier ones. Does nothing if the group's
-    /// motion has a closed form. At most two jobs of an emitter in a frame.
+    /// Sets the members of a job that concern steps. The job must run after jobs that were prepared earlier.
+    /// Does nothing if the group's motion has a closed form. An emitter may have at most two jobs per frame.
     /// @return OutOfMemory, TooLarge (for the context's storage buffers)
     base::Status prepare(const base::SnapshotGroup& group, GpuRowsJob& ioJob);
-    /// Drops states that have not been used for a long time.
+    /// Deletes states that have not been used for a long time.
     void nextFrame();
-    /// Jobs have not run: all begins anew.
+    /// Call this if prepared jobs have not run: all states are computed from the births again.
     void forget();
 
     uint64_t bytes() const; ///< [byte] held
@@ -45,7 +46,7 @@ private:
         uint32_t solver;
         std::shared_ptr<const base::GpuParticleProgram> emitter;
         GlBuffer reached;
-        std::array<GlBuffer, 2> steps; ///< by turns: two jobs of a frame need their own
+        std::array<GlBuffer, 2> steps; ///< used alternately: each of two jobs of a frame needs its own
         uint32_t turn = 0;
         base::GpuStepMark mark;
         uint64_t usedFrame = 0;
@@ -54,7 +55,7 @@ private:
 
     GlDevice& device_;
     std::pmr::vector<State> states_;
-    std::vector<uint32_t> words_; ///< room
+    std::vector<uint32_t> words_; ///< scratch
     uint64_t frame_ = 0;
 };
 

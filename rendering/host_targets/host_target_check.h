@@ -1,5 +1,5 @@
 /// @file host_target_check.h
-/// Refuses a frame with unsuitable targets before anything is drawn.
+/// Checks the targets of a frame before anything is drawn; a frame with unsuitable targets is refused.
 ///
 /// Threads: [GL thread]. No GL state is changed, also on failure.
 #pragma once
@@ -15,11 +15,11 @@ class HostTargetCheck
 public:
     explicit HostTargetCheck(GlDevice& device) : device_(device), textures_(device) {}
 
-    /// @return InvalidArgument with the frame's member, the fault and the remedy
+    /// @return InvalidArgument; the message states the member of FrameRequest, the fault and the remedy
     base::Status check(const FrameRequest& request);
 
 private:
-    /// [pixel] size of the frame's target; 0 where OpenGL does not provide it, as for a window.
+    /// [pixel] Size of the frame's target; 0 if OpenGL does not provide it, as for a window.
     struct Size
     {
         GLint width = 0;

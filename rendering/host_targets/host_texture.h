@@ -1,5 +1,5 @@
 /// @file host_texture.h
-/// Checks whether a frame can read and write a texture of the host, and names fault and remedy.
+/// Checks whether a frame can read and write a texture of the host. Messages state the fault and the remedy.
 ///
 /// Threads: [GL thread]. No GL state is changed.
 #pragma once
@@ -22,12 +22,12 @@ enum class HostUse : uint8_t
 {
     Nothing,
     ReadColor, ///< the opaque picture is read from this texture
-    DrawColor, ///< and goes back into it
+    DrawColor, ///< the picture is read from this texture and drawn into it
     ReadDepth,
 };
 
-/// Properties of a texture that OpenGL provides in a few calls. Textures with equal properties are equally
-/// suitable; a texture that was recreated under the same name is detected by different ones.
+/// Properties of a texture that OpenGL provides in a few calls. If properties are equal, the result of the
+/// check is equal. If a texture was recreated with the same name, different properties show this.
 struct HostTexture
 {
     uint32_t name = 0;
@@ -37,19 +37,20 @@ struct HostTexture
     GLint width = 0;  ///< [texel]
     GLint height = 0; ///< [texel]
     GLint baseLevel = 0;
-    GLint stencilMode = 0; ///< of ReadDepth
+    GLint stencilMode = 0; ///< for ReadDepth only
     std::array<GLint, 4> swizzle{};
 
     bool operator==(const HostTexture&) const = default;
 };
 
-/// Caches which textures were accepted, so that a frame like the one before only queries their properties.
+/// Caches the properties of accepted textures, so that a frame with the same textures as the previous one
+/// only queries their properties.
 class HostTextureCheck
 {
 public:
     explicit HostTextureCheck(GlDevice& device) : device_(device) {}
 
-    /// @param member  of the frame, "frame.colorTexture", for the message
+    /// @param member  name of the frame's member for the message, such as "frame.colorTexture"
     /// @param outFacts untouched on failure
     /// @return InvalidArgument with the fault and the remedy
     base::Status check(uint32_t name, HostUse use, const char* member, HostTexture& outFacts);
@@ -61,8 +62,8 @@ private:
     std::string formatFault(const HostTexture& facts) const;
 
     GlDevice& device_;
-    std::array<HostTexture, 16> good_{}; ///< the textures used last; hosts may alternate between several
-    size_t next_ = 0;                    ///< of good_, to be replaced
+    std::array<HostTexture, 16> good_{}; ///< the last accepted textures; hosts may alternate between several
+    size_t next_ = 0;                    ///< index in good_ of the entry to replace next
 };
 
 // Names of OpenGL's enumerants, for messages: host_format_names.cpp.

@@ -1,5 +1,5 @@
 /// @file byte_cursor.h
-/// Reads bytes of a file in order and never past the end. Every reader of a binary format goes through it.
+/// Reads the bytes of a file in order and never past the end. All readers of binary formats use it.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ public:
             return std::nullopt;
         return uint8_t(bytes_[position_++]);
     }
-    /// Takes `count` bytes; empty, without progress, when fewer are left.
+    /// Returns the next `count` bytes. If fewer are left, returns nothing and does not advance.
     std::optional<std::span<const std::byte>> take(size_t count)
     {
         if (remaining() < count)
@@ -32,8 +32,8 @@ public:
         position_ += count;
         return bytes_.subspan(position_ - count, count);
     }
-    /// Text up to a line feed, which is consumed but not returned; empty without a line feed within `limit`
-    /// bytes.
+    /// Returns the text up to a line feed, without the line feed, and advances past it. Returns nothing if
+    /// there is no line feed within `limit` bytes.
     std::optional<std::string> line(size_t limit)
     {
         std::string text;

@@ -1,5 +1,5 @@
 /// @file image.h
-/// Pictures in memory, and PNG and Radiance files of them. For tools and scenes; libfxsdk reads no images.
+/// Pictures in memory, and their PNG and Radiance files. For tools and scene files; libfxsdk reads no images.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -11,7 +11,7 @@
 
 namespace fx::image {
 
-/// Rows from the top, channels interleaved.
+/// A picture. The top row comes first; channels are interleaved.
 struct Image
 {
     int width = 0;    ///< [pixel]
@@ -29,21 +29,21 @@ struct Image
 constexpr int kLargestSide = 16384;                ///< [pixel]
 constexpr uint64_t kMaxPixels = uint64_t(1) << 25; ///< width times height
 
-/// Linear values in [0, 1] from a PNG of 8 or 16 bits, taken as sRGB; alpha is linear already and not
-/// premultiplied. Sizes are checked against the limits, and against the number of bytes, before anything is
-/// decoded.
+/// Decodes a PNG of 8 or 16 bits as sRGB to linear values in [0, 1]. Alpha is linear and not premultiplied.
+/// Sizes are checked against the limits, and against the number of bytes, before anything is decoded.
 /// @return TooLarge, Parse
 base::Result<Image> readPng(std::span<const std::byte> bytes);
 
-/// RGB values from a Radiance picture (RGBE, flat or run-length encoded), without conversion.
+/// Decodes a Radiance picture (RGBE, flat or run-length encoded) to RGB values, without conversion.
 /// @return TooLarge, Parse
 base::Result<Image> readHdr(std::span<const std::byte> bytes);
 
-/// 8-bit PNG of display-referred values (sRGB-encoded already): clamped to [0, 1] and rounded; NaN becomes 0.
-/// @return InvalidArgument for sizes or channels that a PNG cannot hold
+/// Encodes display-referred values, which must already be sRGB-encoded, as an 8-bit PNG. Values are clamped
+/// to [0, 1] and rounded; NaN becomes 0.
+/// @return InvalidArgument for sizes or numbers of channels that PNG does not support
 base::Result<std::vector<std::byte>> writePng(const Image& image);
 
-/// Transfer functions of sRGB (IEC 61966-2-1), both on [0, 1].
+/// Transfer functions of sRGB (IEC 61966-2-1). Arguments and results are in [0, 1].
 float srgbToLinear(float encoded);
 float linearToSrgb(float linear);
 

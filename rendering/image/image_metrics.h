@@ -7,12 +7,12 @@
 
 namespace fx::image {
 
-/// Differences over all values of all channels; a value that is not finite counts as infinitely far from a
-/// finite one.
+/// Differences over all values of all channels. The difference of a finite value and a value that is not
+/// finite is infinite.
 struct Difference
 {
     double max = 0;
-    double mean = 0; ///< of absolute values
+    double mean = 0; ///< mean of absolute differences
     double rms = 0;
 };
 

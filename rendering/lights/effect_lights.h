@@ -1,5 +1,6 @@
 /// @file effect_lights.h
-/// The light that burning gas and shining particles throw on everything around them, as a few ball lights.
+/// The light that burning gas and luminous particles emit to their surroundings, approximated by a few ball
+/// lights.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -14,22 +15,25 @@ namespace fx::render {
 /// Light of one group of a snapshot.
 struct EffectLight
 {
-    glm::dvec3 position;     ///< [m] world: center of the emitted light
-    glm::vec3 intensity;     ///< [cd] in every direction
-    float radius;            ///< [m] root mean square extent of the emission, > 0
-    bool isOfMedium = false; ///< of balls of medium, whose own fields may spread it better than a point does
-    float ownReach = 0.0f;   ///< [m] within which what hides the light is in the intensity already
+    glm::dvec3 position; ///< [m] world: center of the emitted light
+    glm::vec3 intensity; ///< [cd] in every direction
+    float radius;        ///< [m] root mean square extent of the emission, > 0
+    /// Emitted by balls of medium, whose fields may propagate the light more accurately than a point light.
+    bool isOfMedium = false;
+    /// [m] distance within which occlusion of the light is already included in the intensity
+    float ownReach = 0.0f;
 };
 
 constexpr size_t kMaxEffectLights = 4;  ///< largest number of lights in drawing
-constexpr size_t kMaxLightSources = 16; ///< kinds of snapshot data that shed light
+constexpr size_t kMaxLightSources = 16; ///< largest number of kinds of snapshot data that emit light
 
-/// How groups of one kind of snapshot data shed light.
+/// How groups of one kind of snapshot data emit light.
 struct LightSource
 {
     const base::KindDesc* kind;
 
-    /// Light of a group with elements. @return false: it sheds none, or its light is that of another group
+    /// Computes the light of a group, which is not empty.
+    /// @return false if the group emits no light, or if its light is included in another group
     bool (*lightOf)(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& group,
                     EffectLight& outLight);
 
@@ -38,10 +42,10 @@ struct LightSource
     void (*complete)(const base::FrameSnapshot& snapshot, size_t group, EffectLight& ioLight) = nullptr;
 };
 
-/// One light for each group that glows, those that are brightest before complete() first, as many as fit and
-/// at most kMaxEffectLights.
+/// Computes one light for each group that emits light, and writes the brightest ones to `out`, brightest
+/// first, at most kMaxEffectLights. Brightness before LightSource::complete() decides.
 /// @param sources at most kMaxLightSources are used
-/// @return how many were written to `out`
+/// @return number of lights written to `out`
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSource* const> sources,
                     std::span<EffectLight> out);
 
@@ -49,19 +53,19 @@ size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSo
 class GroupGlow
 {
 public:
-    /// An element with values that are not finite is ignored; it is not drawn either.
+    /// Adds an element. Elements with values that are not finite are ignored, since they are not drawn.
     /// @param intensity [cd]  @param radius [m]  @return whether it was added
     bool add(const glm::vec3& position, const glm::vec3& intensity, float radius);
 
-    bool isDark() const; ///< too little to be a light
+    bool isDark() const; ///< the sum is too small to be a light
 
-    glm::dvec3 center() const { return moment_ / weight_; } ///< [m] radius of the part that emits light
+    glm::dvec3 center() const { return moment_ / weight_; } ///< [m] mean position of the emitted light
 
     /// [m] root mean square extent.
-    /// @param leastSquare [m2] of the result where the elements are at one place
+    /// @param leastSquare [m2] square of the result if all elements are at one point
     float extent(float leastSquare) const;
 
-    /// @param extent [m]
+    /// The sum as a light in the world. @param extent [m] in the space of the group
     /// @param visible [1] share of the light that leaves the group
     EffectLight light(const base::Placement& placement, float extent, float visible) const;
 

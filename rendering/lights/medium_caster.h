@@ -1,12 +1,12 @@
 /// @file medium_caster.h
-/// A ball of medium as light sees it.
+/// A ball of medium that casts a shadow.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 namespace fx::render {
 
-/// A ball of medium with the quartic kernel that casts a shadow.
+/// A ball of medium with the quartic kernel.
 struct MediumCaster
 {
     glm::vec3 center;   ///< [m] relative to the eye

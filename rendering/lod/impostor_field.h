@@ -2,9 +2,9 @@
 /// Selects the effects of a view that are drawn as impostors, allocates their textures, and schedules their
 /// re-rendering. No GL.
 ///
-/// Each effect has two impostors in tiles of one texture. The older one is cross-faded into the newer one, so
-/// that the picture does not jump. The shown state is at most two intervals old. Threads: one thread at a
-/// time. Frames that are no larger than one before allocate nothing.
+/// Each effect has two impostors in tiles of one texture. The older one cross-fades to the newer one, so that
+/// the picture changes smoothly. The shown state is at most two intervals old. Threads: one thread at a time.
+/// A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -21,38 +21,40 @@ namespace fx::render {
 struct ImpostorSubject
 {
     uint64_t instance;
-    glm::vec3 center; ///< [m] of the ball around it, relative to the eye
-    float radius;     ///< [m]
-    float pixels;     ///< [pixel] of the ball's radius on the picture
+    glm::vec3 center; ///< [m] center of the bounding ball, relative to the eye
+    float radius;     ///< [m] radius of the bounding ball
+    float pixels;     ///< [pixel] radius of the ball on the picture
 };
 
 /// How an effect is drawn in this frame.
 struct ImpostorPlan
 {
-    float blobShare = 1.0f; ///< [1] of its cross section that is drawn as blobs; 0: none need be gathered
-    bool isTaken = false;   ///< its blobs are to be drawn into a picture as well
-    uint32_t slot = 0;      ///< index of the impostor among those rendered in this frame
+    /// [1] share of its cross section that is drawn as blobs; 0: blobs need not be gathered
+    float blobShare = 1.0f;
+    bool isTaken = false; ///< the impostor is rendered in this frame, so that its blobs are needed
+    uint32_t slot = 0;    ///< index of the impostor among those rendered in this frame
 };
 
 class ImpostorField
 {
 public:
-    /// [s] interval of re-rendering the impostor of a changing effect.
+    /// [s] Interval at which the impostor of a changing effect is rendered again.
     static constexpr float kInterval = 0.1f;
-    /// Share of the largest size above which both the impostor and the effect are drawn.
+    /// Share of the largest size. Above it, impostor and blobs are both drawn, cross-faded.
     static constexpr float kBand = 0.75f;
-    static constexpr float kParallax = 1.0f;     ///< [pixel] by which the view may have turned
-    static constexpr float kGrowth = 1.25f;      ///< factor by which the size may have changed
-    static constexpr float kFadeSeconds = 0.25f; ///< [s] in which a first picture replaces its blobs
+    /// [pixel] change by rotation of the view above which an impostor is rendered again
+    static constexpr float kParallax = 1.0f;
+    static constexpr float kGrowth = 1.25f;      ///< [1] factor of the size beyond which it is rendered again
+    static constexpr float kFadeSeconds = 0.25f; ///< [s] time in which the first impostor replaces the blobs
 
     explicit ImpostorField(std::pmr::memory_resource* memory);
 
     struct Frame
     {
-        float mostPixels;  ///< [pixel] radius up to which effects are pictures; 0: none
+        float mostPixels;  ///< [pixel] radius up to which effects are drawn as impostors; 0: none
         double seconds;    ///< [s] since the last frame
         uint64_t content;  ///< revision of the shown content
-        uint64_t lighting; ///< hash of its lighting: impostors of another lighting are not shown
+        uint64_t lighting; ///< hash of the lighting; impostors with another lighting are not shown
         bool forget;       ///< the camera has jumped
         bool hold = false; ///< impostors and their shares do not change
     };
@@ -61,11 +63,11 @@ public:
     ImpostorPlan plan(const ImpostorSubject& subject);
     void end(); ///< frees the tiles of effects that were not planned in this frame
 
-    /// Axes of the picture that is taken in `slot`, and the size of its square.
+    /// Camera axes and square size of the impostor that is rendered in `slot`.
     const ImpostorTaking& taking(uint32_t slot) const { return takings_[slot]; }
     std::span<const ImpostorTaking> takings() const { return takings_; }
     std::span<const ImpostorInstance> shown() const { return shown_; }
-    std::span<const float> distances() const { return distances_; } ///< [m] of shown()
+    std::span<const float> distances() const { return distances_; } ///< [m] distances of shown()
     /// True when no cross-fade is in progress and no impostor is due.
     bool isSettled() const { return settled_; }
 
@@ -73,14 +75,14 @@ private:
     struct Entry
     {
         uint64_t instance = 0;
-        uint32_t tiles = 0;     ///< first of two
-        uint32_t newest = 0;    ///< 0, 1: of the two
-        float mix = 1.0f;       ///< [1] of the newer over the older
-        float presence = 0.0f;  ///< [1] share that is shown by pictures at all
-        glm::vec3 direction{0}; ///< in which the newer was taken
+        uint32_t tiles = 0;     ///< index of the first of two tiles
+        uint32_t newest = 0;    ///< 0 or 1: which of the two tiles is newer
+        float mix = 1.0f;       ///< [1] weight of the newer impostor; the older has 1 - mix
+        float presence = 0.0f;  ///< [1] share of the effect that is drawn as an impostor
+        glm::vec3 direction{0}; ///< view direction of the newer impostor
         glm::vec3 right{0}, up{0};
-        float pixels = 0.0f;      ///< [pixel] then
-        float olderPixels = 0.0f; ///< [pixel] when the older was taken
+        float pixels = 0.0f;      ///< [pixel] radius when the newer was rendered
+        float olderPixels = 0.0f; ///< [pixel] radius when the older was rendered
         uint64_t content = 0;
         uint64_t lighting = 0;
         bool hasPicture = false;
@@ -95,7 +97,7 @@ private:
     Frame frame_{};
     const CameraGeometry* camera_ = nullptr;
     std::pmr::vector<Entry> entries_; ///< sorted by instance
-    std::pmr::vector<Entry> fresh_;   ///< of this frame
+    std::pmr::vector<Entry> fresh_;   ///< added in this frame
     std::pmr::vector<uint32_t> freeTiles_;
     std::pmr::vector<ImpostorTaking> takings_;
     std::pmr::vector<ImpostorInstance> shown_;

@@ -1,10 +1,10 @@
 /// @file level_of_detail.h
 /// Share of the particles of each effect that a view draws, by the size of the effect on the picture.
 ///
-/// Particles are omitted in an order that is fixed for their lifetime, so that they do not flicker; the
-/// remaining ones take over the light of the others. All changes are continuous: a particle at the threshold
-/// is faded. The simulation does not depend on it. Threads: one thread at a time. Frames that are no larger
-/// than one before allocate nothing.
+/// Particles are omitted in an order that is fixed for their lifetime, so that they do not flicker. The
+/// remaining particles are enlarged or made more opaque to represent the omitted ones. All changes are
+/// continuous: a particle at the threshold is faded. The simulation does not depend on the level of detail.
+/// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -18,10 +18,10 @@
 
 namespace fx::render {
 
-/// [0, 1) rank of a particle; particles with the highest ranks are omitted first. A golden-ratio sequence
-/// with a random offset for each 1024 ids. Of any run of births, also of every second or third birth, about
-/// the share s has ranks below s, with errors far below those of random numbers, and without long regular
-/// patterns.
+/// Rank of a particle, [0, 1); particles with the highest ranks are omitted first. Ranks are a golden-ratio
+/// sequence with a random offset for each 1024 ids. In any run of births, about the share s has ranks below
+/// s. The same holds for every second or third birth. Errors are far below those of random numbers, and there
+/// are no long regular patterns.
 inline float birthRank(uint64_t id)
 {
     const uint64_t block = id >> 10;
@@ -31,32 +31,31 @@ inline float birthRank(uint64_t id)
 }
 
 /// @formula lod-weight
-/// The share of a particle that is drawn when a group is thinned out, by its rank.
+/// The weight of a particle, by its rank, when only a share of its group is drawn.
 ///
 /// symbol  unit  meaning
 ///   r     1     rank, [0, 1), uniform over the particles of a group
-///   s     1     share that is to be kept, > 0
-///   f     1     half the width of the border over s, kFade
-///   w     1     share of the particle that is drawn
+///   s     1     share of the group to keep, > 0
+///   f     1     half the width of the transition over s, kFade
+///   w     1     weight of the particle: 0 omitted, 1 kept
 ///   m     1     mean of w over all ranks
 ///   c, c' m2    cross section before and after
 ///
 /// @derivation
-///   Ranks below a = s (1 - f) are kept, those above b = s (1 + f) are not, between both
+///   Ranks below a = s (1 - f) have w = 1, those above b = s (1 + f) have w = 0, and between both
 ///       w = (b - r) / (b - a)                                                                (1)
 ///   clamped to [0, 1]. Its mean over [0, 1) is the integral
 ///       m = a + (b - a) / 2 - max(b - 1, 0)^2 / (2 (b - a))   for a < 1, otherwise 1         (2)
 ///   so with
 ///       c' = c w / m                                                                         (3)
-///   the expected sum of c' is the sum of c: optical depth is kept on average. For particles strewn at random
-///   the variance of the optical depth of a ray is sum of c^2 / (A pi R^2) over an area A, so it stays the
-///   same as well when the kept ones are drawn with the radius
+///   the expected sum of c' is the sum of c: optical depth is kept on average. For random positions, the
+///   variance of the optical depth of a ray is the sum of c^2 / (A pi R^2) over an area A. So the variance is
+///   kept too, if particles are drawn with the radius
 ///       R' = R / sqrt(m)                                                                     (4)
 ///
 /// @source    textbook: the mean of a clamped ramp; first two moments of a Poisson process
-/// @deviation (4) is limited to kGrown sqrt(bias) pixels, beyond which it would be seen as blur, and to R
-/// plus
-///            kSwollen of the radius of the group, beyond which the outline of thick effects would swell
+/// @deviation R' is limited to kGrown sqrt(bias) pixels, because larger radii would be visible as blur, and
+///            to R plus kSwollen times the radius of the group, because thick effects would become larger
 /// @valid     s > 0; s >= kAll gives w = m = 1 exactly
 /// @accuracy  |m - mean of w| <= 2^-22
 /// @tests     tests/rendering/view/test_level_of_detail.cpp
@@ -64,9 +63,9 @@ class LodRamp
 {
 public:
     static constexpr float kFade = 0.25f;
-    static constexpr float kAll = 1.0f / (1.0f - kFade); ///< share from which on all is drawn
+    static constexpr float kAll = 1.0f / (1.0f - kFade); ///< share from which on all particles are drawn
 
-    LodRamp() = default; ///< draws all
+    LodRamp() = default; ///< all particles are drawn
     explicit LodRamp(float share);
     float weight(float rank) const; ///< (1)
     float mean() const { return mean_; }
@@ -81,33 +80,34 @@ private:
 struct LodLevel
 {
     LodRamp ramp;
-    float grownPixels = 0.0f;   ///< [pixel] largest radius to which a kept blob grows
-    float swollenPixels = 0.0f; ///< [pixel] by which it grows at most
+    float grownPixels = 0.0f;   ///< [pixel] largest radius to which a blob is enlarged
+    float swollenPixels = 0.0f; ///< [pixel] largest increase of its radius
 };
 
-/// Groups by the share that is drawn of them: all; at least half; at least an eighth; less.
+/// Number of groups by their drawn share: all; at least half; at least an eighth; less.
 using LodCounts = std::array<uint32_t, 4>;
 
 class LevelOfDetail
 {
 public:
-    static constexpr float kBand = 1.15f;         ///< a level follows only beyond this factor
-    static constexpr float kMinKeptBlobs = 12.0f; ///< blobs of a group, however small it is
-    static constexpr float kGrown = 1.15f;        ///< [pixel] times sqrt(bias)
-    static constexpr float kSwollen = 0.1f;       ///< of the radius of the group on the picture
+    static constexpr float kBand = 1.15f;         ///< hysteresis: a level changes only beyond this factor
+    static constexpr float kMinKeptBlobs = 12.0f; ///< least number of drawn blobs of a group
+    static constexpr float kGrown = 1.15f;        ///< [pixel] see formula lod-weight
+    static constexpr float kSwollen = 0.1f;       ///< [1] see formula lod-weight
 
     explicit LevelOfDetail(std::pmr::memory_resource* memory) : last_(memory), now_(memory) {}
 
-    /// Begins a frame. @param forget ignore the levels of the last frame: the camera has jumped
+    /// Begins a frame. @param forget true: levels of the last frame are ignored, because the camera has
+    /// jumped
     void begin(const LodSettings& settings, const CameraGeometry& camera, int height, bool forget);
 
-    /// The level of a group. Called once a frame. Without a bias all elements are drawn.
-    /// @param place of the group relative to the eye
+    /// The level of a group. Called once per frame and group. Without a bias all elements are drawn.
+    /// @param place placement of the group relative to the eye
     LodLevel levelOf(const base::GroupInfo& group, const base::Placement& place);
 
-    /// The same for rows of particles and ribbons, which the counts leave out.
-    /// @param pieces  that are drawn without a level of detail, particles or pieces of strips
-    /// @param wholes  particles or strips that they make up, of which kMinKeptBlobs stay
+    /// The level of a group of particles or ribbons. counts() does not include it.
+    /// @param pieces  number of particles, or of pieces of strips, that are drawn without a level of detail
+    /// @param wholes  number of particles, or of strips; at least kMinKeptBlobs of them are drawn
     LodLevel levelOfRows(const base::GroupInfo& group, const base::Placement& place, uint32_t pieces,
                          uint32_t wholes);
 
@@ -120,8 +120,8 @@ private:
         uint64_t instance;
         uint32_t solver;
         uint32_t kind;
-        float share;  ///< present share, within the hysteresis around the wanted one
-        float radius; ///< [pixel] on the picture
+        float share;  ///< present share; by hysteresis it may differ from the wanted one
+        float radius; ///< [pixel] radius of the group on the picture
         bool operator<(const Entry& other) const;
     };
     float radiusOnPicture(const base::GroupInfo& group, const base::Placement& place) const;

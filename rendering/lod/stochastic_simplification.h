@@ -2,9 +2,9 @@
 /// Stochastic simplification [CHPR07] of far effects: a subset of particles, meshes and trails is drawn,
 /// enlarged or more opaque, so that the total coverage is preserved.
 ///
-/// A row of particles is the same particle for life, and so is a strip of a ribbon: its rank is a function of
-/// the number of the row or strip. So the subset does not flicker, and a particle is drawn for its whole
-/// lifetime while its effect keeps its size on the picture.
+/// A row holds the same particle for the lifetime of the particle; so does a strip of a ribbon. The rank is a
+/// function of the number of the row or strip. So the subset does not flicker: while its effect keeps its
+/// size on the picture, a particle is drawn either for its whole lifetime or never.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -18,18 +18,18 @@
 
 namespace fx::render {
 
-/// Shape and blending of rows.
+/// Number of drawn elements in rows.
 struct DrawnRows
 {
     uint32_t pieces = 0; ///< particles whose radius is above 0, or pieces of strips
-    uint32_t wholes = 0; ///< of which some have to stay: the particles, or the strips
+    uint32_t wholes = 0; ///< number of particles or strips
 };
 DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon);
 
-/// Rows of a group that belong to one effect, which has its own level.
+/// Rows of a group that belong to one effect. Each effect has its own level.
 struct RowPart
 {
-    base::GroupInfo info; ///< of the group of the effect; its placement is that of the newer snapshot
+    base::GroupInfo info; ///< info of the effect's group, with the placement in the newer snapshot
     uint32_t first, count;
 };
 
@@ -37,12 +37,12 @@ struct RowPart
 enum class RowShape : uint8_t
 {
     Card, ///< a sprite or mesh of any opacity
-    Body, ///< a sprite or mesh that hides: it can be smaller, but not fainter
+    Body, ///< an opaque sprite or mesh: its size can change, but not its opacity
     Strip,
-    SolidStrip, ///< a ribbon that hides
+    SolidStrip, ///< an opaque ribbon: its width can change, but not its opacity
 };
 
-/// By how much a row is larger, and its opacity more, than without a level of detail.
+/// Factors of size and opacity of a row, relative to drawing without a level of detail.
 struct RowFactors
 {
     float size;    ///< [1] factor of the radius, or of the half width of a strip
@@ -50,32 +50,34 @@ struct RowFactors
 };
 
 /// @formula lod-rows
-/// Size and opacity of the particles that are kept, so that the picture is covered as by all.
+/// Size and opacity of the kept particles with which they cover the picture as all particles would.
 ///
 /// symbol  unit   meaning
-///   N      1     particles, strewn at random over an area S
-///   A      m2    area of one on the picture, opaque to the share a of light
-///   w, m   1     share of a particle that is drawn, and its mean over all: formula lod-weight
-///   g      1     growth of the area
-///   T      1     light that passes along a ray
+///   N      1     number of particles at random positions in an area S
+///   A, a   m2, 1 area and opacity of one particle on the picture
+///   w, m   1     weight of a particle, and its mean over all particles: formula lod-weight
+///   g      1     factor of the area
+///   T      1     transmittance of a ray
 ///
 /// @derivation
 ///   The number of particles that a ray meets is Poisson distributed with the mean N A / S, so
 ///       E[T]   = sum over n of P(n) (1 - a)^n = exp(-a N A / S)                              (1)
 ///       E[T^2] = exp(-(1 - (1 - a)^2) N A / S)                                               (2)
-///   Of m N particles with the area A / m both are the same: growth alone keeps mean and variance. Where
-///   growth is limited to g < 1 / m, and for those on the border,
+///   With m N particles of area A / m, both are the same: larger areas alone keep mean and variance. If g is
+///   limited to less than 1 / m, and for particles with w < 1, the opacity
 ///       a' = a w / (m g),   g = min(1 / m, limit)                                            (3)
-///   keeps (1), the sum of a A over all particles on average. What hides cannot be fainter; its area is
+///   keeps (1), that is the expected sum of a A over all particles. Opaque elements keep their opacity; their
+///   area is
 ///       A' = A w g                                                                           (4)
-///   A strip grows in width only: g is the factor of its half width, for others of the radius squared. A long
-///   sprite grows across until it is a square, so that streaks keep their length.
+///   For a strip, g is the factor of its half width; otherwise it is the factor of the squared radius. A long
+///   sprite is enlarged in width only, until it is a square, so that streaks keep their length.
 ///
-/// @source    [CHPR07] for drawing a share of the elements with a larger area; (1)-(2) are ours, by the
+/// @source    [CHPR07] for drawing a share of the elements with a larger area; (1)-(2) follow from the
 ///            generating function of the Poisson distribution
-/// @deviation the limits of growth are those of formula lod-weight; a' is at most 1 where it covers; with (4)
-///            what grows less than 1 / m covers less, which happens only where bodies overlap many times
-/// @valid     particles without order among each other; additive ones keep their light exactly, on average
+/// @deviation g is limited as in formula lod-weight; the drawn opacity is at most 1. With (4), opaque
+///            elements with g < 1 / m cover less than all elements would; this occurs only where many
+///            elements overlap
+/// @valid     particles whose positions are independent; for additive blending, the expected light is exact
 /// @accuracy  factors are rounded to binary16 for drawing: at most 2^-11 of their value
 /// @tests     tests/rendering/view/test_stochastic_simplification.cpp
 ///            tests/rendering/view/test_thinned_particles.cpp
@@ -84,16 +86,17 @@ RowFactors rowFactors(const LodLevel& level, float rank, float pixels, RowShape 
 struct SimplificationInputs
 {
     const base::SnapshotGroup* rows;
-    std::span<const RowPart> parts; ///< empty: all rows are of the group's own effect
-    base::Placement place;          ///< of the group at the moment of the frame, relative to the eye
+    std::span<const RowPart> parts; ///< empty: all rows belong to the effect of the group
+    /// Placement of the group at the moment of the frame, relative to the eye.
+    base::Placement place;
     RowShape shape;
     const CameraGeometry* camera;
-    float pixelsPerSlope; ///< [pixel] at distance 1 for 1
+    float pixelsPerSlope; ///< [pixel] size on the picture of a length of 1 m at a distance of 1 m
 };
 
 /// Computes the factors of all rows.
-/// @param outFactors by row: two binary16 numbers, size in the lower half and opacity; 0: not drawn.
-///         Untouched when all rows are drawn unchanged
+/// @param outFactors by row: two binary16 numbers, size in the lower half, opacity in the upper; 0: not
+///         drawn. Not written if all rows are drawn unchanged
 /// @param ioLeftOut increased by the number of omitted particles or pieces of strips
 /// @return whether any row is omitted or changed
 bool simplifyRows(const SimplificationInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,

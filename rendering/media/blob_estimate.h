@@ -1,6 +1,5 @@
 /// @file blob_estimate.h
-/// How much the blobs of a frame will cost to draw, and how much of the picture they cover, before they are
-/// drawn.
+/// Estimates, before drawing, the cost of the blobs of a frame and the share of the picture that they cover.
 #pragma once
 
 #include "rendering/frame/fragment_counts.h"
@@ -11,14 +10,14 @@
 
 namespace fx::render {
 
-/// Fragments of the bounding rectangles of all blobs, clipped to the window, for each of kLayerDivisors.
-/// Occlusion by opaque surfaces is ignored.
+/// Number of fragments of the bounding rectangles of all blobs, clipped to the window, for each of
+/// kLayerDivisors. Occlusion by opaque surfaces is ignored.
 /// @param width, height of the picture [pixel]
 FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
                                  int height);
 
-/// Approximate share of the picture that the blobs cover, as the weight of their errors. Assumes random
-/// positions: 1 - exp(-sum of their areas).
+/// Approximate share of the picture that the blobs cover, which weights their errors. It is 1 - exp(-sum of
+/// areas), which assumes random positions.
 ScreenShare screenShare(std::span<const BlobInstance> blobs, const CameraGeometry& camera);
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file blob_gather.h
-/// Collects the blobs of a pair of snapshots as one list in eye-relative coordinates, at a moment between the
-/// two.
+/// Collects the blobs of two snapshots in one list in eye-relative coordinates, at a moment between the
+/// snapshots.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -18,7 +18,7 @@
 
 namespace fx::render {
 
-/// A blob as seen from the eye, before light.
+/// A blob relative to the eye, before lighting.
 struct GatheredBlob
 {
     glm::vec3 center;                   ///< [m] relative to the eye, world axes
@@ -26,15 +26,15 @@ struct GatheredBlob
     float crossSection;                 ///< [m2] > 0
     float temperature;                  ///< [K]
     glm::vec3 albedo;                   ///< [1]
-    glm::vec3 emission;                 ///< [cd/m2] besides the black body
+    glm::vec3 emission;                 ///< [cd/m2] in addition to black-body emission
     float fireShare;                    ///< [1]
     float heat;                         ///< [K]
-    float seed;                         ///< [0, 1) of procedural detail, from the id
+    float seed;                         ///< [0, 1) seed of procedural detail, from the id
     float detailAmount;                 ///< [1]
     float detailScale;                  ///< [1]
     float anisotropy;                   ///< [1]
     uint32_t layer;                     ///< MediaLayer
-    int detail = -1;                    ///< number of its group's detail; -1: it has none
+    int detail = -1;                    ///< index of the detail of its group; -1: no detail
     glm::vec3 velocity{0.0f};           ///< [m/s] relative to the world
     std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
 };
@@ -44,19 +44,19 @@ struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    ImpostorPlan plan; ///< its impostor
+    ImpostorPlan plan; ///< how the instance is drawn
 };
 
-/// Blobs that follow each other in an instance: all of a group with detail, or of neighboring groups without.
+/// Consecutive blobs of an instance: those of one group with detail, or of consecutive groups without detail.
 struct BlobRun
 {
-    size_t instance;                 ///< number in the list of instances
-    int detail;                      ///< number of the group's detail; -1: none
+    size_t instance;                 ///< index in the list of instances
+    int detail;                      ///< index of the group's detail; -1: none
     size_t visibleBegin, visibleEnd; ///< range among the visible blobs
-    size_t mediumBegin, mediumEnd;   ///< number of all blobs, visible or not
+    size_t mediumBegin, mediumEnd;   ///< range among all blobs, visible or not
 };
 
-/// Further data for fields of blobs.
+/// Additional data for blobs that are drawn as fields.
 struct FieldGather
 {
     explicit FieldGather(std::pmr::memory_resource* memory)
@@ -64,35 +64,37 @@ struct FieldGather
     {}
     std::pmr::vector<GroupDetail> details;
     std::pmr::vector<BlobRun> runs;
-    std::pmr::vector<DetailedCaster> casters; ///< of the last group with detail
+    std::pmr::vector<DetailedCaster> casters; ///< balls of the last group with detail
     ConservationFactor conservation;
 };
 
-/// Numbers of omitted blobs.
+/// Number of omitted blobs, by reason.
 struct GatherCounts
 {
     uint32_t culled = 0;
     uint32_t nonFinite = 0;
-    uint32_t thinned = 0; ///< for the level of detail
+    uint32_t thinned = 0; ///< omitted by the level of detail
 };
 
-/// Appends to `outVisible` every visible blob, in the order of groups and ids, and to `outMedium` every blob,
-/// because blobs outside of the picture cast shadows into it.
+/// Appends every visible blob to `outVisible`, in the order of groups and ids. Appends every blob to
+/// `outMedium`, because blobs outside of the picture cast shadows into it.
 ///
 /// `outInstances` gets the range of each instance in `outVisible`.
 ///
-/// Elements are matched by id between the two snapshots and interpolated; an element of only the newer one is
-/// extrapolated back along its velocity, and omitted before its birth. Blobs smaller than a pixel are widened
-/// to it, so that they neither vanish nor flicker; their mean opacity over the picture stays, see
-/// widened-ball. With a shutter a moving blob becomes a streak, see foundation/snapshot/streak.h.
+/// Elements of the two snapshots are matched by id and interpolated. An element that only the newer snapshot
+/// has is extrapolated back along its velocity, and omitted before its birth. Blobs smaller than a pixel are
+/// enlarged to a pixel with the same mean opacity over the picture (formula widened-ball), so that they
+/// neither vanish nor flicker. With a shutter, a moving blob becomes a streak, see
+/// foundation/snapshot/streak.h.
 ///
-/// @param share of the particles that is appended to `outVisible`, (0, 1]: selected by id, so that particles
-///         do not flicker; they take over the cross section of the others. All cast shadows.
+/// @param share share of the blobs that is appended to `outVisible`, (0, 1]. Blobs are selected by id, so
+///         that they do not flicker, and get the cross section of the omitted ones. All blobs cast shadows.
 /// @param impostors selects the effects that are drawn as impostors; null: none. Blobs of an effect that is
-///         drawn by its impostor alone are not gathered, but at most 16 of them cast the shadow of all; blobs
-///         for re-rendering an impostor are gathered also outside of the view.
-/// @param lod thins out groups that are small on the picture, for shadows too; null: none
-/// @param castsShadows whether effects that are drawn by an impostor alone cast shadows
+///         drawn only as an impostor are not gathered, but at most 16 of them are appended to `outMedium`, to
+///         represent the shadow of all. If an impostor is rendered in this frame, its blobs are gathered also
+///         outside of the view.
+/// @param lod reduces the blobs of groups that are small on the picture, for shadows too; null: none
+/// @param castsShadows whether effects that are drawn only as an impostor cast shadows
 /// @param outFields receives the detail of groups, and runs of blobs; may be null
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,

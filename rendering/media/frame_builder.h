@@ -1,5 +1,5 @@
 /// @file frame_builder.h
-/// Snapshots and a camera to the sorted list of blobs that the passes draw.
+/// Builds, from snapshots and a camera, the sorted list of blobs that the passes draw.
 #pragma once
 
 #include "rendering/draw_order/depth_sort.h"
@@ -17,17 +17,17 @@
 
 namespace fx::render {
 
-/// Owns the buffers of one view's frames; they grow to the largest frame and stay.
+/// Owns the buffers of the frames of one view. Their memory grows to the largest frame and is kept.
 class FrameBuilder
 {
 public:
     explicit FrameBuilder(std::pmr::memory_resource* memory);
 
-    /// Builds the list for one frame. Equal input gives equal bits. [GL thread, but no GL]
-    /// @param lod begun for this frame
+    /// Builds the list for one frame. Equal input gives equal bits. [GL thread] Makes no GL calls.
+    /// @param lod LevelOfDetail::begin() has been called for this frame
     /// @param content revision of the shown content, for impostors
-    /// @param castsShadows as of gatherBlobs()
-    /// @param isSorted false: blobs() come in the order of groups and ids
+    /// @param castsShadows as in gatherBlobs()
+    /// @param isSorted false: blobs() have the order of groups and ids
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
                const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0,
                bool castsShadows = true, bool isSorted = true);
@@ -40,23 +40,25 @@ public:
     std::span<const GroupDetail> details() const { return fields_.details; }
     /// Marks of blobs(); empty without ViewSettings::outputs.
     std::span<const BlobMark> marks() const { return sortedMarks_; }
-    bool anyHeat() const { return anyHeat_; }     ///< some blob bends light
-    bool anyDetail() const { return anyDetail_; } ///< some blob has procedural detail
+    bool anyHeat() const { return anyHeat_; }     ///< a blob causes heat shimmer
+    bool anyDetail() const { return anyDetail_; } ///< a blob has procedural detail
     /// All shadow casters, visible or not.
     std::span<const MediumCaster> casters() const { return casters_; }
     const GatherCounts& counts() const { return counts_; }
-    /// The blobs as a stream whose elements are the drawn ones; count 0 without any.
+    /// The stream of blobs(); count 0 without blobs.
     DrawStream stream() const;
 
-    /// Effects that are drawn as pictures of themselves, farthest first, and their stream.
+    /// The drawn impostors, farthest first.
     std::span<const ImpostorInstance> impostors() const { return sortedImpostors_; }
+    /// The stream of impostors().
     DrawStream impostorStream() const;
     /// Blobs of the effects whose impostors are rendered in this frame, relative to takingCamera().
     std::span<const BlobInstance> takenBlobs() const { return sortedTaken_; }
-    std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< where each picture is kept
-    /// An equal frame after this one would be the same, but for its camera and snapshots.
+    std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< tile of each rendered impostor
+    /// True if a next frame with the same camera and snapshots would be the same.
     bool isSettled() const { return impostors_.isSettled(); }
-    void forgetPictures() { mustForget_ = true; } ///< those of the last frame were not taken
+    /// Call this if the impostors of the last frame were not rendered.
+    void forgetPictures() { mustForget_ = true; }
 
 private:
     void shade(const ViewSettings& settings, const CameraGeometry& camera, bool isSorted);
@@ -75,7 +77,7 @@ private:
     std::pmr::vector<BlobInstance> shaded_;
     FieldGather fields_;
     std::pmr::vector<BlobMaterial> materials_;
-    std::pmr::vector<BlobMark> marks_, sortedMarks_; ///< of shaded_ and sorted_
+    std::pmr::vector<BlobMark> marks_, sortedMarks_; ///< marks of shaded_ and sorted_
     InstanceNames names_;
     bool isMarked_ = false; ///< the frame has marks
     std::pmr::vector<BlobEffect> effects_;
@@ -90,10 +92,10 @@ private:
     std::pmr::vector<BlobInstance> taken_;
     std::pmr::vector<BlobInstance> sortedTaken_;
     std::pmr::vector<float> takenDistances_;
-    std::pmr::vector<uint32_t> identity_; ///< order_ where nothing is sorted
+    std::pmr::vector<uint32_t> identity_; ///< order_ if nothing is sorted
     std::pmr::vector<uint32_t> takenTiles_;
     std::span<const uint32_t> impostorOrder_;
-    Lighting lighting_; ///< of the last frame, as the next two
+    Lighting lighting_; ///< settings of the last frame, like hostLights_ and slices_
     HostLights hostLights_;
     SliceSettings slices_;
     float exposureEv100_ = 0.0f;

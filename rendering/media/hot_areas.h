@@ -1,5 +1,5 @@
 /// @file hot_areas.h
-/// Areas of the picture that may show hot gas, for heat shimmer.
+/// Areas of the picture that may contain hot gas, for heat shimmer.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// [pixel] side of the tiles that areas are made of.
+/// [pixel] Side of the tiles of which areas consist.
 inline constexpr uint32_t kHotTile = 16;
 
 class HotAreas
@@ -21,9 +21,9 @@ class HotAreas
 public:
     explicit HotAreas(std::pmr::memory_resource* memory) : counts_(memory), areas_(memory) {}
 
-    /// Finds all tiles that blobs with heat may reach, as rows of neighbors: every pixel in which such a blob
-    /// leaves heat is in exactly one area. Takes a few nanoseconds a blob and a tile. Allocates nothing when
-    /// an earlier picture was as large and as hot.
+    /// Finds all tiles that blobs with heat may cover. Neighboring tiles of a row form one area. Every pixel
+    /// to which a blob adds heat is in exactly one area. Takes a few nanoseconds per blob and per tile.
+    /// Allocates nothing if an earlier picture had the same size and as many areas.
     void find(std::span<const BlobInstance> blobs, const CameraView& camera, int width, int height);
     void clear() { areas_.clear(); }
 
@@ -34,9 +34,11 @@ private:
     void count(const CameraGeometry& camera, const BlobInstance& blob, bool isFlipped);
     void collect();
 
-    uint32_t width_ = 0, height_ = 0;  ///< [pixel]
-    uint32_t columns_ = 0, rows_ = 0;  ///< [tile]
-    std::pmr::vector<int32_t> counts_; ///< of blobs that begin and end at a tile; their sums are those on it
+    uint32_t width_ = 0, height_ = 0; ///< [pixel]
+    uint32_t columns_ = 0, rows_ = 0; ///< [tile]
+    /// By tile: blobs that begin at the tile minus blobs that end at it. Prefix sums are the numbers of blobs
+    /// on tiles.
+    std::pmr::vector<int32_t> counts_;
     std::pmr::vector<HotArea> areas_;
 };
 

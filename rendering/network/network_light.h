@@ -1,32 +1,33 @@
 /// @file network_light.h
-/// Light that reaches the cells of a network before it is scattered: sun and lamps, by rays through the grid.
+/// Unscattered light of the sun and of lamps in the cells of a network, by rays through the grid.
 #pragma once
 
 #include "rendering/network/scattering_network.h"
 
 namespace fx::render {
 
-/// A source so far away that its light is parallel.
+/// A source of parallel light.
 struct NetworkSun
 {
-    glm::dvec3 travel{0.0, -1.0, 0.0}; ///< unit, the way the light goes
-    double illuminance = 0.0;          ///< [lx] on a surface that faces it
+    glm::dvec3 travel{0.0, -1.0, 0.0}; ///< unit, direction in which the light travels
+    double illuminance = 0.0;          ///< [lx] on a surface perpendicular to the light
 };
 
-/// A glow that shines to all sides, anywhere, also in the medium: as bright as a point, finite inside.
+/// A ball light, which may be inside of the medium. Outside of its radius it illuminates like a point light;
+/// inside, its light is finite.
 struct NetworkLamp
 {
     glm::dvec3 position{0.0}; ///< [m]
-    double radius = 0.0;      ///< [m] extent of the glow, within which nothing blocks it
+    double radius = 0.0;      ///< [m] extent of the ball, in which nothing blocks its light
     double intensity = 0.0;   ///< [cd]
 };
 
 /// Adds the light of a sun to a network.
-/// @param samples along each axis of a cell, of which the mean is taken, 1..8
+/// @param samples along each axis of a cell, 1..8; the cell gets the mean of the samples
 void addSun(ScatteringNetwork& io, const NetworkSun& sun, int samples, base::TaskRunner& tasks);
 
-/// Adds the light of a lamp. Cells that touch its own take kNearLampSamples along each axis at least: there
-/// its light changes most.
+/// Adds the light of a lamp. The cell that contains the lamp and its neighbors have at least kNearLampSamples
+/// along each axis, because the light varies most there.
 void addLamp(ScatteringNetwork& io, const NetworkLamp& lamp, int samples, base::TaskRunner& tasks);
 constexpr int kNearLampSamples = 12;
 

@@ -1,8 +1,8 @@
 /// @file network_passes.h
-/// Illumination networks on the GPU: the light of fields, scattered any number of times.
+/// Illumination networks on the GPU: light in fields that is scattered any number of times.
 ///
-/// The same network as ScatteringNetwork with 26 directions and 4 moments, of three color channels, with a
-/// phase function of its own in each cell.
+/// The network equals ScatteringNetwork with 26 directions and 4 moments. It has three color channels, and a
+/// separate phase function in each cell.
 #pragma once
 
 #include "rendering/passes/light_bindings.h"
@@ -11,25 +11,29 @@
 
 namespace fx::render {
 
-constexpr int kNetworkRays[2] = {7, 4}; ///< blocks beside each other that hold the light of all directions
-constexpr int kNetworkMoments = 3;      ///< blocks of moments, and of sources: one a color
-constexpr int kNetworkMedium = 2;       ///< blocks of the medium
+/// blocks along x and y in the texture of rays; one block per direction
+constexpr int kNetworkRays[2] = {7, 4};
+constexpr int kNetworkMoments = 3; ///< blocks of moments, and of sources: one per color
+constexpr int kNetworkMedium = 2;  ///< blocks of the medium
 
-/// Volumes of cubes of `cells` a side, see shaders/network/network_grid.glsl. All but `scatter` are RGBA32F.
+/// Three-dimensional textures of blocks of `cells` cubed texels, see shaders/network/network_grid.glsl. All
+/// are RGBA32F, except `scatter`.
 struct NetworkTextures
 {
     ResourceId cells = {};   ///< emitted light [exposed/m], extinction [1/m]
     ResourceId scatter = {}; ///< extinction times albedo [1/m], mean cosine
     ResourceId medium = {};  ///< kNetworkMedium blocks
-    ResourceId unswept = {}; ///< kNetworkMoments blocks of sources without light of the network
-    ResourceId sources = {}; ///< likewise, with it
-    ResourceId moments = {}; ///< likewise, of the light: kept from frame to frame
+    ResourceId unswept = {}; ///< kNetworkMoments blocks: sources, without scattered light of the network
+    ResourceId sources = {}; ///< kNetworkMoments blocks: sources, with scattered light of the network
+    ResourceId moments = {}; ///< kNetworkMoments blocks: moments of the light; kept from frame to frame
     ResourceId rays = {};    ///< kNetworkRays blocks
 };
 
-/// reads   grids     buffer of FieldGlowBlock: where the grids are, and where they were
-///         textures  cells and scatter; with `prepares` the moments of the frame before
-///         lights
+/// Runs sweeps (iterations) of the networks.
+///
+/// reads   grids     buffer of FieldGlowBlock: present and previous positions of grids
+///         textures  cells and scatter; with `prepares` also the moments of the previous frame
+///         lights    all lights
 /// writes  textures  medium and unswept with `prepares`; sources, moments, rays
 class NetworkPasses
 {
@@ -41,8 +45,8 @@ public:
         LightBindings lights;
         int cells;          ///< along a side of a grid, a multiple of 8
         uint32_t gridCount; ///< > 0
-        int sweeps;         ///< that are made
-        bool prepares;      ///< medium or light have changed; false: goes on with the sources that are there
+        int sweeps;         ///< number of sweeps
+        bool prepares;      ///< medium or lights have changed; false: starts from the present sources
     };
     struct Outputs
     {

@@ -1,5 +1,5 @@
 /// @file network_state.h
-/// Light in the cells of a grid, kept from frame to frame.
+/// Light in the cells of a grid, which an illumination network keeps from frame to frame.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,12 +9,12 @@
 
 namespace fx::render {
 
-/// Cubes of one size, x fastest, then y, then z.
+/// A grid of equal cubes. In arrays of cells, x changes fastest, then y, then z.
 struct NetworkGrid
 {
-    glm::dvec3 corner{0.0}; ///< [m] lowest of the first cell
-    double side = 1.0;      ///< [m] of a cell
-    glm::ivec3 cells{0};    ///< along each axis
+    glm::dvec3 corner{0.0}; ///< [m] lowest corner of the first cell
+    double side = 1.0;      ///< [m] side of a cell
+    glm::ivec3 cells{0};    ///< number of cells along each axis
 
     size_t count() const { return size_t(cells.x) * size_t(cells.y) * size_t(cells.z); }
     size_t index(const glm::ivec3& c) const
@@ -25,20 +25,20 @@ struct NetworkGrid
     bool operator==(const NetworkGrid&) const = default;
 };
 
-/// Moments of the light in a cell: sums over directions of weight, harmonic and mean radiance in the cell.
-/// All that a network needs of the last frame. Threads: one at a time.
+/// Moments of the light in all cells: sums over directions of weight * harmonic * mean radiance in the cell.
+/// A network needs no other data of the last frame. Threads: one at a time.
 struct NetworkState
 {
     NetworkGrid grid;
-    int moments = 0;          ///< 4 or 9; 0: nothing is known
-    std::vector<float> light; ///< [cd/m2 sr] of the first moment all cells, then the next
+    int moments = 0;          ///< 4 or 9; 0: no light
+    std::vector<float> light; ///< [cd/m2 sr] the first moment of all cells, then the second, and so on
 };
 
-/// The same light in another grid, by linear interpolation; beyond the old grid it is that of its border.
-/// Moments that the state lacks are 0.
+/// The same light in another grid, by linear interpolation. Outside of the old grid it is the light at the
+/// nearest border. Moments that `state` does not have are 0.
 NetworkState resampled(const NetworkState& state, const NetworkGrid& grid, int moments);
 
-/// Value at a place by linear interpolation between the middles of cells. @param values one a cell
+/// Value at a point, interpolated linearly between the centers of cells. @param values one per cell
 double interpolated(const float* values, const NetworkGrid& grid, const glm::dvec3& position);
 
 } // namespace fx::render

@@ -1,11 +1,11 @@
 /// @file scattering_network.h
 /// Light that a medium scatters any number of times: cells of a grid exchange light with their neighbors.
 ///
-/// One color channel. A frame sets the medium and the light that reaches it unscattered, then sweeps a few
-/// times: each sweep takes the light of the last one along all lines of cells. Nothing is precomputed, so
-/// that media may move.
+/// The network has one color channel. A frame sets the medium and the unscattered light in it, then runs a
+/// few sweeps (iterations). A sweep propagates the light of the previous sweep along all lines of cells.
+/// Nothing is precomputed, so that media may move.
 ///
-/// Threads: one at a time; loops run in the given runner, with the same bits for any number of workers.
+/// Threads: one at a time. Loops run in the given task runner, with the same bits for any number of workers.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -21,112 +21,116 @@
 
 namespace fx::render {
 
-/// Form of a network.
+/// Directions, moments and phase function of a network.
 struct NetworkSettings
 {
-    int directions = 26;     ///< 6, 14 or 26; 6 take 4 moments only
+    int directions = 26;     ///< 6, 14 or 26; 6 directions require 4 moments
     int moments = 4;         ///< 4, or 9 for g above 0.4
     double anisotropy = 0.0; ///< [1] mean cosine g of the phase function, -1..1, see network-phase
 };
 
-/// What fills the cells, one value a cell.
+/// The medium in the cells. Arrays have one value per cell.
 struct NetworkMedium
 {
     NetworkGrid grid;                  ///< 1 to 256 cells along each axis
     std::span<const float> extinction; ///< [1/m] >= 0
     std::span<const float> albedo;     ///< [1] 0..1
-    std::span<const float> emission;   ///< [cd/m2] per optical depth, >= 0, as Kirchhoff's law has it: a cell
-                                       ///< that emits B like a black body has (1 - albedo) B; empty: none
+    /// [cd/m2] per optical depth, >= 0. A gray body of black-body luminance B has (1 - albedo) B. Empty: no
+    /// emission.
+    std::span<const float> emission;
 };
 
-/// What sweeps are to do.
+/// When sweeps end, and how they are accelerated.
 struct SweepRules
 {
-    int sweeps = 1;         ///< at most
-    int acceleration = 2;   ///< earlier sweeps that are mixed in, 0..4; 0: none. For albedos above 0.9
-    double tolerance = 0.0; ///< [1] `change` from which on nothing is left to do
+    int sweeps = 1;         ///< largest number of sweeps
+    int acceleration = 2;   ///< number of earlier sweeps that are mixed, 0..4; useful for albedos above 0.9
+    double tolerance = 0.0; ///< [1] sweeps end when SweepReport::change is at most this
 };
 
-/// What the last sweeps did. Light is measured by the power that the medium scatters, summed over the cells.
+/// Result of the last sweeps. Scattered light means the power that the medium scatters, summed over all
+/// cells.
 struct SweepReport
 {
-    int sweeps = 0;          ///< that were made; 0: medium and light rest, and the tolerance is met
-    double change = 0.0;     ///< [1] of the scattered light by the last sweep, as a share of it
-    double bound = 0.0;      ///< [1] scattered light is off by no more than this share of it
+    int sweeps = 0;          ///< number of sweeps; 0: nothing has changed, and the tolerance is met
+    double change = 0.0;     ///< [1] change of the scattered light by the last sweep, as a share of it
+    double bound = 0.0;      ///< [1] upper bound of the error of the scattered light, as a share of it
     bool isConverged = true; ///< the change is within the tolerance
 };
 
-/// Powers, divided by the unit of radiance [m2 sr]. In light at rest emitted = absorbed + escaped.
+/// Powers, in the unit of radiance times [m2 sr]. After convergence, emitted = absorbed + escaped.
 struct NetworkEnergy
 {
-    double emitted =
-        0.0; ///< by the medium, by what lights scatter there for the first time, and from outside
-    double absorbed = 0.0; ///< of scattered and emitted light
+    /// Emission of the medium, first scattering of light sources, and light from outside.
+    double emitted = 0.0;
+    double absorbed = 0.0; ///< absorbed part of scattered and emitted light
     double escaped = 0.0;
 };
 
 /// @formula network-sweep
-/// Radiance along a line of cells, and its moments in each of them.
+/// Radiance along a line of cells, and its moments in each cell.
 ///
 /// symbol        unit    meaning
 ///   k', albedo' 1/m, 1  extinction and albedo without the forward peak, see network-phase
-///   l           m       length of a line's way through a cell
+///   l           m       length of a line in a cell
 ///   tau         1       k' l
 ///   S           cd/m2   source function of a cell in a direction
-///   I, I'       cd/m2   radiance before and behind the cell; M its mean within
+///   I, I', M    cd/m2   radiance at entry and exit of a cell; mean radiance in it
 ///   e, a, u     1       (1 - exp(-tau)) / tau; 1 - exp(-tau); 1 - e
-///   J_k         cd/m2 sr moments of M; Q_k those of light that is not scattered yet
+///   J_k, Q_k    cd/m2 sr moments of M; moments of unscattered light
 ///   w, Y_k      sr, 1   weight and harmonics of a direction
 ///   E           cd/m2   emission per optical depth of the whole extinction k
 ///   q           1       largest share of scattered light that is scattered again
 /// @derivation
 ///   S = albedo' sum of g_l (J_k + Q_k) Y_k + E / (1 - albedo f)                                  (1)
-///   In a cell that is even, I' = I exp(-tau) + S (1 - exp(-tau)), and M is the mean of that over the way.
+///   In a homogeneous cell, I' = I exp(-tau) + S (1 - exp(-tau)), and M is the mean of this along the line.
 ///   With D = S - I,
 ///       I' = I + a D, M = I + u D                                                               (2)
 ///       J_k = sum over directions of w Y_k M                                                    (3)
-///   tau (S - M) = I' - I: what a line gains is what the cell emits less what it takes, so that no light is
-///   made or lost. A direction of squared length s has lines of cross section side^2 / sqrt(s)   (4)
-///   All factors and the phase function are at least 0, and so is M; what rounding takes from that is
-///   given back.
-///   Each sweep is an affine map of the scattered light. All light that a cell scatters meets matter again
-///   or escapes: in the sum over cells of volume, k' and absolute value the map shrinks differences by
+///   tau (S - M) = I' - I: the gain of a line is emission minus absorption in the cell, so that energy is
+///   conserved. Lines in a direction of squared length s have the cross section side^2 / sqrt(s)  (4)
+///   All factors and the phase function are >= 0, and so is M; negative rounding errors are set to 0.
+///   Each sweep is an affine map of the scattered light. Light that a cell scatters either meets matter again
+///   or escapes. So in the norm sum over cells of volume * k' * |value|, the map reduces differences by
 ///       q = largest albedo', at most 1 - 2^-20                                                  (5)
-///   so that after a sweep which changed the light by c it is at most c q / (1 - q) off, where 2^-22 is
+///   After a sweep that changed the light by c, its error is at most c q / (1 - q), where 2^-22 is
 ///   added to c for rounding                                                                    (6)
 ///   c is bounded by sqrt(4 pi sum over k of (change of moment k of S)^2)                        (7)
-///   Acceleration mixes earlier sweeps so that the change of their mean is least. Where the mix has a
-///   negative S, a cell keeps its light; the last step is always a sweep.
-/// @source    [LEB76] directions; [WN11] the acceleration; (5) and (6) are Banach's fixed-point theorem; the
+///   Acceleration replaces the light by a mix of earlier sweeps, see network-mixing. A cell in which S would
+///   be negative keeps its light. The last step is always a sweep.
+/// @source    [LEB76] directions; [WN11] the acceleration; (5) and (6) by Banach's fixed-point theorem; the
 ///            rest is elementary
-/// @deviation cells are even, and their light is a mean: (4) holds exactly, where light that is interpolated
-///            between nodes loses it
+/// @deviation cells are homogeneous, and their light is a mean, so that energy is conserved exactly; it would
+///            not be if light were interpolated between nodes
 /// @valid     any k >= 0; albedo 0..1
-/// @accuracy  furnace 1e-5; energy 1e-5; same bits for any number of workers
+/// @accuracy  relative error of the radiance in a furnace 1e-5, of the energy balance 1e-5; the same bits for
+///            any number of workers
 /// @tests     tests/rendering/network/test_scattering_network.cpp
 class ScatteringNetwork
 {
 public:
-    /// Takes over a medium. Unscattered light and environment are black afterwards.
-    /// @return InvalidArgument for numbers outside their ranges; the network then keeps what it had
+    /// Sets the medium, and sets unscattered light and environment to 0.
+    /// @return InvalidArgument for numbers outside of their ranges; the network is then not changed
     base::Status setMedium(const NetworkMedium& medium, const NetworkSettings& settings);
 
-    /// Light that comes from outside. @param radiance [cd/m2] for each of directions(), which are those in
-    /// which light travels
-    /// @return InvalidArgument for another count, or numbers that are negative or not finite
+    /// Sets the light that enters from outside.
+    /// @param radiance [cd/m2] of light that travels in each of directions()
+    /// @return InvalidArgument for another count, or values that are negative or not finite
     base::Status setEnvironment(std::span<const float> radiance);
 
-    /// Unscattered light in a cell. @param moments [lx] sums of irradiance across the way of the light, mean
-    /// in the cell, times harmonics() of its direction of travel
+    /// Adds unscattered light in a cell.
+    /// @param moments [lx] mean irradiance in the cell, perpendicular to the light, times harmonics() of the
+    ///         direction in which the light travels
     void addDirect(size_t cell, const std::array<double, kMaxNetworkMoments>& moments);
 
-    /// Sweeps, beginning with the light of `io`, which may be of another grid or empty.
+    /// Runs sweeps, starting from the light of `io`, which may have another grid or be empty. `io` receives
+    /// the result.
     SweepReport sweep(const SweepRules& rules, NetworkState& io, base::TaskRunner& tasks);
 
-    /// Of the light after one more sweep, which is not stored.
+    /// Energy of the light after one more sweep. The result of this sweep is not stored.
     NetworkEnergy energy(const NetworkState& state, base::TaskRunner& tasks);
 
-    /// [1] optical depth without the forward peak along a line through the grid.
+    /// [1] Optical depth, without the forward peak, along a line through the grid. @param length [m]
     double opticalDepth(const glm::dvec3& from, const glm::dvec3& direction, double length) const;
 
     const NetworkGrid& grid() const { return grid_; }
@@ -138,7 +142,8 @@ public:
     double contraction() const { return contraction_; } ///< [1] q
 
 private:
-    /// What followLines() counts, of each direction [cd/m2], summed over its lines.
+    /// Radiance that enters and leaves the grid in one direction [cd/m2], summed over its lines by
+    /// followLines().
     struct Ends
     {
         double entering = 0.0, leaving = 0.0;
@@ -165,20 +170,20 @@ private:
     NetworkPhase phase_;
     int moments_ = 4;
     double contraction_ = 0.0;
-    bool isNew_ = true; ///< medium or light changed since the last sweep
+    bool isNew_ = true; ///< medium or light has changed since the last sweep
     std::vector<NeighborDirection> directions_;
-    std::vector<std::array<float, kMaxNetworkMoments>> harmonics_; ///< of each direction
+    std::vector<std::array<float, kMaxNetworkMoments>> harmonics_; ///< by direction
     std::vector<float> extinction_;                                ///< [1/m] k'
     std::vector<float> scattering_;                                ///< [1] albedo'
     std::vector<float> emission_;                                  ///< [cd/m2] E / (1 - albedo f)
     std::vector<float> direct_;                                    ///< [lx] Q_k
-    std::vector<float> environment_;                               ///< [cd/m2] of each direction
+    std::vector<float> environment_;                               ///< [cd/m2] by direction
     std::array<std::vector<float>, 3> taken_, mean_; ///< [1] a and u for squared lengths 1, 2, 3
     std::vector<float> source_;                      ///< [cd/m2] moments of S
-    std::vector<float> radiance_;                    ///< [cd/m2] M of each direction
+    std::vector<float> radiance_;                    ///< [cd/m2] M by direction
     std::vector<float> next_;
-    std::vector<std::vector<float>> planes_; ///< [cd/m2] I' of two slices, of each direction
-    std::vector<Ends> ends_;                 ///< of each direction
+    std::vector<std::vector<float>> planes_; ///< [cd/m2] by direction: I' of two slices
+    std::vector<Ends> ends_;                 ///< by direction
     NetworkMixing mixing_;
     SweepReport last_;
 };

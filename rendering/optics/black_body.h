@@ -16,7 +16,7 @@ namespace fx::render {
 /// @derivation
 ///   L(lambda, T) = 2 h c^2 / lambda^5 / (exp(h c / (lambda k T)) - 1)                          (1)
 ///   XYZ = 683 lm/W * integral of L times the CIE 1931 color matching functions                (2)
-///   rgb = M XYZ with the Rec. 709 matrix (D65); what lies outside the gamut is clipped at 0   (3)
+///   rgb = M XYZ with the Rec. 709 matrix (D65); negative values (out of gamut) are set to 0   (3)
 /// @source    [Pla01] for (1); [WSS13] multi-lobe fit for (2)
 /// @deviation the integral runs over 380..780 nm in steps of 5 nm, once per table entry
 /// @valid     T <= 400 K gives 0; T is limited to 10000 K; NaN gives 0
@@ -26,7 +26,7 @@ namespace fx::render {
 /// @return    [cd/m2] each >= 0; the luminance is 0.2126 r + 0.7152 g + 0.0722 b
 glm::vec3 blackBodyLuminance(float temperature);
 
-/// The same without a table: integrates at every call. For tests and for building the table.
+/// blackBodyLuminance() without a table: it integrates at every call. Used in tests and to build the table.
 glm::dvec3 integrateBlackBody(double temperature);
 
 } // namespace fx::render

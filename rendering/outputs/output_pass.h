@@ -1,5 +1,5 @@
 /// @file output_pass.h
-/// The passes that tell what a pixel shows: whose it is, how it moves, how far away it is.
+/// The passes of view_output: instance id, motion and distance of the effect in each pixel.
 #pragma once
 
 #include "rendering/compositions/slabs/slab_media.h"
@@ -15,19 +15,20 @@ inline constexpr ProgramDesc kOutputWholeProgram{"outputs (nothing)", "shared/fu
 inline constexpr ProgramDesc kOutputMediaProgram{"outputs", "outputs/outputs.vert.glsl",
                                                  "outputs/outputs.frag.glsl", nullptr,
                                                  "FX_MEDIA=1 FX_FIELD_DETAIL=0"};
-/// All programs that outputs need; nothing else compiles them.
+/// All programs of outputs. They are compiled only if outputs are requested.
 std::span<const ProgramDesc* const> outputPrograms();
 
-/// Of the nearest solid thing in each pixel.
+/// Data of the nearest opaque particle in each pixel.
 struct SolidMarks
 {
-    ResourceId velocity; ///< RGBA32F, xyz [m/s], w 1; 0: there is none. Invalid: there is none anywhere
-    ResourceId instance; ///< RG32UI its id, low word first
+    /// RGBA32F, xyz [m/s], w 1; w 0: no particle. Invalid: no particles in the picture
+    ResourceId velocity;
+    ResourceId instance; ///< RG32UI id of its instance, low word first
 };
 
-/// Draws what hides once more, for its marks.
+/// Draws opaque particles again, to write their SolidMarks.
 ///
-/// reads   what the sources read
+/// reads   the buffers of the sources
 ///         distance  [m] along the ray to the host's opaque geometry
 /// Adds nothing without sources. Keeps no state.
 class SolidMarkPass
@@ -35,7 +36,8 @@ class SolidMarkPass
 public:
     struct Inputs
     {
-        std::span<const MediaSource* const> sources; ///< with solids; must stay until the graph has executed
+        /// Sources of opaque particles; must stay valid until the graph has executed.
+        std::span<const MediaSource* const> sources;
         ResourceId distance;
         int width, height;
         ViewBlock view;
@@ -43,40 +45,40 @@ public:
     [[nodiscard]] static SolidMarks addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The camera of the frame before, and when that was.
+/// Camera and time of the previous frame.
 struct PastFrame
 {
     CameraView camera;
-    float seconds = 0.0f; ///< >= 0 of scene time since then
+    float seconds = 0.0f; ///< [s] >= 0, scene time since the previous frame
 };
 
-/// Remembers it.
+/// Stores the camera and the time of the previous frame.
 class FrameHistory
 {
 public:
-    /// Begins a frame. The first one, and one after a cut, has its own camera as that of the frame before, by
-    /// FrameRequest::deltaTime earlier.
+    /// Begins a frame. For the first frame, and after FrameRequest::resetHistory, past() has the camera of
+    /// this frame, and its time is FrameRequest::deltaTime earlier.
     void advance(const FrameRequest& request);
     void forget() { hasFrame_ = false; }
     const PastFrame& past() const { return past_; }
 
 private:
     PastFrame past_;
-    CameraView camera_; ///< of this frame
-    double time_ = 0.0; ///< [s] of this frame
+    CameraView camera_; ///< camera of this frame
+    double time_ = 0.0; ///< [s] scene time of this frame
     bool hasFrame_ = false;
 };
 
-/// One picture for each bit of view_output, in their order; invalid: it was not asked for.
+/// One picture for each bit of view_output, in the order of bits; invalid if not requested.
 using OutputTextures = std::array<ResourceId, view_output::kCount>;
 
-/// Sums up what a ray sees of each ball, card and solid thing, at the size of the picture, for any
-/// composition. Definitions: docs/howto/outputs.md.
+/// Computes the outputs of each pixel from the balls, cards and opaque particles on its ray. Outputs have the
+/// size of the picture and are the same for all compositions. Definitions: docs/howto/outputs.md.
 ///
-/// reads   lists     what SlabMedia has listed, with marks
+/// reads   lists     lists of SlabMedia, with marks
 ///         marks     BlobMark of each ball
 ///         solids    of SolidMarkPass
-///         distance  [m] along the ray to the host's opaque geometry and solid things
+///         distance  [m] along the ray to the host's opaque geometry and opaque particles
 /// writes  RG32UI instance, RG32F motion [pixel], R32F first depth [m], mean depth [m], optical depth [1]
 /// Keeps no state.
 class OutputPass
@@ -94,7 +96,7 @@ public:
         const CameraView* camera;
         PastFrame past;
     };
-    static constexpr uint32_t kMaxOfTile = kMaxLoopTurns / 12; ///< of SlabTilePass
+    static constexpr uint32_t kMaxOfTile = kMaxLoopTurns / 12; ///< SlabTilePass::Inputs::maxOfTile
     [[nodiscard]] static OutputTextures addTo(FrameGraph& graph, const Inputs& in);
 };
 

@@ -1,5 +1,5 @@
 /// @file output_view.h
-/// What a view keeps to tell what its pixels show.
+/// State of a view for its outputs (view_output).
 #pragma once
 
 #include "rendering/gl/gl_buffer.h"
@@ -7,8 +7,8 @@
 
 namespace fx::render {
 
-/// A part of a view that exists while its settings ask for outputs. It gathers behind all techniques and
-/// before the composition, and takes nothing.
+/// Exists while the settings of a view request outputs. It gathers after all techniques and before the
+/// composition, and leaves all streams in the frame.
 class OutputView final : public TechniqueView
 {
 public:
@@ -22,8 +22,8 @@ public:
     uint64_t bytes() const override { return marks_.bytes(); }
     void readBack(const GlBackend& backend, FrameStatistics& statistics) override;
 
-    /// Adds the passes of a frame; PassFrame::distance has solid things by then.
-    /// @param hostDistance [m] along the ray to the host's opaque geometry alone
+    /// Adds the passes of a frame. PassFrame::distance must include opaque particles.
+    /// @param hostDistance [m] along the ray to the host's opaque geometry, without particles
     [[nodiscard]] OutputTextures addTo(FrameGraph& graph, const PassFrame& frame, ResourceId hostDistance,
                                        std::span<const MediaSource* const> solids, const PastFrame& past);
 
@@ -31,7 +31,7 @@ private:
     GlDevice& device_;
     SlabMedia media_;
     GlBuffer marks_;
-    std::span<const BlobMark> listed_; ///< of the frame
+    std::span<const BlobMark> listed_; ///< marks of the balls of this frame
     ResourceId markBuffer_;
     bool isKept_ = false;
 };

@@ -1,6 +1,6 @@
 /// @file group_merger.h
-/// Merges small groups with equal drawing state, so that many instances of a preset are sorted together and
-/// drawn by one call.
+/// Merges small groups with equal drawing state, so that the particles of many instances of a preset are
+/// sorted together and drawn by one call.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -15,54 +15,54 @@
 
 namespace fx::render {
 
-/// Owns the merged rows of one view; memory is kept from frame to frame, and rows are merged again only when
-/// the snapshots change. The merged newer snapshot is reused as the older one of the next frame if the same
-/// groups have the same positions. Rows of pools are read in place. Groups with rows in pools get space for
-/// their full capacity, so that other groups keep their positions.
+/// Owns the merged rows of one view. Memory is kept from frame to frame. Rows are merged again only when the
+/// snapshots change. The merged newer snapshot is reused as the older one of the next frame if the same
+/// groups have the same ranges of rows. Pooled rows are read in the pool. Pooled groups get space for their
+/// full capacity, so that the ranges of other groups do not change.
 ///
-/// Groups of techniques with a RowMerge are merged if their order does not matter (they are sorted by
-/// distance, additive or opaque), if they have equal columns and constants and at most kMaxMergedRows rows
-/// each, and if their positions are within kFarthestMerged of each other; sprites aligned to an axis also
-/// need equal rotations. The origin of a merged group is the position of its first member, its axes are the
-/// world's. A particle has the same row in both snapshots.
+/// Only groups of techniques with a RowMerge are merged. The order of the groups must not matter: they are
+/// sorted by distance, additive or opaque. The groups must have equal columns and constants and at most
+/// kMaxMergedRows rows each. Their positions must be within kFarthestMerged of each other. Sprites aligned to
+/// an axis must also have equal rotations. The origin of a merged group is the position of its first member,
+/// and its axes are those of the world. A particle has the same row in both snapshots.
 class GroupMerger
 {
 public:
     static constexpr uint32_t kMaxMergedRows = 4096;
     static constexpr double kFarthestMerged = 2000.0; ///< [m]
 
-    /// @param techniques must stay
+    /// @param techniques must stay valid
     GroupMerger(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema* schema,
                 std::pmr::memory_resource* memory);
 
-    /// @param of the snapshots: while they are equal, the previous result is reused
-    /// @param newerRows, olderRows  revisions of their groups; without parts: not known
+    /// @param of revisions of the snapshots; if they equal the previous ones, the previous result is reused
+    /// @param newerRows, olderRows  revisions of rows by group; without parts, they are unknown
     void build(const base::SnapshotPair& snapshots, const RevisionPair& of,
                const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
-    /// The merged groups of build(); may have no groups.
+    /// Snapshots with the merged groups of build(). They may be without groups.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
-    RevisionPair revisions() const { return revisions_; } ///< of merged()
-    /// Revisions of the rows of merged(), one part a member. They are 64-bit hashes of the revisions of the
-    /// merged rows.
+    RevisionPair revisions() const { return revisions_; } ///< revisions of merged()
+    /// Revisions of the rows of merged(), with one part per member of a merged group. They are 64-bit hashes
+    /// of the revisions of the merged rows.
     SnapshotRowRevisions newerRows() const { return {newerRevisions_, partsBegin_, {}}; }
     SnapshotRowRevisions olderRows() const { return {olderRevisions_, partsBegin_, {}}; }
-    /// Which rows of a group of merged() came from which group.
+    /// For a group of merged(): the source group of each range of rows.
     std::span<const RowPart> partsOf(size_t group) const
     {
         return {parts_.data() + partsBegin_[group], partsBegin_[group + 1] - partsBegin_[group]};
     }
-    /// By group of the newer snapshot: 1 where it is part of a merged group.
+    /// By group of the newer snapshot: 1 if it is part of a merged group.
     std::span<const uint8_t> taken() const { return taken_; }
 
 private:
     struct Member
     {
         MergeSource newer;
-        MergeSource older;             ///< without rows: no older group, or strips
-        size_t newerIndex, olderIndex; ///< in their snapshots
+        MergeSource older;             ///< without rows if there is no older group, and for strips
+        size_t newerIndex, olderIndex; ///< group indices in the two snapshots
         uint32_t firstRow;
         uint32_t rows;
-        uint32_t next; ///< of the same set; kNone ends it
+        uint32_t next; ///< next member of the same set, or kNone
     };
     struct Set
     {
@@ -70,9 +70,9 @@ private:
         uint32_t first, last; ///< members
         uint32_t count;
         uint32_t rows;
-        size_t group; ///< of the newer snapshot, the first member's
+        size_t group; ///< group of the first member in the newer snapshot
     };
-    /// Where the rows of a merged group came from.
+    /// Source of a range of rows of a merged group.
     struct Layout
     {
         base::GroupName name;
@@ -115,9 +115,10 @@ private:
     std::pmr::vector<uint8_t> taken_;
     std::pmr::vector<RowPart> parts_;
     std::pmr::vector<size_t> partsBegin_;                           ///< by group of newer_, and the end
-    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< of parts_
-    std::pmr::vector<Layout> layout_, layoutBefore_; ///< of newer_ and olderRevisions_ now and until now
-    std::pmr::vector<base::Placement> anchors_, anchorsBefore_; ///< placements of first members
+    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by part of parts_
+    std::pmr::vector<Layout> layout_, layoutBefore_;                ///< present and previous layout of newer_
+    /// Placements of the first members of merged groups.
+    std::pmr::vector<base::Placement> anchors_, anchorsBefore_;
     MergedRows rows_;
     base::FrameSnapshot newer_, older_;
     bool hasOlder_ = false;

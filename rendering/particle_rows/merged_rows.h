@@ -1,7 +1,7 @@
 /// @file merged_rows.h
-/// Rows of many groups are written into few, in one space each.
+/// Writes the rows of many groups to a few merged groups, transformed to the space of the merged group.
 ///
-/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+/// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -18,16 +18,16 @@
 
 namespace fx::render {
 
-/// A group of a snapshot whose rows are to be merged, in a pool or not.
+/// A group of a snapshot whose rows are merged. Its rows may be pooled.
 struct MergeSource
 {
     const base::SnapshotGroup* rows = nullptr; ///< columns and constants; null: no group
-    const base::PooledRows* pool = nullptr;    ///< the rows are those of a pool, and
-    /// The group is an entry of a pool; otherwise both are null.
+    const base::PooledRows* pool = nullptr;    ///< pool that contains the rows; null: not pooled
+    /// Roster entry of a pooled group; null: not pooled.
     const base::GroupRoster::Entry* entry = nullptr;
     uint32_t count = 0;
 
-    /// Rows to be kept free for it: the same in all snapshots where the rows are in a pool.
+    /// Number of rows to reserve in the merged group; constant over all snapshots for pooled groups.
     uint32_t room() const { return pool ? std::max(count, pool->groupCapacity) : count; }
     const base::Placement& placement() const { return entry ? entry->placement : rows->info().placement; }
 };
@@ -39,15 +39,17 @@ public:
     explicit MergedRows(std::pmr::memory_resource* memory);
 
     void begin(const base::FrameSnapshot& from, base::FrameSnapshot& to);
-    /// A merged group of `rows` rows that looks like `like`, which its rows become relative to.
-    /// @param technique has a RowMerge; must stay
+    /// Adds a merged group of `rows` rows, with the columns, constants and position of `like`.
+    /// @param technique must have a RowMerge and stay valid
     void addGroup(const RowTechnique& technique, const MergeSource& like, uint32_t rows);
-    /// Rows of the group that was added last, from `firstRow` on; those that `from` has not are empty.
-    /// @param number of the member, from 1: goes into the numbers of strips
+    /// Fills `rows` rows of the last added group, from `firstRow` on, with the rows of `from`. If `from` has
+    /// fewer, the remaining rows are empty.
+    /// @param number of the member, >= 1; makes the strip numbers of members different
     void addRows(const MergeSource& from, uint32_t firstRow, uint32_t rows, uint32_t number);
-    /// Writes all groups, and their bounds where all groups that they are of have some.
+    /// Writes all merged groups. A merged group gets bounds if all its members have bounds.
     void write();
-    /// Bounds of the group of the addRows() with this index, in its own space; after write().
+    /// Bounds of the group passed to addRows() call number `index`, in the local space of that group. Call
+    /// after write().
     const base::Bounds& bounds(size_t index) const { return members_[index].bounds; }
 
 private:
@@ -67,10 +69,10 @@ private:
     base::FrameSnapshot* to_ = nullptr;
     PoolScatter scatter_;
     std::pmr::vector<Member> members_;
-    std::pmr::vector<size_t> begin_;                   ///< by group: of its members
+    std::pmr::vector<size_t> begin_;                   ///< by group: index of its first member
     std::pmr::vector<const RowTechnique*> techniques_; ///< by group
     std::pmr::vector<base::SnapshotGroup*> groups_;
-    std::pmr::vector<PlacedRows> placed_; ///< of one group
+    std::pmr::vector<PlacedRows> placed_; ///< rows of one merged group
     bool anyPooled_ = false;
 };
 

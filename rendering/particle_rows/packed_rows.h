@@ -2,23 +2,24 @@
 /// Packed rows of particles for upload: 24 bytes, and 4 more with a velocity, 4 with a frame, 8 with an
 /// orientation. shaders/shared/particle_fetch.glsl reads them.
 ///
-/// Words of a row, each in a column of its own; numbers are those of ParticleBlock::newerAt:
+/// 32-bit words of a row. Each word has its own column; indices are those of ParticleBlock::newerAt:
 ///     0 1 2   position, binary32: exact
 ///     3       radius 17 bits, opacity 15 bits above them
-///     4 5     red, green, blue 12 bits each and 5 bits of exponent, then the turn 12 bits, age 11 bits
-///     6       velocity: 9 bits each and 5 bits of exponent; without an angle the turn holds 4 more bits each
+///     4 5     red, green, blue 12 bits each and 5 bits of common exponent, then "turn" 12 bits, age 11 bits
+///     6       velocity: 9 bits per component and 5 bits of common exponent
 ///     10      frame, binary32: exact
-///     11 12   orientation, 16 bits each
-///     9       not there, or what tells that the turn is the angle;  15 what tells that rows are packed
+///     11 12   orientation, 16 bits for each of four components
+///     9       no data; offset >= 0: "turn" is the angle; -1: "turn" has 4 more bits per velocity component
+///     15      no data; offset >= 0: rows are packed
 ///
-/// Errors, at most; R, L, M: radius, length of the streak, distance flown in a step, in pixels:
-///     radius      2^-12 of itself: 0.27 pixel for a sprite as high as a picture of 2160 lines
-///     velocity    2^-12 of its largest component, with an angle 2^-8: L / 4096 pixels, or L / 256
+/// Largest errors, where R is the radius and L the length of a streak on the picture [pixel]:
+///     radius      relative 2^-12: 0.27 pixel for a sprite as high as a picture of 2160 lines
+///     velocity    2^-12 of its largest component, 2^-8 with an angle: L / 4096 or L / 256 pixels
 ///     angle       pi / 4096: R / 1304 pixels
-///     color       2^-12 of its largest channel; opacity that of binary16, which it is published in
+///     color       2^-12 of its largest channel; opacity as in binary16, the format of snapshots
 ///     orientation 2^-16 for each component
-///     age         births are seen up to 1/2048 s early; steps of one second or more are not told apart
-///                 from the life before
+///     age         1/2048 s: a birth may be visible this much too early. Ages are limited to one second, so
+///                 with steps of one second or more, a row's previous particle is not recognized
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -46,27 +47,27 @@ enum : size_t
 /// Offsets of columns in words from the begin of a group; -1: absent.
 using RowPlaces = std::array<int32_t, 16>;
 
-/// Between two snapshots.
+/// A moment between two snapshots.
 struct RowMoment
 {
-    float share = 1.0f;   ///< of the newer one
-    float seconds = 0.0f; ///< between both
+    float share = 1.0f;   ///< [1] weight of the newer snapshot
+    float seconds = 0.0f; ///< [s] time between both snapshots
 };
 
-/// Lays out the packed rows of a group of the kind "particle".
+/// Computes the column offsets of the packed rows of a group of the kind "particle".
 /// @param room capacity in rows
 /// @return size in words
 uint64_t layOutPacked(const base::SnapshotGroup& group, uint64_t room, RowPlaces& out);
-/// [byte] a row takes.
+/// [byte] Size of a row.
 uint32_t packedRowBytes(const RowPlaces& places);
 
 /// Writes rows of a group.
-/// @param out where the group lies
+/// @param out begin of the group
 void packRows(const base::SnapshotGroup& group, uint32_t first, uint32_t count, const RowPlaces& places,
               std::byte* out);
-/// Writes the rows interpolated between two snapshots, equal to fetchParticle(). Rows of particles that are
-/// not born yet become empty.
-/// @param older the same group before
+/// Writes rows interpolated between two snapshots, as fetchParticle() in the shader computes them. Rows of
+/// particles that are not born at the moment become empty.
+/// @param older the same group in the older snapshot
 void packRowsBetween(const base::SnapshotGroup& newer, const base::SnapshotGroup& older,
                      const RowMoment& moment, uint32_t first, uint32_t count, const RowPlaces& places,
                      std::byte* out);

@@ -1,5 +1,5 @@
 /// @file packed_tile.h
-/// Some rows of particles on their way to packed_rows.h.
+/// Buffer of up to 256 rows of particles, from which packed rows are written, see packed_rows.h.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@ struct PackedTile
     float red[kRows], green[kRows], blue[kRows], opacity[kRows];
     float velocityX[kRows], velocityY[kRows], velocityZ[kRows], angle[kRows], frame[kRows];
     float qx[kRows], qy[kRows], qz[kRows], qw[kRows];
-    float flip[kRows];    ///< of the orientation
+    float flip[kRows];    ///< -1 or 1: sign of the orientation quaternion
     uint32_t turn[kRows]; ///< 12 bits, see packed_rows.h
 
-    /// Makes rows empty.
+    /// Sets rows to 0, which makes them empty.
     void fillFrom(uint32_t first, uint32_t count)
     {
         for (float* all : {x, y, z, age, radius, red, green, blue, opacity, velocityX, velocityY, velocityZ,
@@ -27,7 +27,7 @@ struct PackedTile
     }
 };
 
-/// Where words of rows go to; null: nowhere.
+/// Output pointers for the words of rows; null if a word is not written.
 struct PackedTargets
 {
     float* position[3];

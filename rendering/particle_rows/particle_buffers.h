@@ -1,19 +1,19 @@
 /// @file particle_buffers.h
-/// Rows of snapshots on the GPU. Each snapshot is written once, column by column, into persistently mapped
-/// memory, and is used first as the newer and then as the older of two.
+/// Rows of snapshots on the GPU. Each snapshot is written once, column by column, to persistently mapped
+/// memory. It is used first as the newer and then as the older snapshot of a frame.
 ///
-/// A buffer that is reused keeps unchanged rows, part by part, so rows at rest are written only three times.
-/// Groups with the same rows share them.
+/// When a buffer is reused, unchanged parts of rows are not written again. So constant rows are written only
+/// three times, once per buffer. Groups with equal rows share them.
 ///
-/// Groups are written when a frame draws them first. Groups with rows in pools are written only if one of
-/// them is drawn separately.
+/// A group is written when a frame first draws it. Pooled groups are written only if one of them is drawn
+/// without merging.
 ///
-/// Rows of particles are packed, see packed_rows.h: 24 bytes, and 4 with a velocity; those of ribbons take
-/// 32. Three buffers are used in rotation: the two that frames read, and the one being written.
+/// Rows of particles are packed, see packed_rows.h: 24 bytes, and 4 more with a velocity. Rows of ribbons
+/// have 32 bytes. Three buffers are used in rotation: two that frames read, and one that is written.
 ///
-/// A frame writes at most one snapshot. If neither of its two snapshots is present, as when the frame rate is
-/// below the snapshot rate, only the interpolated state of the frame is written. When a second frame shows
-/// the same two snapshots, both are written for further frames.
+/// Usually a frame writes one snapshot. If neither of its two snapshots is present, because the frame rate is
+/// below the snapshot rate, it writes only the state interpolated for this frame. If a second frame shows the
+/// same two snapshots, both are written for further frames.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -36,60 +36,61 @@
 
 namespace fx::render {
 
-/// Revisions by which present rows are recognized.
+/// Revisions by which rows on the GPU are identified.
 struct UploadRevisions
 {
-    RevisionPair snapshots; ///< equal ones share a place
+    RevisionPair snapshots; ///< snapshots with equal revisions share a Place
     SnapshotRowRevisions newerRows, olderRows;
 };
 
 class ParticleBuffers
 {
 public:
-    /// @param techniques whose groups are written; must stay
+    /// @param techniques techniques whose groups are written; must stay valid
     ParticleBuffers(GlDevice& device, std::span<const RowTechnique* const> techniques,
                     std::pmr::memory_resource* memory);
 
-    /// Writes missing rows and fills in the batches' buffers, textures and meshes.
-    /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
+    /// Writes missing rows, and sets buffers, textures and meshes of the frame's batches.
+    /// @return OutOfMemory, GlFailed, TooLarge (a group exceeds the limit of storage buffers)
     base::Status prepare(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                          ParticleFrame& frame, const base::AssetTable* assets);
     /// Called instead of prepare(): the frame draws the rows of the last frame.
     void keep(const ParticleFrame& frame);
-    /// A frame without particles; after many in a row everything is deleted, until the next prepare().
+    /// Called instead of prepare() for a frame without particles. After many such frames, all buffers are
+    /// deleted until the next prepare().
     void idle();
-    /// To be called when all draws of the frame have been issued.
+    /// Must be called after all draws of the frame have been issued.
     void fence();
     /// Rows to compute on the GPU before the frame's batches are drawn.
     std::span<const GpuRowsJob> jobs() const { return jobs_; }
-    /// True once the context has refused to compute particles.
+    /// True after computing particles has failed in this context.
     bool refusesGpu() const { return refusesGpu_; }
     void warmUp(const base::GpuParticleProgram& emitter);
-    /// Invalidates the rows that the last frame, which failed, should have computed.
+    /// Call this if the last frame failed: invalidates the rows that it should have computed.
     void forgetComputed();
 
-    uint64_t uploadedBytes() const { return uploadedBytes_; } ///< [byte] of the last prepare()
-    /// [byte] of the last prepare(): rows that were where they belong since an earlier snapshot.
+    uint64_t uploadedBytes() const { return uploadedBytes_; } ///< [byte] in the last prepare()
+    /// [byte] in the last prepare(): rows reused from an earlier snapshot.
     uint64_t keptBytes() const { return keptBytes_; }
-    /// [byte] of the last prepare(): rows that are the same as those of a group before.
+    /// [byte] in the last prepare(): rows shared with an earlier group of the snapshot.
     uint64_t sharedBytes() const { return sharedBytes_; }
-    uint64_t bytes() const; ///< [byte] held
+    uint64_t bytes() const; ///< [byte] size of all buffers
 
 private:
-    /// Where a group of a snapshot lies.
+    /// Location of a group of a snapshot in the buffers of a place.
     struct GroupPlace
     {
         uint64_t offset = 0, bytes = 0;
         RowPlaces columns{}; ///< in words from the offset; -1: absent
-        // Only of rows that are computed: those members are about the buffer `computed`.
+        // Only for rows that the GPU computes. Then the members above refer to the buffer Place::computed.
         uint64_t wordsOffset = 0, wordsBytes = 0; ///< range of the input data
         bool isComputed = false;
-        bool isThere = false;  ///< valid after the jobs of this frame have run
+        bool isThere = false;  ///< rows are valid after the jobs of this frame have run
         bool isPacked = false; ///< in the layout of packed_rows.h
-        /// Rows of the CPU are written; false for groups that are not drawn.
+        /// Rows of the CPU have been written; false for groups that are not drawn.
         bool isWritten = false;
         bool isShared = false;             ///< shares the rows of an earlier group
-        size_t rowsBegin = 0, rowsEnd = 0; ///< valid range of Place::rows
+        size_t rowsBegin = 0, rowsEnd = 0; ///< range of the group in Place::rows
     };
     struct Place
     {
@@ -97,9 +98,9 @@ private:
         GlBuffer computed;     ///< rows that the GPU writes
         uint64_t revision = 0; ///< revision of the content; 0: none
         uint64_t usedFrame = 0;
-        bool hasPools = false; ///< includes groups of pools
+        bool hasPools = false; ///< includes pooled groups
         std::pmr::vector<GroupPlace> groups;
-        std::pmr::vector<RowRevision> rows;        ///< of all groups
+        std::pmr::vector<RowRevision> rows;        ///< revisions of all groups
         std::pmr::vector<GroupPlace> groupsBefore; ///< previous content
         std::pmr::vector<RowRevision> rowsBefore;
 
@@ -117,10 +118,10 @@ private:
     struct Source
     {
         const base::FrameSnapshot* snapshot;
-        uint64_t revision; ///< 0: mixed
+        uint64_t revision; ///< 0: interpolated
         SnapshotRowRevisions rows;
-        bool withPools; ///< also groups whose rows are in pools
-        bool isOlder;   ///< of the two of the frame
+        bool withPools; ///< also pooled groups
+        bool isOlder;   ///< true: the older snapshot of the frame
         // Only for interpolated rows:
         const base::FrameSnapshot* older = nullptr;
         SnapshotRowRevisions olderRows = {};
@@ -133,19 +134,19 @@ private:
                                  ParticleFrame& frame, Place*& older, Place*& newer);
     bool mixes(const base::SnapshotPair& snapshots, const UploadRevisions& revisions, ParticleFrame& frame);
     size_t olderOf(size_t group) const;
-    /// Whether the rows of a group are those of one before it.
+    /// Whether a group has the same rows as an earlier group.
     bool isAlike(const Source& source, size_t group) const;
     base::Status makeRoom(const Sizes& sizes, Place& place);
     Sizes layOut(const Source& source, std::pmr::vector<GroupPlace>& out) const;
     void layOutRows(const base::SnapshotGroup& group, const RowTechnique& technique, GroupPlace& out) const;
     base::Status ensureComputed(GlBuffer& buffer, uint64_t bytes);
-    /// Rows of a batch; missing ones of the GPU become a job.
+    /// Sets the buffer range of the rows of a batch. If the GPU must compute them, a job is added.
     base::Status takeRows(Place& place, const base::SnapshotGroup& group, size_t index, uint32_t batch,
                           bool isNewer, BufferPart& outPart);
     void write(const Source& source, Place& place);
-    /// @param before previous content with the same columns; null: other content
+    /// @param before location of the previous content with the same columns; null: none
     void writeRows(const Source& source, size_t group, const GroupPlace* before, Place& place);
-    /// @param stands the rows are equal in the previous snapshot
+    /// @param stands the rows equal the present content of the buffer
     void writePart(const Source& source, size_t group, const RowRevision& part, bool stands, Place& place);
     base::Status writeOrders(ParticleFrame& frame);
     base::Status findAssets(ParticleFrame& frame, const base::AssetTable* assets);
@@ -156,19 +157,20 @@ private:
     std::array<GlMappedBuffer, 3> orders_;
 
     /// Buffers of places_ and orders_ from which the draws of the current frame read: the older rows, the
-    /// newer rows and the orders. Null where the frame reads none.
+    /// newer rows and the orders. Null if the frame reads no such buffer.
     std::array<GlMappedBuffer*, 3> drawn_{};
 
     GlAssetCache assets_;
     GpuEmitters emitters_;
     GpuStates states_;
     std::pmr::vector<GpuRowsJob> jobs_;
-    std::pmr::vector<uint8_t> wanted_; ///< by group of the snapshot that is written now: it is drawn
-    std::pmr::vector<size_t> older_;   ///< by group of the newer snapshot; only for interpolated rows
-    RevisionPair mixed_;               ///< snapshots of which the last frame was mixed
+    std::pmr::vector<uint8_t> wanted_; ///< by group of the snapshot that is being written: 1 if it is drawn
+    /// by group of the newer snapshot: the older group; only for interpolated rows
+    std::pmr::vector<size_t> older_;
+    RevisionPair mixed_; ///< snapshots between which the last frame was interpolated
     bool refusesGpu_ = false;
     uint64_t frame_ = 0;
-    uint32_t idleFrames_ = 0; ///< one after the other
+    uint32_t idleFrames_ = 0; ///< number of successive calls of idle()
     uint64_t uploadedBytes_ = 0;
     uint64_t keptBytes_ = 0;
     uint64_t sharedBytes_ = 0;

@@ -1,5 +1,5 @@
 /// @file particle_estimate.h
-/// How much the particles and ribbons of a group will cost to draw, before they are drawn.
+/// Estimates, before drawing, the cost of the particles and ribbons of a group.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -9,9 +9,9 @@
 
 namespace fx::render {
 
-/// Estimated fragments of all rows for each of kLayerDivisors, each row limited to the size of the window.
-/// Extrapolated from every 61st row; clipping and occlusion are ignored.
-/// @param group   of the technique's kind
+/// Estimated number of fragments of all rows, for each of kLayerDivisors. A row counts at most as large as
+/// the window. Every 61st row is a sample for the others. Clipping and occlusion are ignored.
+/// @param group   group of the technique's kind
 /// @param place placement relative to the eye
 /// @param width, height of the picture [pixel]
 FragmentCounts estimateRows(const base::SnapshotGroup& group, const RowTechnique& technique,

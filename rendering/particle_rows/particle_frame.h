@@ -1,6 +1,6 @@
 /// @file particle_frame.h
-/// The groups of particles and ribbons of a pair of snapshots as a frame draws them: which are seen, in which
-/// order their rows come, and every number that their shaders need. No GL; rows stay where they are.
+/// The groups of particles and ribbons of two snapshots as a frame draws them: which groups are visible, the
+/// order of their rows, and all uniforms of their shaders. Makes no GL calls; rows are not copied.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -21,24 +21,25 @@
 
 namespace fx::render {
 
-/// Form in which the drawn rows are listed; values are those of the shaders.
+/// How the list of drawn rows is stored; shaders use the same values.
 enum class OrderForm : uint8_t
 {
-    All,            ///< no list: all rows, in their order
-    Rows,           ///< a word each
-    FactorsBeside,  ///< a row and its factors, two words
-    RowFactorsOnly, ///< no rows, but the factors of each
+    All,            ///< no list: all rows, in the order of rows
+    Rows,           ///< one word per drawn row: its index
+    FactorsBeside,  ///< two words per drawn row: its index and its factors
+    RowFactorsOnly, ///< one word per row, in the order of rows: its factors
 };
 
-/// A group that is drawn, beside the batch of the same index.
+/// A drawn group. The batch with the same index belongs to it.
 struct ParticleGroup
 {
     const RowTechnique* technique;
     const base::SnapshotGroup* newer;
-    const base::SnapshotGroup* older;  ///< null: none, or of a strip
-    size_t newerIndex, olderIndex;     ///< in their snapshots
-    std::span<const uint32_t> order;   ///< rows in order of drawing; empty: all, in their order
-    std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: nothing is thinned out
+    const base::SnapshotGroup* older; ///< null if there is none, and for strips
+    size_t newerIndex, olderIndex;    ///< group indices in the two snapshots
+    /// Rows in the order of drawing; empty: all rows, in the order of rows.
+    std::span<const uint32_t> order;
+    std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: all rows are drawn unchanged
     uint32_t texture, motion, mesh;    ///< ids in the asset table
     int columns, rows;                 ///< frames of the texture
     OrderForm orderForm = OrderForm::All;
@@ -52,20 +53,20 @@ struct ParticleFrameInputs
     const ViewSettings* settings;
     const CameraGeometry* camera;
     std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 if it is omitted
-    LevelOfDetail* lod = nullptr;        ///< begun for this frame; null: everything is drawn
-    const GroupMerger* merger = nullptr; ///< that made the snapshots; null: they are the scene's
+    LevelOfDetail* lod = nullptr;        ///< begin() must have been called; null: all rows are drawn
+    const GroupMerger* merger = nullptr; ///< merger that made the snapshots; null: snapshots of the scene
     std::span<const RowTechnique* const> techniques = {};
 };
 
-/// Numbers of drawn elements; for groups on the GPU their capacity.
+/// Number of drawn elements. Groups that the GPU computes are counted with their capacity.
 struct DrawnCounts
 {
     uint64_t sprites = 0;
     uint64_t meshes = 0;
-    uint64_t ribbonPieces = 0; ///< between two points of a strip
+    uint64_t ribbonPieces = 0; ///< pieces between two points of a strip
 };
 
-/// Owns the orders of one view; they and all memory are kept from frame to frame.
+/// Owns the orders of rows of one view. Orders and memory are kept from frame to frame.
 class ParticleFrame
 {
 public:
@@ -79,17 +80,16 @@ public:
 
     std::span<const ParticleGroup> groups() const { return groups_; }
     std::span<ParticleBatch> batches() { return batches_; }
-    /// In which order the rows of computed batches are to be drawn.
+    /// Sort order of the rows of computed batches.
     std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
-    /// Batches that do not hide, for DrawBatcher.
+    /// Streams of batches that are not opaque, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
-    /// Rows of both snapshots are required, and groups are not merged, because outputs contain the motion of
-    /// each group.
+    /// True if outputs contain motion. Then rows of both snapshots are required, and groups are not merged.
     bool keepsSnapshots() const { return keepsSnapshots_; }
-    uint64_t orderedRows() const { return orderedRows_; } ///< in orders
-    uint64_t thinnedRows() const { return thinnedRows_; } ///< left to others by the level of detail
-    /// Estimated fragments of transparent rows.
+    uint64_t orderedRows() const { return orderedRows_; } ///< number of sorted rows
+    uint64_t thinnedRows() const { return thinnedRows_; } ///< not drawn due to the level of detail
+    /// Estimated number of fragments of transparent rows.
     const FragmentCounts& fragments() const { return fragments_; }
 
 private:
@@ -116,7 +116,7 @@ private:
     std::pmr::vector<DrawStream> streams_;
     std::pmr::vector<GpuOrderJob> gpuOrders_;
     std::pmr::vector<std::unique_ptr<Orderer>> orderers_;
-    size_t lastOrderer_ = 0; ///< that ordererOf() found
+    size_t lastOrderer_ = 0; ///< index of the last result of ordererOf()
     uint64_t frame_ = 0;
     bool keepsSnapshots_ = false;
     DrawnCounts drawn_;

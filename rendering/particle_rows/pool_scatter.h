@@ -1,7 +1,7 @@
 /// @file pool_scatter.h
-/// Copies the rows of pools to merged groups in one pass over each pool, without gathering single groups.
+/// Copies the rows of pools to merged groups, in one pass over each pool.
 ///
-/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+/// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -19,19 +19,19 @@ class PoolScatter
 public:
     explicit PoolScatter(std::pmr::memory_resource* memory);
 
-    /// A snapshot whose entries are to be sent.
-    /// @param groups merged groups, of at most `rows` rows each
+    /// Begins with a snapshot whose roster entries are copied.
+    /// @param groups number of merged groups
     void begin(const base::FrameSnapshot& snapshot, size_t groups);
-    /// The rows of `entry` go to `rows` of a merged group from `firstRow` on.
+    /// Requests that run() copies the rows of `entry` to `rows` rows of a merged group, from `firstRow` on.
     void send(const base::GroupRoster::Entry& entry, uint32_t group, uint32_t firstRow, uint32_t rows)
     {
         targets_[first_[entry.pool] + entry.member] = {&entry, group, firstRow, rows};
         isSentTo_[group] = 1;
     }
-    /// Writes all columns of non-empty rows, with rotated orientations; rows without a source are zero.
-    /// @param groups each with count() rows; groups without a source do not change
+    /// Writes all columns of non-empty rows, with rotated orientations. Rows without a source become zero.
+    /// @param groups the merged groups, each with count() rows; groups without a source do not change
     void run(const base::FrameSnapshot& snapshot, std::span<base::SnapshotGroup* const> groups);
-    /// Extent of the rows of an entry whose pool has velocities.
+    /// Extent of the rows of an entry. Its pool must have velocities.
     const base::RowExtent& extentOf(const base::GroupRoster::Entry& entry) const
     {
         return extents_[first_[entry.pool] + entry.member];
@@ -40,7 +40,7 @@ public:
 private:
     struct Target
     {
-        const base::GroupRoster::Entry* entry = nullptr; ///< null: none
+        const base::GroupRoster::Entry* entry = nullptr; ///< null: not copied
         uint32_t group = 0, firstRow = 0, rows = 0;
     };
     struct Move
@@ -58,13 +58,13 @@ private:
         return {moves_.data() + begin_[group], ends_[group] - begin_[group]};
     }
 
-    std::pmr::vector<size_t> first_;            ///< by pool: of its members in targets_
+    std::pmr::vector<size_t> first_;            ///< by pool: index of its first member in targets_
     std::pmr::vector<Target> targets_;          ///< by member, pool after pool
     std::pmr::vector<base::RowExtent> extents_; ///< extents of rows; empty without velocities
-    std::pmr::vector<Move> moves_;              ///< of one pool, group after group
-    std::pmr::vector<uint32_t> begin_;          ///< by group: in moves_
+    std::pmr::vector<Move> moves_;              ///< moves of one pool, group after group
+    std::pmr::vector<uint32_t> begin_;          ///< by group: begin of its range in moves_
     std::pmr::vector<uint32_t> ends_;           ///< by group: end of its range in moves_
-    std::pmr::vector<uint8_t> isSentTo_;        ///< by group: 1 where rows were uploaded
+    std::pmr::vector<uint8_t> isSentTo_;        ///< by group: 1 if send() was called for it
 };
 
 } // namespace fx::render

@@ -25,24 +25,26 @@ struct RowCasterInputs
 };
 
 /// Appends the balls of all groups, visible or not. A group with more than kMaxGroupCasters rows is divided
-/// into runs of equal length; the first caster of a run represents all of them, with their total cross
-/// section and a volume increased in proportion. With many groups, each gets fewer casters. Rows that the GPU
+/// into runs of equal length. The first row of a run represents the whole run, with its total cross section
+/// and a volume increased in proportion. With many groups, each gets fewer casters. Rows that the GPU
 /// computes cast no shadow.
 void gatherRowCasters(const RowCasterInputs& in, std::pmr::vector<MediumCaster>& ioCasters);
 
 constexpr uint32_t kMaxGroupCasters = 256;
-constexpr uint32_t kMaxRowCasters = 4096; ///< of one call, but at least kMinGroupCasters of each group
+constexpr uint32_t kMaxRowCasters = 4096; ///< per call; but each group has at least kMinGroupCasters
 constexpr uint32_t kMinGroupCasters = 8;
 
-/// Widens those that the texels of planes fitted to `all` could miss; cross sections stay.
+/// Enlarges casters that would fall between the texels of light slices fitted to `all`. Their cross sections
+/// do not change.
 /// @param texels along a side of a plane
 void widenCasters(std::span<MediumCaster> ioCasters, std::span<const MediumCaster> all, int texels);
 
-/// [m2] cross section of a ball with the optical depth `depth` through its middle, the inverse of the formula
-/// kernel-optical-depth there.  @param radius [m]
+/// [m2] Cross section of a ball that has the optical depth `depth` through its center: the inverse of the
+/// formula kernel-optical-depth.
+/// @param depth [1]  @param radius [m]
 float crossSectionOfDepth(float depth, float radius);
 
-/// [1] optical depth of a surface of `opacity` [0, 1], limited to that of kMaxOpacity.
+/// [1] Optical depth of a surface of opacity `opacity` [0, 1], limited to that of kMaxOpacity.
 float depthOfOpacity(float opacity);
 constexpr float kMaxOpacity = 0.999f;
 

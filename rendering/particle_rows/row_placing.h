@@ -1,6 +1,6 @@
 /// @file row_placing.h
-/// Rows of many groups are carried into one space: loops over whole vectors, compiled for each instruction
-/// set. All give the same bits.
+/// Transforms the rows of many groups to one space. The loops run over whole SIMD vectors and are compiled
+/// for each instruction set; all instruction sets give the same bits.
 #pragma once
 
 #include "foundation/snapshot/pooled_groups.h"
@@ -12,26 +12,27 @@
 
 namespace fx::render {
 
-/// The rows of one group, which may be transformed in place. Up to kRowsBehind rows after the end are read.
+/// The rows of one group. They may be transformed in place. Up to kRowsBehind rows after the end are read.
 struct PlacedRows
 {
-    const float* from[3]; ///< columns of a vector
-    const float* radius;  ///< [m]; above 0 where a row contains a visible particle
+    const float* from[3]; ///< columns of the x, y and z components
+    const float* radius;  ///< [m]; > 0 if a row contains a visible particle
     float* to[3];
     float* toRadius;
     uint32_t count;
     glm::quat rotation;
     float scale;
     glm::vec3 offset;       ///< [m]
-    base::RowExtent extent; ///< bounds of non-empty rows, with their radii
+    base::RowExtent extent; ///< extent of non-empty rows, with their radii
 };
 
 constexpr uint32_t kRowsBehind = 16;
 
-/// Places and radii: offset + rotation * (scale * place), scale * radius. Measures the rows as they were.
+/// Transforms positions and radii: offset + rotation * (scale * position), scale * radius. Sets `extent` to
+/// the extent before the transformation.
 void placeRows(std::span<PlacedRows> groups);
 
-/// Directions: rotation * (scale * direction). Radii are not touched.
+/// Transforms directions: rotation * (scale * direction). Radii do not change.
 void turnRows(std::span<const PlacedRows> groups);
 
 } // namespace fx::render

@@ -12,21 +12,21 @@
 
 namespace fx::render {
 
-/// A row as a rectangle across the view.
+/// A row approximated by a rectangle that faces the camera.
 struct RowCard
 {
-    glm::vec3 center; ///< [m] in the group's axes
+    glm::vec3 center; ///< [m] in the space of the group
     float area;       ///< [m2]; 0: nothing is drawn
 };
 
-/// Some rows as one ball of medium, in the group's axes.
+/// One ball of medium that represents several rows, in the space of the group.
 struct RowBall
 {
-    uint32_t row = 0;          ///< that represents all
-    glm::vec3 center{0.0f};    ///< [m] of that row
-    float radius = 0.0f;       ///< [m] of that row
-    float ownSection = 0.0f;   ///< [m2] extinction cross section of that row; 0: none takes light
-    float crossSection = 0.0f; ///< [m2] of all
+    uint32_t row = 0;          ///< the row at whose position the ball is
+    glm::vec3 center{0.0f};    ///< [m] center of that row
+    float radius = 0.0f;       ///< [m] radius of that row
+    float ownSection = 0.0f;   ///< [m2] extinction cross section of that row; 0: it casts no shadow
+    float crossSection = 0.0f; ///< [m2] total extinction cross section of the rows
 };
 
 /// Columns that are transformed when rows of several groups are merged into one group.
@@ -34,11 +34,12 @@ struct RowMerge
 {
     static constexpr size_t kNone = ~size_t(0);
 
-    size_t radius;              ///< column [m], 0 in rows that are not used
-    size_t velocity = kNone;    ///< first of three columns, which turn with the group
+    size_t radius;              ///< column of the radius [m], 0 in empty rows
+    size_t velocity = kNone;    ///< first of three columns, which are rotated with the group
     size_t orientation = kNone; ///< first of four columns of the orientation
-    size_t strip = kNone;       ///< column of strip numbers, which are made different between groups
-    base::ColumnSet copied;     ///< columns that are the same in any space, strip numbers among them
+    /// Column of strip numbers, which are changed so that groups have different ones.
+    size_t strip = kNone;
+    base::ColumnSet copied; ///< columns that are copied unchanged, and the strip numbers
 };
 
 struct RowTechnique
@@ -47,18 +48,18 @@ struct RowTechnique
     /// Rows are points of strips, drawn as pieces between two points; not matched with older rows.
     bool isStrip;
     bool isComputed;                           ///< the GPU computes the rows from the data of the group
-    std::span<const base::ColumnDesc> columns; ///< of the rows
-    base::ColumnSet drawnColumns;              ///< those that drawing reads
+    std::span<const base::ColumnDesc> columns; ///< columns of the rows
+    base::ColumnSet drawnColumns;              ///< columns that shaders read
 
     bool (*isThere)(const base::SnapshotGroup& group); ///< whether a group has something to draw
     BatchShape (*shape)(const base::SnapshotGroup& group);
     uint32_t (*rows)(const base::SnapshotGroup& group);
-    /// Size of a row's card, to estimate fragments; the row is not the last of a strip's group.
+    /// Card of a row, to estimate fragments. For strips, the row must not be the last of the group.
     RowCard (*card)(const base::SnapshotGroup& group, size_t row);
-    base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< of rows whose writer has given none
-    /// Places are the first three columns. Null: groups of the kind are not merged.
+    base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< computes bounds of a group that has none
+    /// How groups are merged; their first three columns are positions. Null: groups are not merged.
     const RowMerge* merge = nullptr;
-    /// A ball that casts the shadow of `count` instances from `first` on. Null: no shadow.
+    /// A ball that casts the shadow of `count` instances from `first` on. Null: groups cast no shadow.
     RowBall (*ball)(const base::SnapshotGroup& group, uint32_t first, uint32_t count) = nullptr;
 
     /// Number of drawn elements of a group: rows, or pieces between them.
@@ -71,7 +72,7 @@ class RowTechniques
 public:
     static constexpr size_t kMax = 8;
 
-    /// @param techniques at most kMax are used; must stay
+    /// @param techniques at most kMax are used; must stay valid
     RowTechniques(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema& schema)
         : techniques_(techniques.first(techniques.size() < kMax ? techniques.size() : kMax))
     {
@@ -79,7 +80,7 @@ public:
             kinds_[i] = schema.find(techniques_[i]->kind->name);
     }
 
-    /// Null: the kind is none of rows.
+    /// Technique of a kind; null if the kind has no rows.
     const RowTechnique* of(base::KindId kind) const
     {
         for (size_t i = 0; i < techniques_.size(); ++i)

@@ -1,5 +1,5 @@
 /// @file blob_instance.h
-/// A blob as the GPU gets it; shaders/shared/blob_instance.glsl reads this layout.
+/// A blob in the layout of the GPU; shaders/shared/blob_instance.glsl reads it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,9 +16,10 @@ struct BlobInstance
     glm::vec4 medium;  ///< x cross section [m2]; y heat [K]; z detail amount [1]; w seed of the detail [0, 1)
     glm::vec4 scatter; ///< rgb albedo; w mean cosine of the phase function
     glm::vec4 layer;   ///< x layer * 2 + share of fire
-    glm::vec4 emission; ///< rgb emitted light, exposed; w power of temperature by which it follows the detail
-    /// Xyz [m] where the ball is lit, relative to the eye; w noise periods across the radius, or -1 minus
-    /// those of a ball in an impostor, which is lit at its center only.
+    /// rgb emitted light, exposed; w exponent: detail scales emission by (temperature factor)^w
+    glm::vec4 emission;
+    /// xyz [m] center of the ball for lighting, relative to the eye; w periods of noise per radius. For a
+    /// ball in an impostor, w is -1 minus this value: such a ball is lit at its center only.
     glm::vec4 lit;
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
@@ -26,18 +27,20 @@ static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 /// Noise coordinates of a ball, for the detail of its field.
 struct BlobMaterial
 {
-    glm::vec4 carried[2]; ///< xyz [cell] coordinates of both generations; w of the first: number of the
-                          ///< detail of the ball's effect + 1, or 0
+    /// xyz [cell] coordinates of both generations. carried[0].w: number of the detail of the ball's effect +
+    /// 1, or 0 without detail.
+    glm::vec4 carried[2];
 };
 static_assert(sizeof(BlobMaterial) == 32);
 
 /// Consecutive balls of one instance in a list.
 struct BlobEffect
 {
-    uint32_t begin, end; ///< in the list
-    glm::vec3 low, high; ///< [m] box around all of its balls, seen or not, relative to the eye, world axes
-    float radius;        ///< [m] of its balls, seen or not: smaller ones have a quarter of the cross section
-    int detail = -1;     ///< number of the detail of their field; -1: none
+    uint32_t begin, end; ///< range in the list of balls
+    glm::vec3 low, high; ///< [m] bounds of all of its balls, visible or not, relative to the eye, world axes
+    /// [m] quantile of all radii: smaller balls have a quarter of the total cross section
+    float radius;
+    int detail = -1; ///< index of the detail of their field; -1: none
 };
 
 } // namespace fx::render

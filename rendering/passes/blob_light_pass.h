@@ -1,5 +1,5 @@
 /// @file blob_light_pass.h
-/// The pass that computes scattered light of blobs that varies little within a blob.
+/// The pass that computes those parts of the scattered light that vary little within a blob.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -9,14 +9,14 @@
 namespace fx::render {
 
 extern const ProgramDesc kBlobLightProgram;
-constexpr size_t kBlobLightBytes = 3 * 16; ///< [byte] a blob
+constexpr size_t kBlobLightBytes = 3 * 16; ///< [byte] per blob
 
-/// Light of sky, ground and points, and light of the sun that is scattered more than once, at four points of
-/// each blob.
+/// Computes, at four points of each blob, the light of sky, ground and point lights, and the multiply
+/// scattered light of the sun.
 ///
 /// reads   blobs       buffer of BlobInstance
 ///         lights
-/// writes  blobLights  buffer, two vec4 a blob: rgb exposed radiance in the middle; xyz its relative slope
+/// writes  blobLights  buffer, per blob: rgb exposed radiance at the center; xyz relative gradient
 ///                     [1/radius]
 class BlobLightPass
 {

@@ -1,19 +1,20 @@
 /// @file blob_source.h
-/// Blobs of fire, smoke and dust as balls of medium in the media pass.
+/// Draws blobs of fire, smoke and dust as balls of medium in the media pass.
 #pragma once
 
 #include "rendering/passes/media_source.h"
 
 namespace fx::render {
 
-/// The program of one permutation: form of the billboard, procedural detail, light sorted by layer, targets
-/// smaller than the picture.
+/// The program of one permutation.
+/// @param detail with procedural detail  @param layers with layer targets  @param isSmall targets are smaller
+///         than the picture
 const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bool isSmall);
 constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
 const ProgramDesc& mediaProgramAt(size_t index);
 
-/// Draws BlobInstances of a buffer, sorted by decreasing distance. Formula: kernel-optical-depth, or that of
-/// the chosen billboard form.
+/// Draws BlobInstances of a buffer, sorted by decreasing distance. Formula: kernel-optical-depth, or the
+/// formula of the chosen billboard form.
 class BlobSource final : public MediaSource
 {
 public:
@@ -24,8 +25,8 @@ public:
     ResourceId blobs;      ///< buffer of BlobInstance
     ResourceId blobLights; ///< buffer written by BlobLightPass; invalid without planes for the sky
     BillboardForm form = BillboardForm::Kernel;
-    bool detail = false; ///< some have procedural detail, and it is drawn
-    BallList list;       ///< the same blobs, for compositions that sum them up
+    bool detail = false; ///< some blobs have procedural detail, and it is drawn
+    BallList list;       ///< the same blobs, for compositions that sum them
 };
 
 } // namespace fx::render

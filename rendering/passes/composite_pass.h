@@ -14,7 +14,7 @@ inline constexpr ProgramDesc kCompositeProgram{"composite", "shared/fullscreen.v
 ///
 /// reads   media    RGBA32F premultiplied
 ///         picture  the host's opaque picture, exposed radiance
-/// writes  either the picture itself by blending, or a new RGBA32F color for the passes that follow
+/// writes  either the picture itself by blending, or a new RGBA32F color for the following passes
 /// Keeps no state.
 class CompositePass
 {
@@ -24,7 +24,7 @@ public:
         ResourceId media;
         ResourceId picture;
         int width, height;
-        bool inPlace; ///< blend into `picture` instead of making a new color
+        bool inPlace; ///< blend into `picture` instead of creating a new color
     };
     struct Outputs
     {

@@ -16,19 +16,19 @@ inline constexpr ProgramDesc kDazzleBudgetProgram{"dazzle budget", nullptr, null
 inline constexpr ProgramDesc kDazzleDealProgram{"dazzle deal", nullptr, nullptr,
                                                 "dazzle/dazzle_deal.comp.glsl", nullptr};
 
-/// Glare adaptation of a view; std430 layout of the history buffer. All zero before the first frame.
+/// Adaptation of the glare of a view; std430 layout of the history buffer. All members are zero before the
+/// first frame.
 struct DazzleHistory
 {
-    double
-        adapted[3]; ///< [1] mean overflow per pixel that glare is made from, units of white; red, green, blue
-    double frameMean[3]; ///< [1] that of the last frame, without adaptation
+    double adapted[3];   ///< [1] adapted mean overflow per pixel, in units of white; red, green, blue
+    double frameMean[3]; ///< [1] mean overflow per pixel of the last frame, in units of white
     uint32_t valid;      ///< 1 after the first frame
     uint32_t replaced;   ///< channel values of the last frame that were not finite, negative or too large
 };
 static_assert(sizeof(DazzleHistory) == 56);
 
-/// Fixed point in which light is counted: `white` is exactly whiteQuanta * 2^exponent, 2^23 < whiteQuanta <=
-/// 2^24, and every whole number of quanta up to white is a float.
+/// Unit (quantum) for integer sums of light: 2^exponent. `white` is exactly whiteQuanta quanta, 2^23 <
+/// whiteQuanta <= 2^24, and every integer number of quanta up to white is representable as a float.
 struct DazzleScale
 {
     uint32_t whiteQuanta;
@@ -36,29 +36,29 @@ struct DazzleScale
 };
 DazzleScale dazzleScale(float white);
 
-/// [1] Values above this many times `white` are cut, so that integer sums of a tile stay below 2^63.
+/// [1] Values are clamped to this factor times `white`, so that integer sums of a tile stay below 2^63.
 inline constexpr float kDazzleLargest = 0x1p30f;
 
-/// Share of the old adaptation that remains after `deltaTime` [s]: exp(-dt / tau), however the time is cut.
-/// If dt is zero, negative or NaN, the history is kept completely; if tau is 0, it is discarded.
+/// Share of the old adaptation that remains after `deltaTime` dt [s]: exp(-dt / tau), so that the division of
+/// time into frames does not matter. If dt is zero, negative or NaN, the history is kept completely; if tau
+/// is 0, it is discarded. @param timeConstant tau [s]
 double dazzleKeep(double deltaTime, double timeConstant);
 
-/// Checks the settings: white in [1e-6, 1e9], times not negative, and a sensor law that never gives less
-/// glare for more light (formula sensor-law, condition 2).
-/// @return InvalidArgument naming the value and its range
+/// Checks the settings: white in [1e-6, 1e9], times not negative, and a sensor law by which more light never
+/// causes less glare (formula sensor-law, condition 2).
+/// @return InvalidArgument with the value and its range in the message
 base::Status checkSensorLaw(const DazzleSettings& settings);
 
-/// Glare of a sensor whose pixels saturate: light above `white` is taken from its pixels and given to all
-/// others in proportion to their headroom, [UBT96]. Each channel for itself. Sums are integers, so that with
-/// A = 1, B = 0, adaptation at rest and room enough the picture holds exactly as many quanta afterwards as
-/// before, and the result does not depend on the order of the work. Formula: sensor-law.
+/// Glare of a sensor whose pixels saturate, [UBT96]: light above `white` is removed from its pixels and
+/// distributed to all others, in proportion to their headroom. Channels are independent. Sums are integers,
+/// so that the result does not depend on the order of execution. With a = 1, b = 0, constant adaptation and
+/// enough headroom, the total number of quanta is kept exactly. Formula: sensor-law.
 ///
 /// reads   color    RGBA32F exposed radiance; NaN and negative count as 0, +inf as 65504 (all counted)
 ///         history  DazzleHistory
-/// writes  color    RGBA32F, at most white; alpha unchanged; a value below white that gets no glare keeps its
-/// bits
+/// writes  color    RGBA32F, at most white; alpha unchanged. Values below white without glare keep their bits
 ///         history  the state after this frame
-/// Adds nothing when glare is switched off or checkSensorLaw() refuses the settings.
+/// Adds nothing if glare is disabled or checkSensorLaw() refuses the settings.
 class DazzlePass
 {
 public:

@@ -9,21 +9,21 @@ namespace fx::render {
 inline constexpr ProgramDesc kHeatOffsetProgram{"heat offset", "shimmer/heat_shimmer_offset.vert.glsl",
                                                 "shimmer/heat_shimmer_offset.frag.glsl", nullptr, nullptr};
 
-/// [s] after which the eddies of hot gas repeat.
+/// [s] Period of the motion of eddies in hot gas.
 inline constexpr double kHeatPeriod = 8.0;
 
 /// Position of `time` [s] in the period, [0, 1): equal at t and t + kHeatPeriod for every t. A time that is
 /// not finite gives 0.
 float heatPhase(double time);
 
-/// Refraction by hot gas: blobs with heat draw the displacement in pixels of a distant background. Formulas:
-/// heat-stream, heat-refraction, kernel-optical-depth for the share that is visible.
+/// Refraction by hot gas: draws, for blobs with heat, the displacement of a distant background in pixels.
+/// Formulas: heat-stream, heat-refraction, kernel-optical-depth for the visible share.
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry
-/// writes  heat      RGBA32F, added up: xy displacement [pixel]; z weight [1]; w weight * distance along the
-/// ray [m] Adds nothing, and `heat` is invalid, when no blob is hot or the settings allow no displacement.
-/// Keeps no state: the motion of the eddies follows the time.
+/// writes  heat      RGBA32F, summed: xy displacement [pixel]; z weight [1]; w weight * distance [m]
+/// Adds nothing, and `heat` is invalid, if no blob is hot or the settings allow no displacement. Keeps no
+/// state: the motion of eddies is a function of time.
 class HeatOffsetPass
 {
 public:
@@ -32,7 +32,7 @@ public:
         ResourceId blobs;
         ResourceId distance;
         uint32_t count; ///< number of blobs, hot and cold
-        bool anyHeat;   ///< some blob has heat > 0
+        bool anyHeat;   ///< a blob has heat > 0
         int width, height;
         ViewBlock view;
         ShimmerSettings settings;

@@ -14,11 +14,11 @@ inline constexpr ProgramDesc kHeatShimmerProgram{"heat shimmer", "shimmer/heat_s
 inline constexpr ProgramDesc kHeatShimmerBackProgram{"heat shimmer back", "shimmer/heat_shimmer.vert.glsl",
                                                      "frame/present.frag.glsl", nullptr, nullptr};
 
-/// A rectangle of the picture that hot gas may reach. The layout is that of heat_shimmer.vert.glsl.
+/// A rectangle of the picture that hot gas may cover. heat_shimmer.vert.glsl reads this layout.
 struct HotArea
 {
     uint32_t left, low;   ///< [pixel] the first column and row
-    uint32_t right, high; ///< [pixel] behind the last ones
+    uint32_t right, high; ///< [pixel] one past the last column and row
 };
 static_assert(sizeof(HotArea) == 16);
 
@@ -26,12 +26,12 @@ static_assert(sizeof(HotArea) == 16);
 ///
 /// reads   distance  [m] along the ray to opaque geometry
 ///         heat      of HeatOffsetPass
-/// writes  color     RGBA32F exposed radiance, bilinear. Only pixels of `areas` are drawn: their displaced
-///                   values beside the picture first, and then over it. A pixel keeps its bits where there is
-///                   no heat or no displacement, and where a texel it would need stands before the gas or is
-///                   not finite. No texel outside the image is read: the displacement fades to 0 over the
+/// writes  color     RGBA32F exposed radiance, bilinear. Only pixels of `areas` are drawn: first
+///                   to a temporary texture, then to the picture. A pixel does not change, bit for bit,
+///                   without heat or displacement, or if a texel that it needs is nearer than the gas or not
+///                   finite. No texel outside of the image is read: the displacement decreases to 0 over the
 ///                   last settings.maxOffset pixels before the border.
-/// Adds nothing when heat is invalid, there is no area, or the settings allow no displacement. Keeps no
+/// Adds nothing if heat is invalid, if there is no area, or if the settings allow no displacement. Keeps no
 /// state.
 class HeatShimmerPass
 {
@@ -41,8 +41,8 @@ public:
         ResourceId color;
         ResourceId distance;
         ResourceId heat; ///< invalid: nothing is hot
-        std::span<const HotArea>
-            areas; ///< cover every pixel with heat; must stay until the graph has executed
+        /// Cover every pixel with heat; must stay valid until the graph has executed.
+        std::span<const HotArea> areas;
         int width, height;
         bool upperLeftOrigin; ///< see CameraView
         ShimmerSettings settings;

@@ -1,5 +1,5 @@
 /// @file impostor_pass.h
-/// Pictures of whole far effects: taken into tiles of one texture, and drawn as squares that face the eye.
+/// Impostors of far effects: rendered to tiles of one texture, and drawn as squares that face the eye.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -11,14 +11,14 @@
 
 namespace fx::render {
 
-constexpr int kImpostorTile = 32;    ///< [texel] width and height of a picture
-constexpr int kImpostorColumns = 64; ///< tiles side by side
-constexpr int kImpostorRows = 32;    ///< above each other
+constexpr int kImpostorTile = 32;    ///< [texel] width and height of an impostor
+constexpr int kImpostorColumns = 64; ///< number of tiles side by side
+constexpr int kImpostorRows = 32;    ///< number of tiles above each other
 constexpr uint32_t kImpostorTiles = uint32_t(kImpostorColumns * kImpostorRows);
-constexpr int kTakingColumns = 12; ///< pictures side by side that a frame can take
+constexpr int kTakingColumns = 12; ///< impostors side by side that a frame can render
 constexpr uint32_t kImpostorTakings = uint32_t(kTakingColumns * kTakingColumns);
 
-/// One picture that is taken in this frame.
+/// One impostor that is rendered in this frame.
 struct ImpostorTaking
 {
     glm::vec3 center; ///< [m] relative to the eye
@@ -31,10 +31,10 @@ struct ImpostorTaking
 struct ImpostorInstance
 {
     glm::vec4 center; ///< xyz [m] relative to the eye; w half the side of the square [m]
-    glm::vec4 right;  ///< xyz unit axis of the picture; w tile of the newer impostor
+    glm::vec4 right;  ///< xyz unit axis of the impostor; w tile of the newer impostor
     glm::vec4 up;     ///< xyz unit; w tile of the older one
-    /// X share of the newer; y share of the effect that is drawn; z radius [m]; w side of the square over
-    /// that of the older impostor.
+    /// x weight of the newer impostor; y share of the effect that is drawn as an impostor; z radius [m]; w
+    /// side of the square over that of the older impostor.
     glm::vec4 appearance;
 };
 static_assert(sizeof(ImpostorInstance) == 64);
@@ -47,15 +47,17 @@ inline constexpr ProgramDesc kImpostorKeepProgram{"impostor keep", "blobs/impost
                                                   "blobs/impostor_keep.frag.glsl", nullptr, nullptr};
 
 /// The camera of all impostors that are rendered in one frame: orthographic, with the axes of the view, one
-/// unit per texel. `place` moves a blob, given relative to the eye, to where its picture is.
+/// unit per texel.
 CameraView takingCamera(const CameraGeometry& view);
+/// Position of a blob in the space of takingCamera(). @param blob [m] relative to the eye
+/// @param outScale factor of lengths
 glm::vec3 placeInTaking(const ImpostorTaking& taking, uint32_t slot, const CameraGeometry& view,
                         const glm::vec3& blob, float& outScale);
 
-/// Copies the pictures that were just taken to the tiles where they are kept.
+/// Copies rendered impostors to their tiles.
 ///
-/// reads   taken     RGBA32F premultiplied radiance, kTakingColumns^2 pictures writes  atlas     RGBA16F,
-/// only the tiles of `takings`
+/// reads   taken     RGBA32F premultiplied radiance, room for kTakingColumns^2 impostors
+/// writes  atlas     RGBA16F, only the given tiles
 class ImpostorKeepPass
 {
 public:
@@ -63,7 +65,7 @@ public:
     {
         ResourceId taken;
         ResourceId atlas;
-        ResourceId tiles; ///< buffer of one uint a picture
+        ResourceId tiles; ///< buffer with the tile of each rendered impostor, as uint
         uint32_t count;
     };
     struct Outputs
@@ -73,7 +75,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// Draws effects as pictures of themselves.
+/// Draws effects as impostors.
 class ImpostorSource final : public MediaSource
 {
 public:

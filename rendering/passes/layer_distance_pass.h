@@ -11,20 +11,22 @@ inline constexpr ProgramDesc kLayerDistanceProgram{"layer distance", "shared/ful
 inline constexpr ProgramDesc kLayerSpreadProgram{"layer spread", "shared/fullscreen.vert.glsl",
                                                  "frame/layer_spread.frag.glsl", nullptr, nullptr};
 
-/// [1] relative span of 1 / distance up to which a block of pixels counts as one surface.
+/// [1] Relative range of 1 / distance up to which a block of pixels counts as one surface.
 inline constexpr float kFlatBlock = 0.02f;
 
-/// [1] relative difference of distance from which a neighboring block shows another surface.
+/// [1] Relative difference of distance above which a neighboring block counts as another surface.
 inline constexpr float kOtherSurface = 0.05f;
 
-/// Reduces the scene's distance to the texels of layers that are smaller than the picture; each covers a
-/// block of divisor x divisor pixels. Executed once a frame for all draws into the layers.
+/// Reduces the scene distance to the texels of layers that are smaller than the picture. A texel covers a
+/// block of divisor x divisor pixels. Executed once per frame, for all draws to layers.
 ///
-/// reads   distance  R32F [m] along each pixel's ray, +inf for nothing, of the picture's size writes  far
-/// R32F [m] largest distance of the block; the middle where the block is flat near R32F [m] smallest distance
-/// of the block; 0 where one surface suffices, and nothing is drawn. Invalid without depth. Both ends of a
-/// block's range are kept: media before a thin pillar and behind it are both drawn. A flat block beside
-/// another surface has that surface's distance as its other end. Keeps no state.
+/// reads   distance  R32F [m] along each pixel's ray, +inf without geometry, in the size of the picture
+/// writes  far       R32F [m] largest distance of the block; the mean distance if the block is one surface
+///         near      R32F [m] smallest distance of the block; 0, so that nothing is drawn, if one surface
+///                   suffices. Invalid without depth
+/// Media in front of a thin pillar and media behind it are both drawn, because both ends of the range are
+/// kept. A block of one surface next to another surface has the distance of that surface as its other end.
+/// Keeps no state.
 class LayerDistancePass
 {
 public:
@@ -32,7 +34,7 @@ public:
     {
         ResourceId distance;
         bool hasDepth;     ///< false: distance is +inf everywhere
-        int width, height; ///< of the layers
+        int width, height; ///< [texel] of the layers
         int divisor;
     };
     struct Outputs

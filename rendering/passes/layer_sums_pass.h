@@ -11,27 +11,26 @@ inline constexpr ProgramDesc kLayerOverProgram{"layer over", "shared/fullscreen.
 inline constexpr ProgramDesc kLayerResolveProgram{"layer resolve", "shared/fullscreen.vert.glsl",
                                                   "frame/layer_sums.frag.glsl", nullptr, "FX_OVER=0"};
 
-/// Composites layer targets over others of the same size, as if both had been drawn into the same targets:
-/// upsampled media over solid particles at full size.
+/// Composites layer targets over others of the same size, as if both had been drawn to the same targets. It
+/// is used for upsampled media over opaque particles at full size.
 ///
-/// reads   over   the six layer targets of the media pass writes  under  the same six, blended in place Keeps
-/// no state.
+/// reads   over   the six layer targets of the media pass
+/// writes  under  the same six targets, blended in place
+/// Keeps no state.
 class LayerOverPass
 {
 public:
     using Layers = std::array<ResourceId, MediaPass::LayerTargets>;
-    /// @return `under` with everything over it
+    /// @return new versions of `under`
     [[nodiscard]] static Layers addTo(FrameGraph& graph, const Layers& over, const Layers& under);
 };
 
-/// Gives every layer its own share of opacity, adds the layers up, and turns the depth moment into a
-/// distance.
+/// Computes the opacity of each layer, the sum of layers, and the mean distance from the depth moment.
 ///
-/// reads   the media pass's layer targets but the optical depth writes  fire, smoke, dust, media  RGBA32F
-/// exposed radiance reaching the eye, premultiplied
-///         depth                     R32F [m] mean distance weighted by seen opacity, +inf where there are no
-///         media
-/// The layers' colors and alphas sum to those of media exactly as floats are added. Keeps no state.
+/// reads   layers                    targets of the media pass, except the optical depth
+/// writes  fire, smoke, dust, media  RGBA32F exposed radiance reaching the eye, premultiplied
+///         depth                     R32F [m] mean distance weighted by visible opacity, +inf without media
+/// Colors and alphas of `media` are exactly the float sums of those of fire, smoke and dust. Keeps no state.
 class LayerResolvePass
 {
 public:

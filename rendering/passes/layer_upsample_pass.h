@@ -8,19 +8,20 @@ namespace fx::render {
 inline constexpr ProgramDesc kLayerUpsampleProgram{"layer upsample", "shared/fullscreen.vert.glsl",
                                                    "frame/layer_upsample.frag.glsl", nullptr, nullptr};
 
-/// [1] relative difference of 1 / distance at which the weight of a neighboring texel becomes 0.
+/// [1] Relative difference of 1 / distance at which the weight of a neighboring texel becomes 0.
 inline constexpr float kUpsampleReach = 0.1f;
 
-/// Brings one layer target of reduced size to the picture's size. Each pixel takes the texel of its own block
-/// at its own distance, between the block's near and far picture, and interpolates bilinearly with neighbors
-/// of the same surface, so media do not leak across edges. Idea: joint bilateral upsampling, [KCLU07].
+/// Upsamples one layer target of reduced size to the size of the picture. For each pixel, the texel of its
+/// block is interpolated between the near and the far picture by the pixel's distance. Then it is
+/// interpolated bilinearly with neighboring texels of the same surface, so that media do not leak across
+/// edges. Based on joint bilateral upsampling, [KCLU07].
 ///
-/// reads   sceneDistance  R32F [m] of the picture's size
+/// reads   sceneDistance  R32F [m] in the size of the picture
 ///         far, near      of LayerDistancePass
-///         farLight media up to `far`
-///         nearLight media up to `near`; invalid without depth
-/// writes  light          of the picture's size, in `format` Texels that are all equal give exactly that
-/// value. Keeps no state.
+///         farLight       media up to `far`
+///         nearLight      media up to `near`; invalid without depth
+/// writes  light          `format`, in the size of the picture
+/// Where all texels are equal, pixels get exactly the same value. Keeps no state.
 class LayerUpsamplePass
 {
 public:
@@ -29,10 +30,10 @@ public:
         ResourceId sceneDistance;
         ResourceId far, near;
         ResourceId farLight, nearLight;
-        int width, height; ///< of the picture
+        int width, height; ///< [pixel] of the picture
         int divisor;
         Format format;
-        std::string_view name; ///< of the result
+        std::string_view name; ///< name of the result
     };
     struct Outputs
     {

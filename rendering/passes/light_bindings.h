@@ -1,5 +1,5 @@
 /// @file light_bindings.h
-/// The lights of a view as draws get them: a block of uniforms, and a texture of optical depths.
+/// The lights of a view as resources for draws: a uniform block, and a texture of optical depths.
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
@@ -25,8 +25,8 @@ static_assert(sizeof(SliceLightBlock) == 7 * 16);
 
 constexpr size_t kMaxLightEntries = 21; ///< lights, axes of the sky and finer planes of the sun
 
-/// While planes change their sizes, the entry so far behind that of a light has those that it had before:
-/// right, up, along and tiles, and in color.r the weight [1] with which they still count. 0: they do not.
+/// Entry i + kFadingEntries describes the previous planes of light i during a cross-fade: right, up, along
+/// and tiles. Its color.r is the weight [1] of the previous planes; 0: no cross-fade.
 constexpr size_t kFadingEntries = kMaxLightEntries;
 
 /// Layout of the block Lights in shaders/shared/light_block.glsl.
@@ -41,18 +41,20 @@ struct LightListBlock
 };
 static_assert(sizeof(LightListBlock) == (7 + (kMaxLightEntries + kFadingEntries) * 7) * 16);
 
-constexpr uint32_t kLightBlockBinding = 1; ///< uniform binding
+constexpr uint32_t kLightBlockBinding = 1; ///< uniform binding of LightListBlock
 constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes
 constexpr uint32_t kHostShadowUnit = 6;    ///< texture unit of the host's shadow map of the sun
 
 struct LightBindings
 {
-    ResourceId lights = {};                 ///< buffer with a LightListBlock; invalid: nothing is lit
-    ResourceId planes = {};                 ///< RG32F optical depths; invalid: media cast no shadow
-    ResourceId hostShadow = {};             ///< depth; invalid: the host's surfaces cast no shadow on media
+    ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
+    ResourceId planes = {}; ///< RG32F optical depths; invalid: media cast no shadow
+    /// Depth texture; invalid: surfaces of the host cast no shadow on media.
+    ResourceId hostShadow = {};
     std::span<const std::byte> stacks = {}; ///< SliceStackBlocks of the planes
     int mostTexels = 0;                     ///< [texel] side of the largest plane
-    uint64_t filled = 0;                    ///< differs where the planes have been filled again
+    /// Number of the content of the planes; changes when they are filled again.
+    uint64_t filled = 0;
 
     void read(FrameGraph::Builder& builder) const
     {

@@ -9,25 +9,26 @@
 
 namespace fx::render {
 
-/// Draws media, and transparent sprites and ribbons in the order of `batches`, so that layers and techniques
-/// are composed by depth.
+/// Draws media and transparent sprites and ribbons in the order of `batches`, so that layers and techniques
+/// are composited by depth.
 ///
-/// reads the buffers of the sources
+/// reads   the buffers of the sources
 ///         distance  [m] along the ray to opaque geometry
-/// writes  media     RGBA32F exposed radiance, premultiplied "over"; or, with layers, the same light in six
-///         targets
+/// writes  media     RGBA32F exposed radiance, premultiplied "over"; with layers, instead, the six targets of
+///                   LayerTarget
 /// Adds nothing without batches. Keeps no state.
 class MediaPass
 {
 public:
     struct Inputs
     {
-        std::span<const DrawBatch> batches; ///< must stay until the graph has executed, as must their sources
+        /// Must stay valid until the graph has executed, like their sources.
+        std::span<const DrawBatch> batches;
         ResourceId distance;
         int width, height;
         ViewBlock view;
         bool layers;
-        bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
+        bool isSmall = false; ///< the targets have fewer texels than the picture has pixels
         LightBindings lights{};
     };
     /// Outputs with `layers`, in the order of media.frag.glsl.
@@ -43,24 +44,25 @@ public:
     };
     struct Outputs
     {
-        ResourceId media;                            ///< invalid with layers, or when nothing is drawn
+        ResourceId media;                            ///< invalid with layers, or if nothing is drawn
         std::array<ResourceId, LayerTargets> layers; ///< invalid without layers
     };
-    /// @param under the targets to draw over; invalid members: none
+    /// @param under the targets to draw over; invalid members: nothing is drawn over
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in, const Outputs& under);
 };
 
-/// The target number `target` of the media pass.
+/// Description of target number `target` of the media pass.
 TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 
-/// The targets of a pass that draws media over others. A pass captures it by value.
+/// The targets of a pass that draws media over others. The execute function of a pass captures this object by
+/// value.
 class MediaTargets
 {
 public:
-    /// Declares that the pass writes the targets, and creates the targets of `under` that are invalid.
+    /// Declares that the pass writes the targets of `under`, and creates those that are invalid.
     MediaTargets(FrameGraph::Builder& builder, const MediaPass::Inputs& in, const MediaPass::Outputs& under);
 
-    /// Clears the targets that the pass has created. Call it before drawing.
+    /// Clears the targets that the pass has created. Call this before drawing.
     void clear(Backend& backend) const;
     std::span<const ResourceId> all() const { return {targets_.data(), layers_ ? targets_.size() : 1}; }
     MediaPass::Outputs outputs() const;

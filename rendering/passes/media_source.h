@@ -1,5 +1,5 @@
 /// @file media_source.h
-/// Interface of drawable data for the passes of opaque particles and of media.
+/// Interface of the sources that the passes of opaque particles and of media draw.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -17,19 +17,19 @@ struct BlobInstance;
 /// Elements of a source that are drawn by one call.
 struct DrawBatch
 {
-    uint32_t batch = 0; ///< number of the source's batch
+    uint32_t batch = 0; ///< index of the batch in its source
     uint32_t first = 0;
     uint32_t count = 0;
     const MediaSource* source = nullptr;
 };
 
-/// Lists of fragments, one for each texel, in which cards are gathered instead of being drawn over each
-/// other. Layout of shaders/shared/card_lists.glsl.
+/// Lists of fragments, one for each texel. Cards write their fragments to these lists instead of blending
+/// them. Layout of shaders/shared/card_lists.glsl.
 struct CardLists
 {
-    ResourceId heads = {}; ///< buffer; invalid: fragments are drawn
-    ResourceId nodes = {}; ///< buffer
-    ResourceId marks = {}; ///< buffer of CardMark, one beside each node; invalid: they are not wanted
+    ResourceId heads = {}; ///< buffer of list heads; invalid: fragments are blended
+    ResourceId nodes = {}; ///< buffer of list nodes
+    ResourceId marks = {}; ///< buffer of CardMark, one for each node; invalid: not requested
 
     bool valid() const { return heads.valid(); }
 };
@@ -37,16 +37,17 @@ constexpr uint32_t kCardHeadBinding = 4;
 constexpr uint32_t kCardNodeBinding = 5;
 constexpr uint32_t kCardMarkBinding = 7;
 
-/// Balls of medium, for compositions that sum them up instead of drawing them.
+/// Balls of medium, for compositions that sum balls instead of blending them.
 struct BallList
 {
-    ResourceId balls = {};                     ///< buffer of BlobInstance
-    ResourceId lights = {};                    ///< buffer written by BlobLightPass, one entry for each
-    std::span<const BlobInstance> instances{}; ///< the same balls; stay until the graph has executed
-    bool detail = false;                       ///< some have procedural detail, and it is drawn
+    ResourceId balls = {};  ///< buffer of BlobInstance
+    ResourceId lights = {}; ///< buffer written by BlobLightPass, one entry for each ball
+    /// The same balls; must stay valid until the graph has executed.
+    std::span<const BlobInstance> instances{};
+    bool detail = false; ///< some balls have procedural detail, and it is drawn
 };
 
-/// Where a pass draws to.
+/// Targets and options of a draw.
 struct MediaTarget
 {
     const ViewBlock* view;
@@ -54,28 +55,28 @@ struct MediaTarget
     std::span<const ResourceId> targets; ///< as in MediaPass, or in SolidPass
     bool layers;                         ///< as in MediaPass
     bool isSmall;                        ///< texels are larger than pixels
-    LightBindings lights{};              ///< of the view
-    CardLists cards{};                   ///< lists in which cards are gathered, instead of `targets`
-    bool isMarked = false;               ///< solids write OutputMarks instead, see output_marks.h
+    LightBindings lights{};              ///< lights of the view
+    CardLists cards{};                   ///< if valid, cards write to these lists instead of `targets`
+    bool isMarked = false;               ///< opaque elements write marks instead of light, see output_marks.h
 };
 
-/// Draws batches of its elements. It must not change from the addition of its pass until the graph has
-/// executed.
+/// A source of drawable elements, divided into batches. It must not change from the addition of a pass that
+/// draws it until the graph has executed.
 class MediaSource
 {
 public:
-    /// Declares everything that the draws read.
+    /// Declares all resources that the draws read.
     virtual void read(FrameGraph::Builder& builder) const = 0;
-    /// Blends premultiplied "over" the target; or, with target.cards, gathers fragments. Balls are never
-    /// gathered.
+    /// Blends the elements of a batch premultiplied "over" the target. With target.cards, fragments of cards
+    /// are written to lists instead.
     virtual void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const = 0;
 
-    /// The balls of medium that it draws; null: it draws cards.
+    /// The balls of medium of this source; null if it draws cards.
     virtual const BallList* balls() const { return nullptr; }
 
-    /// Whether it has opaque elements, which are not part of batches.
+    /// Whether the source has opaque elements, which are not part of batches.
     virtual bool hasSolids() const { return false; }
-    /// Draws the opaque elements into the targets of SolidPass, with depth test.
+    /// Draws the opaque elements to the targets of SolidPass, with depth test.
     virtual void drawSolids(Backend&, const MediaTarget&, ResourceId /*depth*/) const {}
 
 protected:
@@ -86,15 +87,15 @@ protected:
 struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
-    TextureBinding picture{}; ///< bound when it is valid
+    TextureBinding picture{}; ///< bound if valid
     const LightBindings* lights = nullptr;
-    ResourceId blobLights{}; ///< buffer at kBlobLightBinding when it is valid
+    ResourceId blobLights{}; ///< buffer at kBlobLightBinding, if valid
 };
 
 constexpr uint32_t kBlobLightBinding = 6;
 
 /// Draws the instances of a batch as quads of 6 vertices, blended premultiplied "over" the target. The
-/// program has the ViewBlock, with batch.first in pass.y, and the target's distance at texture unit 0.
+/// program gets the ViewBlock, with batch.first in pass.y, and the target's distance at texture unit 0.
 void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& inputs, const DrawBatch& batch,
                const MediaTarget& target);
 

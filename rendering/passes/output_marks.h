@@ -1,5 +1,5 @@
 /// @file output_marks.h
-/// Whose what is shown is, and how it moves: what the outputs of a view need besides light.
+/// Marks: the instance and the velocity of drawn elements, for the outputs of a view (view_output).
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -12,13 +12,12 @@ namespace fx::render {
 /// Velocity and instance of a blob, in the layout of shaders/shared/output_marks.glsl.
 struct BlobMark
 {
-    glm::vec4 velocity;  ///< xyz [m/s] relative to the world
-    glm::uvec4 instance; ///< xy its id, low word first
+    glm::vec4 velocity;  ///< xyz [m/s] in the world
+    glm::uvec4 instance; ///< xy id of the instance, low word first
 };
 static_assert(sizeof(BlobMark) == 32 && offsetof(BlobMark, instance) == 16);
 
-/// [byte] Size of the mark of a fragment of a card, which is written on the GPU, in the layout of the same
-/// file.
+/// [byte] Size of the mark of a fragment of a card. The GPU writes it in the layout of the same file.
 constexpr size_t kCardMarkBytes = 32;
 
 inline glm::uvec4 instanceWords(uint64_t id)

@@ -15,8 +15,8 @@ inline constexpr ProgramDesc kOverdrawSmallProgram{
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry
-/// writes count R32F [1] contributing fragments a pixel Present only when statistics require it. Keeps no
-/// state.
+/// writes  count     R32F [1] contributing fragments per pixel
+/// Added only if statistics require it. Keeps no state.
 class OverdrawPass
 {
 public:
@@ -27,7 +27,7 @@ public:
         uint32_t count;
         int width, height;
         ViewBlock view;
-        bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
+        bool isSmall = false; ///< the target has fewer texels than the picture has pixels
     };
     struct Outputs
     {

@@ -1,5 +1,5 @@
 /// @file particle_batch.h
-/// A group of particles or ribbons as the passes draw it.
+/// A group of particles or ribbons in the form in which passes draw it.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -64,34 +64,34 @@ struct ParticleBatch
 {
     ParticleBlock block;
     BatchShape shape = BatchShape::Sprite;
-    bool isSolid = false;   ///< hides, writes depth, is drawn before all media
+    bool isSolid = false;   ///< opaque: writes depth and is drawn before all media
     bool repeats = false;   ///< the texture repeats
-    uint32_t vertices = 6;  ///< of each instance
+    uint32_t vertices = 6;  ///< per instance
     uint32_t instances = 0; ///< rows, or pieces of ribbons
     BufferPart newer, older, order, mesh;
     uint32_t texture = 0; ///< GL texture array
     uint32_t motion = 0;
     ResourceId textureId, motionId;
     bool isComputed = false;          ///< rows are written on the GPU
-    ResourceId arguments;             ///< of the draw, written on the GPU; invalid: `instances` are drawn
-    std::array<glm::vec4, 3> drift{}; ///< as MarkedParticleBlock, only with outputs, as the next
+    ResourceId arguments;             ///< draw arguments that the GPU writes; invalid: `instances` are drawn
+    std::array<glm::vec4, 3> drift{}; ///< as in MarkedParticleBlock; this and `instance` only with outputs
     glm::uvec4 instance{};
 };
 
-/// The program of one permutation; `isSolid` writes depth and distance, `layers` as in MediaPass.
+/// The program of one permutation. With `isSolid` it writes depth and distance; `layers` is as in MediaPass.
 const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers);
 constexpr size_t kParticlePrograms = 3 * 2 * 2;
 const ProgramDesc& particleProgramAt(size_t index);
 
-/// The program that gathers fragments, see CardLists.
+/// The program that writes fragments to lists, see CardLists.
 const ProgramDesc& cardProgram(BatchShape shape);
 
-/// The program that gathers fragments with marks, and the program that marks opaque particles, see
-/// output_marks.h.
+/// The program that writes fragments with marks to lists, and the program that writes marks of opaque
+/// particles, see output_marks.h.
 const ProgramDesc& markedCardProgram(BatchShape shape);
 const ProgramDesc& markedSolidProgram(BatchShape shape);
 
-/// Draws groups of particles and ribbons; runs number its batches.
+/// Draws groups of particles and ribbons. DrawBatch::batch is an index in `batches`.
 class BatchSource final : public MediaSource
 {
 public:

@@ -8,7 +8,7 @@ namespace fx::render {
 inline constexpr ProgramDesc kPresentProgram{"present", "shared/fullscreen.vert.glsl",
                                              "frame/present.frag.glsl", nullptr, nullptr};
 
-/// Copies the finished picture into the host's target, texel for texel.
+/// Copies the finished picture to the host's target, texel for texel.
 ///
 /// reads   picture  the last color of the frame
 /// writes  target   the host's texture or framebuffer

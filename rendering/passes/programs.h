@@ -1,6 +1,6 @@
 /// @file programs.h
-/// The programs of passes that belong to no technique. These and the programs of techniques are all programs
-/// of a view. They are compiled by the warm-up.
+/// The programs of passes that belong to no technique. Together with the programs of techniques, they are all
+/// programs of a view. The warm-up compiles them.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"

@@ -9,12 +9,12 @@ namespace fx::render {
 inline constexpr ProgramDesc kSceneDistanceProgram{"scene distance", "shared/fullscreen.vert.glsl",
                                                    "frame/scene_distance.frag.glsl", nullptr, nullptr};
 
-/// Converts the host's depth once a frame to the distance at which the ray of each pixel ends, for all later
-/// passes.
+/// Converts the host's depth, once per frame, to the distance at which the ray of each pixel ends. All later
+/// passes use this distance.
 ///
-/// reads depth the host's depth buffer, in its own convention writes distance R32F [m] along each pixel's ray
-/// to the opaque surface, +inf without a surface Without a depth buffer the distance is +inf everywhere.
-/// Keeps no state.
+/// reads   depth     the host's depth buffer, in the DepthConvention of the camera
+/// writes  distance  R32F [m] along each pixel's ray to the opaque surface, +inf without a surface
+/// Without a depth buffer the distance is +inf everywhere. Keeps no state.
 class SceneDistancePass
 {
 public:

@@ -5,19 +5,20 @@
 
 namespace fx::render {
 
-/// Draws opaque particles with depth test before any media. The media pass blends over them and ends its rays
+/// Draws opaque particles with depth test before any media. The media pass blends over them, and its rays end
 /// at them. The host's depth is read, not written.
 ///
-/// reads   distance  [m] along the ray to the host's opaque geometry writes  media, or the layer targets, as
-/// the media pass does: exposed radiance, opacity 1 or nothing
-///         distance  [m] a new texture, to the nearest of host and particles
+/// reads   distance  [m] along the ray to the host's opaque geometry
+/// writes  under     media or layer targets, as written by MediaPass: exposed radiance with opacity 1, or 0
+///         distance  [m] a new texture: distance to the nearest surface of host and particles
 /// Adds nothing without sources. Keeps no state.
 class SolidPass
 {
 public:
     struct Inputs
     {
-        std::span<const MediaSource* const> sources; ///< with solids; must stay until the graph has executed
+        /// Sources of opaque particles; must stay valid until the graph has executed.
+        std::span<const MediaSource* const> sources;
         ResourceId distance;
         int width, height;
         ViewBlock view;
@@ -26,8 +27,8 @@ public:
     };
     struct Outputs
     {
-        MediaPass::Outputs under; ///< invalid when nothing is drawn
-        ResourceId distance;      ///< the one given when nothing is drawn
+        MediaPass::Outputs under; ///< invalid if nothing is drawn
+        ResourceId distance;      ///< Inputs::distance if nothing is drawn
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };

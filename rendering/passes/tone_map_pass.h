@@ -10,12 +10,12 @@ inline constexpr ProgramDesc kToneMapProgram{"tone map", "shared/fullscreen.vert
 inline constexpr ProgramDesc kToneMapDitherProgram{"tone map (8 bit)", "shared/fullscreen.vert.glsl",
                                                    "frame/tone_map.frag.glsl", nullptr, "FX_DITHER=1"};
 
-/// Converts exposed radiance to display values. Formulas: film-crosstalk, then tone-curve and srgb-encoding,
-/// each channel separately.
+/// Converts exposed radiance to display values. Formulas: film-crosstalk, then tone-curve and srgb-encoding
+/// for each channel separately.
 ///
-/// reads   color  RGBA32F exposed radiance writes  color  sRGB code values in [0, 1]: RGBA32F as they are, or
-/// RGBA8 dithered by a fixed pattern that leaves exact
-///                8-bit values alone; alpha unchanged
+/// reads   color  RGBA32F exposed radiance
+/// writes  color  sRGB code values in [0, 1], as RGBA32F, or as RGBA8 with a fixed dither pattern that does
+///                not change exact 8-bit values; alpha unchanged
 /// Keeps no state.
 class ToneMapPass
 {
@@ -24,8 +24,9 @@ public:
     {
         ResourceId color;
         int width, height;
-        float white;                     ///< [1] radiance shown as 1; less than 1, or NaN, counts as 1
-        Format format = Format::RGBA32F; ///< RGBA8 dithers
+        /// [1] radiance that is displayed as 1; less than 1, or NaN, counts as 1
+        float white;
+        Format format = Format::RGBA32F; ///< or RGBA8, with dithering
     };
     struct Outputs
     {

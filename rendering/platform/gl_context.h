@@ -1,6 +1,6 @@
 /// @file gl_context.h
-/// A current OpenGL 4.5 core context for tools and tests; a game brings its own. The renderer does not depend
-/// on the platform: it uses the loader only.
+/// Creates OpenGL 4.5 core contexts for tools and tests; a game uses its own context. The renderer depends on
+/// the loader only, not on the platform.
 ///
 /// Threads: a context belongs to the thread on which it is current.
 #pragma once
@@ -16,8 +16,8 @@ namespace fx::render {
 struct GlContextOptions
 {
     bool debug = false;          ///< debug context: the driver reports misuse, see GlMessages
-    bool visible = false;        ///< GLFW only: a window to look at
-    int width = 64;              ///< [pixel] of the window; EGL contexts have none
+    bool visible = false;        ///< GLFW only: the window is visible
+    int width = 64;              ///< [pixel] of the window; EGL contexts have no window
     int height = 64;             ///< [pixel]
     const char* title = "fxsdk"; ///< of the window
 };
@@ -29,18 +29,21 @@ public:
 
     virtual GlLoader loader() = 0;
     virtual base::Status makeCurrent() = 0;
-    virtual void swapBuffers() = 0;                 ///< shows the window's picture; nothing without a window
-    virtual bool closeRequested() { return false; } ///< handles the window's events; true when it is to close
-    virtual std::string description() const = 0;    ///< provider, such as "EGL surfaceless (Mesa)"
+    /// Displays the picture in the window; does nothing without a window.
+    virtual void swapBuffers() = 0;
+    /// Handles events of the window; true if the user has requested to close it.
+    virtual bool closeRequested() { return false; }
+    virtual std::string description() const = 0; ///< kind of context, such as "EGL surfaceless (Mesa)"
 };
 
-/// Without a window: EGL_MESA_platform_surfaceless, else an EGL device, else the default display. Current on
-/// return.
-/// @return GlUnsupported with the errors of all three. Defined in fx_platform_egl.
+/// Creates a context without a window, and makes it current. Tries EGL_MESA_platform_surfaceless, then an EGL
+/// device, then the default display. Defined in fx_platform_egl.
+/// @return GlUnsupported with the errors of all three
 base::Result<std::unique_ptr<GlContext>> createEglContext(const GlContextOptions& options);
 
-/// A window, hidden unless options.visible. Current on return.
-/// @return GlUnsupported with GLFW's own message. Defined in fx_platform_glfw.
+/// Creates a context with a window, which is hidden unless options.visible, and makes it current. Defined in
+/// fx_platform_glfw.
+/// @return GlUnsupported with the message of GLFW
 base::Result<std::unique_ptr<GlContext>> createGlfwContext(const GlContextOptions& options);
 
 } // namespace fx::render

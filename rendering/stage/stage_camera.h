@@ -13,7 +13,8 @@ struct CameraPose
 {
     glm::dvec3 position{0.0, 2.0, 10.0}; ///< [m]
     glm::dvec3 target{0.0};              ///< [m] different from position
-    glm::vec3 up{0.0f, 1.0f, 0.0f}; ///< need not be perpendicular to the view, must not be parallel to it
+    /// Must not be parallel to the view axis; need not be perpendicular to it.
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
 };
 
 /// A view whose matrices are relative to the eye, with an infinite far plane.

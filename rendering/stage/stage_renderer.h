@@ -1,6 +1,6 @@
 /// @file stage_renderer.h
-/// A small host for tools and tests: draws an opaque triangle mesh before a background into color and depth,
-/// as a game would before it calls fxView_Render.
+/// A small host for tools and tests. It draws an opaque triangle mesh and a background to color and depth, as
+/// a game does before it calls fxView_Render.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -23,10 +23,11 @@ namespace fx::render {
 
 class GlDevice;
 
-/// Triangles with a diffuse color per vertex; three vertices a triangle, counter-clockwise seen from outside.
+/// Triangles with a diffuse color per vertex. Each triangle has three vertices of its own, counterclockwise
+/// seen from outside.
 struct StageMesh
 {
-    glm::dvec3 origin{0.0};           ///< [m] world position that the vertices are relative to
+    glm::dvec3 origin{0.0};           ///< [m] world position to which the vertices are relative
     std::vector<glm::vec3> positions; ///< [m] relative to `origin`
     std::vector<glm::vec3> normals;   ///< unit
     std::vector<glm::vec3> colors;    ///< [0, 1] linear albedo
@@ -35,54 +36,60 @@ struct StageMesh
 /// Background behind the mesh.
 struct StageBackground
 {
-    glm::vec3 luminance{0.0f};    ///< [cd/m2] overhead, used when `image` is empty
-    glm::vec3 horizon{0.0f};      ///< [cd/m2] at and below eye height; equal to `luminance` for a plain color
-    int width = 0, height = 0;    ///< [pixel] of `image`
-    std::vector<glm::vec3> image; ///< [cd/m2], row by row from the top
-    bool panorama = false;        ///< true: equirectangular around the eye; false: fills the view
+    glm::vec3 luminance{0.0f}; ///< [cd/m2] at the zenith, used if `image` is empty
+    glm::vec3 horizon{0.0f};   ///< [cd/m2] at and below the horizon; equal to `luminance` for a uniform color
+    int width = 0, height = 0; ///< [pixel] of `image`
+    std::vector<glm::vec3> image; ///< [cd/m2] top row first
+    bool panorama = false;        ///< true: equirectangular around the eye; false: fills the picture
 };
 
 /// A light besides sun and sky.
 struct StageLight
 {
     HostLight light;
-    /// [1] 0..1 wrap of diffuse light beyond the terminator, for wide lights such as fireballs.
+    /// [1] 0..1 How far diffuse light extends beyond the terminator ("wrap lighting"), for large lights such
+    /// as fireballs.
     float wrap = 0.0f;
-    std::optional<MediaShadowBlock> shadow = {}; ///< that media cast in it; none: they cast none
+    std::optional<MediaShadowBlock> shadow = {}; ///< media shadow in this light; none: no shadow
 };
 
 StageLight effectStageLight(const EffectLight& light);
 
-/// How the picture of a stage is lit.
+/// Lighting of a stage.
 struct StageLighting
 {
     Lighting lighting;
-    std::span<const StageLight> lights{}; ///< up to kMaxStageLights, of which kMaxStageShadows have shadows
-    MediaShadowBlock sunShadow;           ///< that media cast in the sun; without planes they cast none
-    uint32_t shadowTexture = 0; ///< GL name of the planes of all shadows, filtered linearly; 0: none
+    std::span<const StageLight> lights{}; ///< at most kMaxStageLights are used
+    /// Media shadow in the light of the sun; without planes there is no shadow.
+    MediaShadowBlock sunShadow;
+    uint32_t shadowTexture = 0; ///< GL name of the light slices of all media shadows; linear filter; 0: none
 };
 
 constexpr size_t kMaxStageLights = 16;
-constexpr size_t kMaxStageShadows = 5; ///< that of the sun is one
+constexpr size_t kMaxStageShadows = 5; ///< largest number of media shadows, including that of the sun
 
-/// Diffuse surfaces under a sun with a shadow map, a sky and lights, in the shadow of media.
+/// Draws diffuse surfaces lit by a sun with a shadow map, a sky and lights, with shadows of media.
 class StageRenderer
 {
 public:
     explicit StageRenderer(GlDevice* device);
     ~StageRenderer();
 
+    /// @return InvalidArgument if positions, normals and colors differ in number; errors of GL
     base::Status setMesh(const StageMesh& mesh);
+    /// @return InvalidArgument if `image` does not have width * height pixels; errors of GL
     base::Status setBackground(const StageBackground& background);
 
-    /// Draws into textures of the stage, which are valid until the next call: RGBA32F color [cd/m2 times
+    /// Draws to textures of the stage, which are valid until the next call: RGBA32F color [cd/m2 times
     /// exposure] and a 32-bit float depth texture.
+    /// @param width, height [pixel]
     base::Status render(const CameraView& camera, const Lighting& lighting,
                         std::span<const EffectLight> lights, float exposureEv100, int width, int height);
     base::Status render(const CameraView& camera, const StageLighting& lighting, float exposureEv100,
                         int width, int height);
 
-    /// The shadow map of the last picture, for media. @param origin [m] CameraView::origin of their frame
+    /// The sun's shadow map of the last picture, for media.
+    /// @param origin [m] CameraView::origin of the frame that draws the media
     HostShadowMap sunShadow(const glm::dvec3& origin) const;
 
     uint32_t colorTexture() const;

@@ -39,26 +39,27 @@ class GlBackend;
 struct RowTechnique;
 struct DrawTechnique;
 
-constexpr uint32_t kIdleFrames = 300; ///< without use, until buffers and textures are given back
+/// number of frames without use after which buffers and textures are deleted
+constexpr uint32_t kIdleFrames = 300;
 
-/// Inputs of gathering a frame.
+/// Inputs to gather a frame.
 struct GatherInputs
 {
-    const base::SnapshotPair* snapshots; ///< without the older one if the two are equal
+    const base::SnapshotPair* snapshots; ///< `older` is null if both snapshots are equal
     RevisionPair revisions;
     SnapshotRowRevisions newerRows, olderRows;
     const FrameRequest* request;
     const ViewSettings* settings;
     const CameraGeometry* camera;
     const base::AssetTable* assets;
-    std::span<const EffectLight> lights; ///< the brightest of all effects, brightest first
-    LevelOfDetail* lod;                  ///< begun for this frame
+    std::span<const EffectLight> lights; ///< the brightest lights of all effects, brightest first
+    LevelOfDetail* lod;                  ///< begin() has been called for this frame
     uint64_t content;                    ///< revision of the shown content
-    bool castsShadows = true;            ///< lights exist and media cast shadows
-    bool needsOrder = true;              ///< balls are drawn one over the other, farthest first
+    bool castsShadows = true;            ///< there are lights, and media cast shadows
+    bool needsOrder = true;              ///< balls are blended one over the other, farthest first
 };
 
-/// Data gathered by techniques so far, in the order of their list.
+/// Data gathered so far. Techniques gather in the order of their list.
 struct GatheredFrame
 {
     std::pmr::vector<DrawStream>* streams;             ///< streams of the media pass, each with its source
@@ -67,42 +68,43 @@ struct GatheredFrame
     std::span<const BlobInstance> blobs{};             ///< balls of medium
     /// Ranges of blobs by instance, if blobs are in the order of instances.
     std::span<const BlobEffect> effects{};
-    /// Outputs of blobs, if they are in the order of instances; with ViewSettings::outputs.
+    /// Marks of blobs, if they are in the order of instances; only with ViewSettings::outputs.
     std::span<const BlobMark> marks{};
     /// Noise coordinates of blobs, if they are in the order of instances.
     std::span<const BlobMaterial> materials{};
     /// Detail of effects, if blobs are in the order of instances.
     std::span<const GroupDetail> details{};
-    bool anyHeat = false; ///< some blobs refract light
+    bool anyHeat = false; ///< a blob causes heat shimmer
 };
 
-/// Where in a frame a technique adds its passes. buildViewGraph() has the order of all passes.
+/// Stages of a frame at which techniques add passes. buildViewGraph() defines the order of all passes.
 enum class PassStage : uint8_t
 {
-    Pictures, ///< before all other passes: impostors that the frame draws later
-    Upload,   ///< the distance to the host's surfaces is known: data are uploaded or computed
-    Measure,  ///< after the media
+    Pictures, ///< before all other passes: renders impostors that the frame draws later
+    Upload,   ///< the distance to the host's surfaces is available: data are uploaded or computed
+    Measure,  ///< after the media: measurements
     Refract,  ///< the picture has all media: refraction
     Sensor,   ///< the picture is complete: effects of the eye or the sensor
 };
 
-/// One frame while its graph is built: results of its passes so far.
+/// State of a frame while its graph is built, with the results of its passes so far.
 struct PassFrame
 {
     const FrameRequest* request;
     const ViewSettings* settings;
-    int width, height;             ///< [pixel]
-    ViewBlock view;                ///< of the picture
-    ViewBlock layerView;           ///< of the media's layers
-    int layerWidth, layerHeight;   ///< [texel]
-    LightBindings lights = {};     ///< of the view
-    bool hasSmallLayers = false;   ///< their texels are larger than pixels
-    bool hasMedia = false;         ///< the media pass draws particles, or particles occlude
-    ResourceId distance = {};      ///< [m] to the host's surfaces; from Measure on, also to opaque particles
-    ResourceId layerDistance = {}; ///< at the layers' size
-    ResourceId picture = {};       ///< from Refract on
+    int width, height;           ///< [pixel]
+    ViewBlock view;              ///< view block of the picture
+    ViewBlock layerView;         ///< view block of the layers
+    int layerWidth, layerHeight; ///< [texel]
+    LightBindings lights = {};   ///< lights of the view
+    bool hasSmallLayers = false; ///< layers are smaller than the picture
+    bool hasMedia = false;       ///< there are media, transparent particles or opaque particles
+    /// [m] distance to the host's surfaces; from Measure on, also to opaque particles
+    ResourceId distance = {};
+    ResourceId layerDistance = {}; ///< [m] the same in the size of layers
+    ResourceId picture = {};       ///< the picture, from Refract on
     ResourceId blobs = {};         ///< buffer of GatheredFrame::blobs, from Upload on
-    bool anyPass = false;          ///< set by a technique whose passes are needed even without media
+    bool anyPass = false;          ///< a technique sets it if its passes are needed without media too
 };
 
 /// State of a technique in one view: lists and GPU memory. A frame calls begin(), then gather() or keep(),
@@ -117,19 +119,20 @@ public:
 
     /// Begins a frame; creates resources that are independent of the visible data.
     virtual base::Status begin(const ViewSettings&) { return {}; }
+    /// Gathers the visible data of a frame, and adds streams and shadow casters to the GatheredFrame.
     virtual base::Status gather(const GatherInputs&, GatheredFrame&) { return {}; }
-    /// Instead of gather(): the frame reuses the data of the last one.
+    /// Called instead of gather(): the frame reuses the data of the last frame.
     virtual void keep() {}
-    /// True when an equal frame after this one would give the same picture.
+    /// True if a next frame with the same inputs would give the same picture.
     virtual bool isSettled() const { return true; }
 
-    /// Source of opaque elements; null: none.
+    /// Source of opaque elements; null if there are none.
     virtual const MediaSource* solids() const { return nullptr; }
-    /// Whether it adds passes that change the picture after the media.
+    /// Whether the technique adds passes that change the picture after the media.
     virtual bool altersPicture(const PassFrame&) const { return false; }
     virtual void addPasses(PassStage, FrameGraph&, PassFrame&) {}
 
-    virtual void fence() {} ///< called when all draws of the frame have been issued
+    virtual void fence() {} ///< called after all draws of the frame have been issued
     /// Invalidates data of this frame, because gathering or drawing has failed.
     virtual void forget() {}
     virtual void endFrame(bool /*succeeded*/) {}
@@ -142,51 +145,52 @@ public:
     virtual void readBack(const GlBackend&, FrameStatistics&) {}
     /// Adds the share of the picture that the last frame has covered.
     virtual void cover(const CameraGeometry&, ScreenShare&) const {}
-    virtual uint64_t bytes() const { return 0; } ///< [byte] held on the GPU
+    virtual uint64_t bytes() const { return 0; } ///< [byte] size of GPU memory
 
-    /// Whether groups of the kind "gpuParticle" are drawn. False once the context has refused one.
+    /// Whether groups of the kind "gpuParticle" are drawn. False after computing particles has failed in this
+    /// context.
     virtual bool canComputeParticles() const { return true; }
     /// Compiles the compute program of an emitter, if supported.
     virtual void warmUp(const base::GpuParticleProgram&) {}
 };
 
-/// Inputs of creating the state of a view.
+/// Inputs to create the state of a technique in a view.
 struct TechniqueSetup
 {
     GlDevice* device;
     const base::SnapshotSchema* schema;
     std::pmr::memory_resource* memory;
-    std::span<const DrawTechnique* const> techniques; ///< all of the view
+    std::span<const DrawTechnique* const> techniques; ///< all techniques of the view
 };
 
 /// The published data of an effect on which techniques depend.
 struct EffectContent
 {
-    std::span<const base::KindDesc* const> kinds; ///< of its groups
+    std::span<const base::KindDesc* const> kinds; ///< kinds of its groups
     bool isDrawn = false;                         ///< a technique draws one of the kinds
-    bool bendsLight = false;                      ///< some of its media refract light
+    bool bendsLight = false;                      ///< its media cause heat shimmer
 };
 
 /// One technique. Has static storage.
 struct DrawTechnique
 {
     std::string_view name;
-    const base::KindDesc* kind = nullptr; ///< kind of its snapshot data; null: none of its own
-    /// How groups of the kind become rows of particles, for techniques that are drawn so.
+    const base::KindDesc* kind = nullptr; ///< kind of its snapshot data; null: it has no kind of its own
+    /// Conversion of groups of the kind to rows of particles, for techniques that draw rows; otherwise null.
     const RowTechnique* rows = nullptr;
-    /// Creates the state of a view; null: none. Techniques with the same function share one state.
+    /// Creates the state in a view; null: no state. Techniques with the same function share one state.
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
-    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all programs it may use; null: none
-    /// Passes that a frame has because of it, with their timer groups. Techniques that are drawn by the media
-    /// pass include that pass.
+    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all programs that it may use; null: none
+    /// The passes that the technique adds to a frame, with their timer groups. Techniques that are drawn by
+    /// the media pass include the media pass.
     std::span<const TimedPass> passes = {};
-    /// Whether an effect with such content uses it; null: an effect that publishes `kind`.
+    /// Whether an effect with this content uses the technique; null: an effect that publishes `kind` does.
     bool (*isUsedBy)(const EffectContent& content) = nullptr;
-    const LightSource* lights =
-        nullptr; ///< how groups of `kind` light everything around them; null: not at all
-    /// Refuses settings that cannot be drawn; null: accepts all.
+    /// How groups of `kind` emit light; null: they emit none.
+    const LightSource* lights = nullptr;
+    /// Checks settings, and refuses those that cannot be drawn; null: all settings are accepted.
     base::Status (*check)(const ViewSettings& settings) = nullptr;
-    /// Whether it changes the picture without visible effects; null: no.
+    /// Whether the technique changes the picture without visible effects; null: it does not.
     bool (*actsAlone)(const ViewSettings& settings) = nullptr;
     const ScalabilitySettings* levels = nullptr; ///< its scalability levels; null: none
 };

@@ -1,7 +1,6 @@
 /// @file draw_techniques.h
-/// The explicit list of drawing techniques. Its order is the order of gathering and, within a stage, of
-/// passes. A new technique is declared here and
-/// has one line in the list.
+/// The list of drawing techniques. Its order is the order of gathering and, within a stage, of passes. A new
+/// technique is declared here and added to the list in draw_techniques.cpp.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"
@@ -11,7 +10,7 @@ namespace fx::render {
 /// Spherical billboards: fire, smoke and dust as balls of medium, with impostors for distant effects.
 extern const DrawTechnique kBlobTechnique;
 
-/// Noise coordinates of balls, by which their detail moves with them. Drawn by the view of kBlobTechnique.
+/// Noise coordinates of balls, so that detail moves with the balls. The state of kBlobTechnique draws them.
 extern const DrawTechnique kFieldDetailTechnique;
 
 /// Shadows of media: timer group and scalability levels of light slices. The passes are in
@@ -40,11 +39,11 @@ using DrawTechniques = std::span<const DrawTechnique* const>;
 
 DrawTechniques drawTechniques();
 
-/// effectLights() of the sources of `techniques`.
+/// Calls effectLights() with the light sources of `techniques`.
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out,
                     DrawTechniques techniques = drawTechniques());
 
-/// EffectContent::isDrawn of an effect that publishes `kinds`.
+/// The value of EffectContent::isDrawn for an effect that publishes `kinds`.
 bool isDrawn(std::span<const base::KindDesc* const> kinds, DrawTechniques techniques = drawTechniques());
 /// Whether a frame with an effect of this content has passes of `technique`.
 bool isUsed(const DrawTechnique& technique, const EffectContent& content);

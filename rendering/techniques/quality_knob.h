@@ -1,5 +1,5 @@
 /// @file quality_knob.h
-/// Scalability of a technique: its adjustable settings, and the levels that they form.
+/// Scalability of a technique: the settings that form its scalability levels.
 #pragma once
 
 #include "rendering/frame/fragment_counts.h"
@@ -11,8 +11,8 @@
 
 namespace fx::render {
 
-/// A setting of a technique that quality may lower. Its value is a number; that of a switch is 0 or 1, that
-/// of a choice the index of the name.
+/// A setting of a technique that quality control may lower. Its value is a number. The value of a switch is 0
+/// or 1, that of a choice is the index of the name.
 struct QualityKnob
 {
     enum class Type : uint8_t
@@ -22,10 +22,10 @@ struct QualityKnob
         Switch,
     };
 
-    std::string_view name;  ///< in calibrations
-    std::string_view label; ///< for display, before the value; a choice shows the name alone
+    std::string_view name;  ///< name in calibrations
+    std::string_view label; ///< text before a displayed value; for a choice, only the name is displayed
     Type type;
-    std::span<const std::string_view> choices; ///< of a choice, cheapest first; otherwise empty
+    std::span<const std::string_view> choices; ///< names of a choice, cheapest first; otherwise empty
     std::string_view schema;                   ///< JSON Schema of the value in calibrations
 
     /// Lowers the setting to `value`; never raises it.
@@ -35,10 +35,10 @@ struct QualityKnob
 /// Adjustable settings of a technique. Calibrations measure cost and error of their levels.
 struct ScalabilitySettings
 {
-    std::string_view name;    ///< in calibrations, and of its timer group; empty: none
-    std::string_view meaning; ///< in the schema of calibrations
+    std::string_view name;    ///< name in calibrations, and name of the timer group; empty: none
+    std::string_view meaning; ///< description in the schema of calibrations
 
-    /// [1] weight of an error of this technique in a picture.
+    /// [1] Weight of an error of this technique in a picture.
     double (*weight)(const ScreenShare& covered);
 
     std::span<const QualityKnob> knobs;

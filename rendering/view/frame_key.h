@@ -1,6 +1,6 @@
 /// @file frame_key.h
-/// Key of all inputs of a frame's lists. While it does not change, gathered, sorted and uploaded data of the
-/// last frame are reused.
+/// Key of all inputs of the lists of a frame. While the key does not change, gathered, sorted and uploaded
+/// data of the last frame are reused.
 #pragma once
 
 #include "rendering/frame/snapshot_revisions.h"
@@ -15,7 +15,7 @@ namespace fx::render {
 struct FrameKey
 {
     RevisionPair revisions;
-    double interpolation = 0; ///< 0 where both snapshots hold the same: then no moment differs
+    double interpolation = 0; ///< 0 if both snapshots have equal content, because all moments are then equal
     CameraView camera;
     int width = 0, height = 0; ///< [pixel]
     float exposureEv100 = 0;
@@ -28,7 +28,7 @@ struct FrameKey
     int voxels = 0;
     bool layerOutputs = false;
     uint32_t outputs = 0;
-    const base::AssetTable* assets = nullptr; ///< never followed
+    const base::AssetTable* assets = nullptr; ///< only compared, not dereferenced
 
     bool operator==(const FrameKey&) const = default;
 };

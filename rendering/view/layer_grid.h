@@ -7,17 +7,19 @@
 
 namespace fx::render {
 
-/// Each texel covers a block of divisor x divisor pixels, the first at window position 0, 0; blocks at the
-/// other two borders may reach beyond the picture. Divisor 1 is the picture itself, bit for bit.
+/// Each texel covers a block of divisor x divisor pixels. The first block begins at window position 0, 0.
+/// Blocks at the other two borders may extend beyond the picture. With divisor 1, results equal those at the
+/// size of the picture, bit for bit.
 struct LayerGrid
 {
     int divisor;
     int width, height; ///< [texel]
-    ViewBlock view;    ///< rays through the middles of the blocks; view.pass.x is the radius of the smallest
-                       ///< blob over its distance, 0 for divisor 1, where blobs are as wide as they must be
+    /// Rays through the centers of blocks. view.pass.x is the least radius of a blob over its distance. It is
+    /// 0 for divisor 1, because gathering has already enlarged small blobs.
+    ViewBlock view;
 };
 
-/// @param width, height of the picture [pixel]
+/// @param width, height size of the picture [pixel]
 /// @param divisor 1, 2 or 4
 LayerGrid makeLayerGrid(const CameraView& camera, int width, int height, int divisor);
 

@@ -1,5 +1,5 @@
 /// @file layer_scale_control.h
-/// Chooses the size of the layers so that a frame keeps its budget of fragments, without flicker.
+/// Chooses the size of layers so that a frame stays within its budget of fragments, without flicker.
 #pragma once
 
 #include <array>
@@ -8,8 +8,9 @@
 
 namespace fx::render {
 
-/// Smaller at once when a frame would be too dear; larger again only one step at a time, after kCalmFrames
-/// frames in a row that would have been affordable with room to spare at the next size.
+/// If a frame would exceed the budget, layers become smaller at once. They become larger one step at a time,
+/// after kCalmFrames successive frames that would have needed at most the share kRoom of the budget at the
+/// next larger size.
 class LayerScaleControl
 {
 public:
@@ -18,17 +19,17 @@ public:
 
     /// @param estimates fragments of this frame at each of kLayerDivisors
     /// @param askedDivisor one of kLayerDivisors; the result is never less
-    /// @param budget [fragment]; 0: none, the result is askedDivisor
-    /// @param reset a cut: the past does not count
+    /// @param budget [fragment]; 0: no budget, the result is askedDivisor
+    /// @param reset camera cut: earlier frames are ignored
     /// @return the divisor of this frame
     int choose(const std::array<uint64_t, 3>& estimates, int askedDivisor, uint64_t budget, bool reset);
 
 private:
-    size_t index_ = 0; ///< of kLayerDivisors
+    size_t index_ = 0; ///< index in kLayerDivisors
     uint32_t calmFrames_ = 0;
 };
 
-/// Place of `divisor` in kLayerDivisors.
+/// Index of `divisor` in kLayerDivisors.
 size_t layerDivisorIndex(int divisor);
 
 } // namespace fx::render

@@ -19,19 +19,20 @@ struct ViewGraphInputs
 {
     const FrameRequest* request;
     const ViewSettings* settings;
-    /// Techniques in the order of their list, after gather(). This span and the next two must stay valid
-    /// until the graph has executed.
+    /// Techniques in the order of their list, after gather(). `techniques`, `batches` and `solids` must stay
+    /// valid until the graph has executed.
     std::span<const std::unique_ptr<TechniqueView>> techniques;
-    std::span<const DrawBatch> batches;         ///< of media and transparent particles
-    std::span<const MediaSource* const> solids; ///< of opaque particles
-    ViewLights* lights = nullptr;               ///< gathered; null: nothing is lit
-    CompositionView* composition = nullptr;     ///< draws media before `batches`; null: none
-    int layerDivisor = 1;                       ///< of this frame, >= that of the settings
-    OutputView* outputs = nullptr;              ///< null: the settings ask for none
-    const PastFrame* past = nullptr;            ///< of `outputs`
+    std::span<const DrawBatch> batches;         ///< batches of media and transparent particles
+    std::span<const MediaSource* const> solids; ///< sources of opaque particles
+    ViewLights* lights = nullptr;               ///< must be gathered; null: no lighting
+    CompositionView* composition = nullptr;     ///< draws media before `batches`; null: no composition
+    int layerDivisor = 1;                       ///< divisor of this frame, >= ViewSettings::layerDivisor
+    OutputView* outputs = nullptr;              ///< null if the settings request no outputs
+    const PastFrame* past = nullptr;            ///< previous frame, for `outputs`
 };
 
-/// Resources that exist after the frame besides the host's picture; invalid if they were not requested.
+/// Resources that exist after the frame, besides the host's picture. Those that were not requested are
+/// invalid.
 struct ViewGraphOutputs
 {
     ResourceId fire, smoke, dust, media, depth, opticalDepth;
@@ -39,8 +40,8 @@ struct ViewGraphOutputs
     bool anyPass = false; ///< false: the host's picture does not change
 };
 
-/// Fills `graph`, which has begun. Passes that nothing calls for are not added: without blobs no media
-/// passes, without heat no shimmer, and so on.
+/// Adds all passes of a frame to `graph`, after FrameGraph::begin(). Passes that are not needed are not
+/// added: without blobs no media passes, without heat no shimmer, and so on.
 ViewGraphOutputs buildViewGraph(FrameGraph& graph, const ViewGraphInputs& in);
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file view_parts.h
-/// Parts of a ViewRenderer: states of its techniques, the lists of a frame, and counters.
+/// Implementation of ViewRenderer: states of its techniques, the lists of a frame, and counters.
 #pragma once
 
 #include "rendering/compositions/media_compositions.h"
@@ -20,12 +20,12 @@
 
 namespace fx::render {
 
-/// A frame that has been gathered for its lights and is still to be drawn.
+/// A frame that prepareLights() has gathered and that is not drawn yet.
 struct PreparedFrame
 {
     FrameKey key;
     bool resetHistory;
-    bool isSettled; ///< the key may become that of the lists
+    bool isSettled; ///< later frames with the same key may reuse the lists
     uint64_t glCalls;
     uint32_t programsCompiled;
 };
@@ -39,15 +39,16 @@ struct ViewRenderer::Impl
     bool leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest& request,
                             const ViewSettings& settings) const;
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
-                        const ViewSettings& settings); ///< everything that is to be drawn
+                        const ViewSettings& settings); ///< gathers all data to draw
     base::Status gatherAnew(const base::SnapshotPair& snapshots, const RevisionPair& revisions,
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status begin(const base::SnapshotPair& snapshots, const FrameRequest& request,
-                       const ViewSettings& settings); ///< the parts, then gather()
-    void compose(const ViewSettings& settings); ///< makes parts that settings ask for, in place of others
+                       const ViewSettings& settings); ///< begins all parts, then calls gather()
+    /// Creates the parts that the settings request, and deletes others.
+    void compose(const ViewSettings& settings);
     base::Status fillLights(const ViewSettings& settings);
-    void dropPrepared(); ///< lists that were gathered and not drawn
-    /// Whether prepareLights() has built the lists of this frame; they are then reused.
+    void dropPrepared(); ///< discards lists that were gathered and not drawn
+    /// If prepareLights() has built the lists of this frame, reuses them and returns true.
     bool takePrepared(const base::SnapshotPair& snapshots, const FrameRequest& request,
                       const ViewSettings& settings);
     void namePasses(bool wasPrepared);
@@ -58,7 +59,7 @@ struct ViewRenderer::Impl
     void askWhetherParticlesAreComputed();
     uint64_t bytes() const;
     FrameStatistics rest();
-    bool holdsNothing() const; ///< that rest() gives back
+    bool holdsNothing() const; ///< true if there is no memory that rest() would release
     FrameStatistics count(int divisor);
 
     GlDevice* device;
@@ -66,40 +67,40 @@ struct ViewRenderer::Impl
     std::pmr::memory_resource* memory;
     FrameGraph graph;
     GlBackend backend;
-    FrameGraph lightGraph; ///< of prepareLights(); separate from that of the last frame
+    FrameGraph lightGraph; ///< graph of prepareLights(), because `graph` belongs to the last frame
     GlBackend lightBackend;
     DrawTechniques techniques;
-    std::pmr::vector<std::unique_ptr<TechniqueView>>
-        parts;                         ///< of techniques, in their order; then `outputs`, then `composition`
-    const MediaComposition* composing; ///< of the last frame
-    CompositionView* composition = nullptr; ///< among the parts; null: it keeps nothing
-    OutputView* outputView = nullptr;       ///< among the parts; null: there are no outputs
-    FrameHistory history;                   ///< while there are outputs
+    /// States of the techniques in their order, then `outputView`, then `composition`.
+    std::pmr::vector<std::unique_ptr<TechniqueView>> parts;
+    const MediaComposition* composing;      ///< composition of the last frame
+    CompositionView* composition = nullptr; ///< one of `parts`; null: the composition has no state
+    OutputView* outputView = nullptr;       ///< one of `parts`; null: no outputs
+    FrameHistory history;                   ///< used with outputs
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;
-    std::array<EffectLight, kMaxEffectLights> glows; ///< of the effects, brightest first
+    std::array<EffectLight, kMaxEffectLights> glows; ///< lights of the effects, brightest first
     size_t glowCount = 0;
     DrawBatcher batcher;
     std::pmr::vector<DrawStream> streams;
     std::span<const DrawBatch> mediaBatches;
     std::pmr::vector<const MediaSource*> solids;
     SnapshotRevisions revisions;
-    std::optional<FrameKey> key; ///< of the lists above and the data on the GPU; empty: invalid
-    bool keptLists = false;      ///< they were not made for this frame
+    std::optional<FrameKey> key; ///< key of the lists above and of the data on the GPU; empty: invalid
+    bool keptLists = false;      ///< the lists were reused in this frame
     std::optional<PreparedFrame> prepared;
-    bool hasLights = false;                       ///< `lights` are those of the last frame
-    std::pmr::vector<std::string_view> passNames; ///< that the last frame executed
+    bool hasLights = false;                       ///< `lights` are valid for the last frame
+    std::pmr::vector<std::string_view> passNames; ///< passes that the last frame executed
     const base::AssetTable* assets = nullptr;
-    FragmentCounts fragments{}; ///< of this frame
+    FragmentCounts fragments{}; ///< estimated fragments of this frame
     LayerScaleControl layerScale;
     HostTargetCheck targetCheck;
     GlPassTimer timer;
-    GlPassTimer lightTimer;        ///< of prepared lights
-    double fillMilliseconds = 0.0; ///< of the last timed frame that filled planes of lights
+    GlPassTimer lightTimer;        ///< timer of prepareLights()
+    double fillMilliseconds = 0.0; ///< time of filling in the last timed frame that filled light slices
     TimingClock clock = TimingClock::Off;
     uint64_t tag = 0;
-    bool computesParticles = true; ///< result of the last check, after drawing and compiling
+    bool computesParticles = true; ///< result of the last check, which follows drawing and compiling
     uint32_t idleFrames = 0;       ///< consecutive frames without visible data
     ViewGraphOutputs outputs;
 };

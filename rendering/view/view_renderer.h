@@ -1,5 +1,5 @@
 /// @file view_renderer.h
-/// Draws snapshots into a host's image. One object a view: it owns the targets and the history of that view.
+/// Draws snapshots into a host's image. Each view has one object, which owns its targets and its history.
 ///
 /// Threads: [GL thread], the thread on which the GL context is current.
 #pragma once
@@ -23,17 +23,17 @@
 
 namespace fx::render {
 
-class GlDevice; ///< rendering/gl: function table, programs, counters of one GL context
+class GlDevice; ///< see rendering/gl/gl_device.h
 
-/// Textures that stay valid until the next render() of the view; 0 when not requested.
+/// GL names of textures that stay valid until the next render() of the view; 0 if not requested.
 struct LayerTextures
 {
-    uint32_t fire =
-        0; ///< RGBA32F radiance that reaches the eye from the fire layer, premultiplied; A its visible share
-    uint32_t smoke = 0;        ///< same for smoke
-    uint32_t dust = 0;         ///< same for dust
+    /// RGBA32F premultiplied radiance of the fire layer that reaches the eye; A: visible opacity of the layer
+    uint32_t fire = 0;
+    uint32_t smoke = 0;        ///< the same for smoke
+    uint32_t dust = 0;         ///< the same for dust
     uint32_t depth = 0;        ///< R32F [m] transmittance-weighted distance of the media; +inf without media
-    uint32_t opticalDepth = 0; ///< R32F [1]
+    uint32_t opticalDepth = 0; ///< R32F [1] optical depth of the media
     uint32_t media = 0;        ///< RGBA32F sum of the layers
 };
 
@@ -52,60 +52,61 @@ public:
     ViewSettings& settings() { return settings_; }
     const ViewSettings& settings() const { return settings_; }
 
-    /// Compiles every program that render() can need. After this no frame compiles.
+    /// Compiles all programs that render() may use. Afterwards no frame compiles programs.
     base::Status warmUp();
 
     /// Draws `snapshots` over the host's picture. On failure the picture and the GL state do not change.
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
-    /// Gathers a frame and fills the planes of its lights, so that the host can draw surfaces with shadows of
-    /// media before render(). render() reuses the result if its frame differs only in targets and times.
-    /// `snapshots` must be valid until then, or until another call. Targets may be absent. On failure the GL
-    /// state does not change.
+    /// Gathers a frame and fills its light slices, so that the host can draw surfaces with media shadows
+    /// before it calls render(). render() reuses the result if its frame differs only in targets and times.
+    /// `snapshots` must stay valid until render() or the next call of this function. Targets may be absent.
+    /// On failure the GL state does not change.
     base::Status prepareLights(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
-    /// Shadow of media in a light of the frame that was prepared or drawn last; without a shadow all light
-    /// passes. @param origin [m] world position that places of lookups are relative to
+    /// Media shadow in a light of the last prepared or drawn frame. Without a shadow, the transmittance is 1.
+    /// @param origin [m] world position to which sampled positions are relative
     MediaShadowBlock mediaShadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
-    /// Texture of the planes of these shadows, filtered linearly; 0 without planes. Valid until the next
-    /// frame.
+    /// GL name of the light slices for mediaShadow(), with linear filter; 0 without light slices. Valid until
+    /// the next frame.
     uint32_t mediaShadowTexture() const;
-    /// Lights of the effects of that frame, brightest first.
+    /// Lights of the effects of the last prepared or drawn frame, brightest first.
     std::span<const EffectLight> effectLights() const;
-    /// Lights of the frame that was prepared or rendered last; empty without media.
+    /// All lights of the last prepared or drawn frame; empty without media.
     const LightList& lights() const;
 
     /// Sets the clock by which the next frames are timed; Off, the default, has no cost. With Gpu, frames are
-    /// not timed when GL has no clock.
+    /// not timed if GL has no clock.
     /// @param tag returned with the times of a frame
     void setTiming(TimingClock clock, uint64_t tag);
     bool hasGpuClock();
-    void setHostClock(HostClock clock);   ///< of TimingClock::Host
+    void setHostClock(HostClock clock);   ///< clock for TimingClock::Host
     bool takeTimes(GroupTimes& out);      ///< see GlPassTimer::take
-    const PassGroups& passGroups() const; ///< groups of these times
-    /// [ms] time in which the last timed frame with filled planes of lights filled them; 0: there is no such
-    /// frame.
+    const PassGroups& passGroups() const; ///< groups of takeTimes()
+    /// [ms] Time to fill light slices in the last timed frame that filled them; 0 if there is no such frame.
     double fillMilliseconds() const;
-    /// Share of the last frame's pixels that techniques cover; valid only while frames are timed.
+    /// Share of the last frame's pixels that techniques cover; valid only if frames are timed.
     const ScreenShare& covered() const { return covered_; }
-    /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.
+    /// Sets the images and meshes of particles. `assets` must stay valid until the next call or the end of
+    /// the view. Null: particles have neither textures nor meshes.
     void setAssets(const base::AssetTable* assets);
 
-    /// Whether groups of the kind "gpuParticle" are drawn. False once the context has refused one.
+    /// Whether groups of the kind "gpuParticle" are drawn. False after computing particles has failed in this
+    /// context.
     bool canComputeParticles() const;
     /// Compiles the compute program of an emitter, if supported.
     void warmUp(const base::GpuParticleProgram& emitter);
 
-    /// True when the last frame did not change the picture and no memory is left to free: without visible
-    /// data, further calls of render() do nothing.
+    /// True if the last frame did not change the picture and no memory is left to release. Then, without
+    /// visible data, further calls of render() do nothing.
     bool isAsleep() const { return asleep_; }
-    /// Checks a request as render() does; the only work for a frame while the view is asleep.
+    /// Checks a request like render(). While the view is asleep, a frame does only this.
     static base::Status check(const FrameRequest& request);
 
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;
-    /// Texture of the bit `number` of view_output, valid as layers(); 0 when it was not asked for or nothing
-    /// is to be seen.
+    /// GL name of the texture of bit number `number` of view_output, valid as long as layers(); 0 if it was
+    /// not requested or nothing is visible.
     uint32_t output(size_t number) const;
     /// Names of the passes that the last frame executed, in order.
     std::span<const std::string_view> executedPasses() const;

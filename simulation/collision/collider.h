@@ -1,52 +1,52 @@
 /// @file collider.h
-/// The host's geometry as the particles of one instance meet it.
+/// The host's collision geometry in the space of one instance.
 ///
 /// @formula field-sweep
-/// First place of a straight way at which a point meets the surface of a distance field.
+/// First contact of a moving point with the surface of a distance field, on a straight path.
 ///
 /// symbol   unit   meaning
-///   p(x)     m      place on the way after x meters
-///   l        m      length of the way
+///   p(x)     m      position on the path after x meters
+///   l        m      length of the path
 ///   d        m      distance sampled at p(x)
 ///   h        m      edge of a cell
-///   e        m      most by which d may be too large, 0.866 h
+///   e        m      upper bound of the amount by which d is too large, 0.866 h
 ///   q        m      shortest stride, h / 4
 /// @derivation
-///   No surface is nearer to p(x) than d - e, so the way is free for that far; the stride is
+///   No surface is nearer to p(x) than d - e, so the path is free over that length. The step is
 ///       x <- min(x + max(d - e, q), l)                                                        (1)
-///   The way ends where d <= 0 is met for the first time; between there and the place before, x is halved
-///   six times towards the last place with d > 0                                                (2)
-///   A way that begins with d <= 0 is not looked at; field-bounce moves its beginning out first  (3)
+///   The path ends at the first sample with d <= 0. Six bisections between it and the last sample with d > 0
+///   refine the contact; the result is the last position with d > 0                              (2)
+///   A path that begins with d <= 0 is not searched; field-bounce first moves its beginning out  (3)
 /// @source    [HAR96] section 2 (sphere tracing); (2) is bisection
-/// @deviation a least stride, so that the way along a surface takes a bounded number of samples
-/// @valid     any finite way; one longer than 4096 strides ends there
-/// @accuracy  never skips more than q of matter, and matter is at least h / 2 thick; the place
-///            found is within q / 64 of the surface of the field
+/// @deviation a minimum stride, so that a path along a surface takes a bounded number of samples
+/// @valid     any finite path; a path longer than 4096 strides ends there
+/// @accuracy  never skips more than q of matter, and matter is at least h / 2 thick; the contact is within
+///            q / 64 of the surface of the field
 /// @tests     tests/simulation/collision/test_collider.cpp
 ///
 /// @formula field-bounce
-/// A particle's place and velocity after it met the field.
+/// Position and velocity of a particle after a contact with the field.
 ///
 /// symbol   unit   meaning
 ///   x, v     m, m/s place and velocity
 ///   n        1      unit vector away from the surface
 ///   d        m      distance at x
-///   c        m      distance that the particle keeps
+///   c        m      distance that the particle keeps from the surface
 ///   e        1      restitution, 0..1
 ///   f        1      friction: tangential velocity lost, 0..1
 /// @derivation
-///   approach a = v.n; where a < 0
+///   approach a = v.n; if a < 0
 ///       v' = (1 - f) (v - a n) - e a n                                                        (1)
-///   pushed out, up to four times, since at an edge n changes on the way
+///   the position is pushed out, up to four times, because n changes near edges
 ///       x' = x + (c - d) n                                                                    (2)
-///   A way that begins inside of matter begins instead where (2) leads                          (3)
-///   What is left of a way after it met a surface goes on with the new velocity, or, for what has no time of
-///   its own, slides on: r' = r - min(r.n, 0) n                                                  (4)
-///   What is still inside at the end goes back to the beginning of its way                      (5)
+///   If a path begins inside of matter, (2) is applied to its beginning                          (3)
+///   After a contact, the rest of the path continues with the new velocity. If no time is given for the rest,
+///   it slides: r' = r - min(r.n, 0) n                                                              (4)
+///   A position that is still inside of matter at the end is set back to the beginning of its path (5)
 /// @source    elementary
-/// @deviation contact at c acts when the way ends, not where it first comes as near as c
+/// @deviation the distance c is enforced at the end of the path only, not at the first approach to c
 /// @valid     c >= 0; n = 0 moves nothing
-/// @accuracy  a way that begins outside ends outside; speed never grows
+/// @accuracy  a path that begins outside ends outside; speed never grows
 /// @tests     tests/simulation/collision/test_collider.cpp
 #pragma once
 
@@ -58,15 +58,15 @@
 
 namespace fx::sim {
 
-/// How a surface answers.
+/// Response of a surface to contacts.
 struct SurfaceResponse
 {
-    float clearance = 0.0f;   ///< [m] local, that centers keep
+    float clearance = 0.0f;   ///< [m] local, distance of particle centers from the surface
     float restitution = 0.0f; ///< [1] 0..1
     float friction = 0.0f;    ///< [1] 0..1
 };
 
-/// A field in the space of an instance. Any thread; allocates nothing.
+/// A distance field in the space of an instance. [any thread]; allocates nothing.
 class Collider
 {
 public:
@@ -80,13 +80,13 @@ public:
     {
         bool found;
         float share;      ///< [1] free share of the path, 1 without a contact
-        glm::vec3 normal; ///< of the surface that ends it
+        glm::vec3 normal; ///< normal of the surface at the contact
     };
-    /// The free part of the way of a center from `from` to `to`.
+    /// Finds the free part of the path of a center from `from` to `to`.
     Hit sweep(const glm::vec3& from, const glm::vec3& to) const;
 
-    /// Corrects the end of a way from `from`: it slides along the surfaces that it meets; the velocity is
-    /// reflected, and the end keeps the clearance. @return true when something was met
+    /// Corrects the end of a path from `from`: the path slides along surfaces, the velocity is reflected, and
+    /// the end keeps the clearance. @return true if there was a contact
     bool settle(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& ioVelocity,
                 const SurfaceResponse& response) const;
 
@@ -101,7 +101,7 @@ private:
                  const SurfaceResponse& response) const;
 
     const DistanceField& field_;
-    glm::vec3 offset_; ///< [m] of the instance's origin in the field
+    glm::vec3 offset_; ///< [m] position of the instance's origin in the field
     glm::quat rotation_;
     float scale_;
 };

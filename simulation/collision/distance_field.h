@@ -1,12 +1,12 @@
 /// @file distance_field.h
-/// Signed distance of every point to the host's geometry.
+/// Signed distance field of the host's geometry.
 ///
 /// @formula trilinear-distance
 /// Distance to a mesh between the nodes of a grid, and its direction.
 ///
 /// symbol   unit   meaning
 ///   h        m      edge of a cell
-///   u        1      place within a cell, 0..1 along each axis
+///   u        1      position within a cell, 0..1 along each axis
 ///   di       m      signed distance at the eight corners of the cell
 ///   wi       1      trilinear weight of a corner, the product of u or 1 - u along each axis
 ///   s, r     m      distance to solids, negative inside of one; distance to sheets, >= 0
@@ -14,27 +14,27 @@
 ///   d        m      distance, negative inside of matter
 ///   n        1      unit vector away from the surface
 /// @derivation
-///   At a node the nearer of solids and sheets
+///   At a node the smaller of the distances to solids and sheets is used
 ///       di = min(s, b)                                                                        (1)
-///   where sheets have matter behind them, two cells thick,
+///   where sheets have a layer of matter behind them, two cells thick,
 ///       b = r in front, max(-r, r - 2 h) behind                                               (2)
-///   Where a surface passes between two neighboring nodes that are both outside, the matter is thinner than a
-///   cell; at both
+///   If a surface passes between two neighboring nodes that are both outside, the matter is thinner than a
+///   cell. Then at both nodes
 ///       di <- di - h                                                                          (3)
-///   and at a node that is inside, but both of whose neighbors along such a line are not,
+///   and at a node that is inside while both of its neighbors on such a line are outside,
 ///       di <- min(di, -h / 2)                                                                 (4)
-///   which leaves a wall at least half a cell thick. Between nodes
+///   so a wall is at least half a cell thick. Between nodes
 ///       d = sum wi di                                                                         (5)
 ///       n = grad d / |grad d|, the derivative of (5)                                          (6)
-///   No node is farther than f, and f changes by at most 1 m per m, so (5) exceeds f by no more than
+///   No node value exceeds f, and f changes by at most 1 m per m, so (5) exceeds f by at most
 ///       sum wi |f(p) - f(pi)| <= sum wi |p - pi| <= (sum wi |p - pi|^2)^(1/2)
 ///                           = h (u(1-u) + v(1-v) + w(1-w))^(1/2) <= (3^(1/2) / 2) h           (7)
-///   and for solids thicker than two cells it falls short by no more than that either. Outside of the grid d
-///   is the distance to the box around the mesh, which is not more than that to the mesh itself, and n leads
-///   away from the box                                                                        (8)
+///   For solids thicker than two cells, (5) is below the distance by at most the same amount. Outside of the
+///   grid d is the distance to the bounding box of the mesh, which does not exceed the distance to the mesh,
+///   and n points away from the box                                                                  (8)
 /// @source    [FPRJ00] for distances sampled and interpolated in this way; the rest is elementary
 /// @deviation a regular grid instead of an adaptive one
-/// @valid     |p| within 1e6 m; n is 0 where all corners are equally far
+/// @valid     |p| within 1e6 m; n is 0 if all corners have the same distance
 /// @accuracy  (7) plus the rounding of single precision; exact where the mesh is flat within two cells
 /// @tests     tests/simulation/collision/test_distance_field.cpp
 #pragma once
@@ -55,32 +55,32 @@ namespace fx::sim {
 /// Largest error of a distance between nodes, in cells: half of the diagonal.
 constexpr float kFieldErrorCells = 0.8660255f;
 
-/// Of the values that build() gives: they differ between versions, for equal meshes and cells.
+/// Version of the values of build(). They differ between versions for equal meshes and cells.
 constexpr uint32_t kFieldVersion = 1;
 
-/// Immutable. Sampling allocates nothing; any thread.
+/// Immutable. Sampling allocates nothing. [any thread]
 class DistanceField
 {
 public:
-    /// Needs 4 bytes per node, at most 64 MiB, and temporarily about 300 bytes per triangle and 16 per row of
-    /// nodes that crosses a solid. Equal meshes give equal bits for any number of threads. Throws
-    /// std::bad_alloc.
+    /// Builds the field of a mesh. Needs 4 bytes per node, at most 64 MiB, and temporarily about 300 bytes
+    /// per triangle and 16 per row of nodes that crosses a solid. Equal meshes give equal bits for any number
+    /// of threads. Throws std::bad_alloc.
     /// @param cellSize [m] 0: the smallest size with about four million nodes
     /// @return the errors of checkMesh() and planGrid(), InvalidArgument (no triangle with an area)
     static base::Result<std::shared_ptr<const DistanceField>> build(const TriangleMesh& mesh, float cellSize,
                                                                     base::TaskRunner& tasks,
                                                                     std::pmr::memory_resource* memory);
 
-    /// The grid of build(). @return the errors of build(), except that for triangles without an area
+    /// The grid of build(). @return the errors of build(), except the error for triangles without an area
     static base::Result<DistanceGrid> plan(const TriangleMesh& mesh, float cellSize);
 
-    /// The field with these values(), one per node. Throws std::bad_alloc.
-    /// @return null when their number is wrong, or any of them is not a possible distance in the grid
+    /// Restores a field from its values(), one per node. Throws std::bad_alloc.
+    /// @return null if their number is wrong, or one of them is not a possible distance in the grid
     static std::shared_ptr<const DistanceField> restore(const glm::dvec3& origin, const DistanceGrid& grid,
                                                         std::span<const float> values,
                                                         std::pmr::memory_resource* memory);
 
-    /// Use build().
+    /// For build() and restore() only.
     DistanceField(const glm::dvec3& origin, const DistanceGrid& grid, std::pmr::memory_resource* memory);
 
     struct Sample
@@ -89,7 +89,7 @@ public:
         glm::vec3 normal; ///< unit, or 0
     };
 
-    // Places are relative to origin().
+    // Positions are relative to origin().
     float distance(const glm::vec3& p) const;
     Sample sample(const glm::vec3& p) const;
 
@@ -101,7 +101,7 @@ public:
     uint64_t hash() const { return hash_; }
 
 private:
-    /// The cell of a place.
+    /// The cell that contains a position.
     struct Corners
     {
         float d[8]; ///< x fastest, z slowest

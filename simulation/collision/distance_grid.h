@@ -12,17 +12,17 @@
 
 namespace fx::sim {
 
-constexpr size_t kMaxFieldNodes = size_t(1) << 24;       ///< 4 bytes each
-constexpr size_t kAutomaticFieldNodes = size_t(1) << 22; ///< at most, when the cell size is left open
-constexpr float kFieldMargin = 4.0f;                     ///< [cell] at least, around the mesh
+constexpr size_t kMaxFieldNodes = size_t(1) << 24;       ///< maximum; 4 bytes per node
+constexpr size_t kAutomaticFieldNodes = size_t(1) << 22; ///< maximum for an automatic cell size
+constexpr float kFieldMargin = 4.0f;                     ///< [cell] minimum margin around the mesh
 
-/// Cubic cells around a mesh.
+/// Grid of cubic cells around a mesh.
 struct DistanceGrid
 {
-    glm::vec3 low{0.0f};   ///< [m] the first node, relative to the mesh's origin
+    glm::vec3 low{0.0f};   ///< [m] position of the first node, relative to the mesh's origin
     float cell = 1.0f;     ///< [m] edge of a cell
-    glm::uvec3 nodes{0u};  ///< along each axis
-    base::Bounds bounds{}; ///< of the mesh
+    glm::uvec3 nodes{0u};  ///< number along each axis
+    base::Bounds bounds{}; ///< bounds of the mesh
 
     size_t count() const { return size_t(nodes.x) * nodes.y * nodes.z; }
     size_t index(uint32_t x, uint32_t y, uint32_t z) const
@@ -35,9 +35,9 @@ struct DistanceGrid
     }
 };
 
-/// @param cell [m] edge; 0 for the smallest that needs at most kAutomaticFieldNodes, but not below a
-///             thousandth of the mesh
-/// @return Capacity when that takes more than kMaxFieldNodes
+/// @param cell [m] edge; 0: the smallest that needs at most kAutomaticFieldNodes, but at least a thousandth
+///             of the size of the mesh
+/// @return Capacity if more than kMaxFieldNodes are needed
 base::Result<DistanceGrid> planGrid(const base::Bounds& bounds, float cell);
 
 } // namespace fx::sim

@@ -1,5 +1,5 @@
 /// @file packet_search.h
-/// The triangles nearest to eight points at once, in the vectors of each instruction set.
+/// Finds the triangles nearest to eight points at once, with the vectors of each instruction set.
 #pragma once
 
 #include "simulation/collision/triangle_tree.h"
@@ -8,12 +8,12 @@
 
 namespace fx::sim {
 
-/// A tree as it lies in memory.
+/// Read access to the memory of a tree.
 struct TreeView
 {
     std::span<const TriangleTree::Node> nodes;
-    std::span<const Triangle> triangles;      ///< by place
-    std::span<const TriangleTree::Box> boxes; ///< of triangles, by place
+    std::span<const Triangle> triangles;      ///< in tree order
+    std::span<const TriangleTree::Box> boxes; ///< boxes of triangles, in tree order
 };
 
 /// See TriangleTree::nearest().

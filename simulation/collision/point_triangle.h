@@ -7,7 +7,7 @@
 /// symbol      unit   meaning
 ///   a, b, c    m      corners
 ///   p          m      the point
-///   d1 .. d6   m2     products of the sides with the way from a corner to p
+///   d1 .. d6   m2     scalar products of the sides with vectors from a corner to p
 ///   va, vb, vc m4     barycentric coordinates of the projection, not normalized
 /// @derivation
 ///   d1 = ab.ap, d2 = ac.ap; d1 <= 0 and d2 <= 0: a is nearest                              (1)
@@ -19,7 +19,7 @@
 ///   else inside, at a + (vb ab + vc ac) / (va + vb + vc)                                   (7)
 /// @source    [ERI05] section 5.1.5
 /// @deviation none
-/// @valid     a triangle with an area; what rounding leaves of one without gives one of its points or sides
+/// @valid     a triangle with an area; without an area, the result is one of its points or sides
 /// @accuracy  double precision: relative error of the distance below 1e-6 of the triangle's size
 /// @tests     tests/simulation/collision/test_triangle_tree.cpp
 #pragma once

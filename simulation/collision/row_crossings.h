@@ -1,30 +1,30 @@
 /// @file row_crossings.h
-/// Where triangles cross the lines of a grid.
+/// Crossings of triangles with the lines of a grid.
 ///
 /// @formula row-winding-number
-/// How often closed surfaces go around each node of a row, from where they cross the row.
+/// Winding number of closed surfaces around each node of a row, from their crossings with the row.
 ///
 /// symbol   unit   meaning
 ///   p        m      a node; its row is the line through it along x
-///   y, z     m      of the row
-///   xk       m      where triangle k crosses the row
+///   y, z     m      coordinates of the row
+///   xk       m      position at which triangle k crosses the row
 ///   sk       1      +1 when triangle k faces towards +x, -1 when towards -x
 ///   w        1      winding number
 /// @derivation
-///   The winding number of a closed surface is the solid angle seen from p over 4 pi; it is a whole number,
-///   equal to the signed crossings of any ray from p to infinity. Along +x
+///   The winding number of a closed surface is the solid angle seen from p over 4 pi. It is an integer and
+///   equals the signed number of crossings of any ray from p to infinity. Along +x
 ///       w(p) = sum of sk over xk > p.x                                                           (1)
-///   Triangle k crosses the row when the row's (y, z) is on the same side of its three projected sides,
+///   Triangle k crosses the row if the row's (y, z) is on the same side of its three projected edges,
 ///       E(u, v) = (v.y - u.y)(z - u.z) - (v.z - u.z)(y - u.y)                                     (2)
-///   evaluated from the smaller to the larger end of each side, so that neighbors agree bit for bit. A row
-///   through a side or corner is moved by (e, e^2), e -> 0: where E is 0 its sign is that of -(v.z - u.z),
-///   and where that is 0 as well, that of v.y - u.y                                              (3)
-///   A node is inside of matter when w > 0, also where several solids overlap                     (4)
+///   evaluated from the smaller to the larger end of each edge, so that adjacent triangles agree bit for bit.
+///   A row through an edge or corner is moved by (e, e^2), e -> 0: if E is 0, its sign is that of -(v.z -
+///   u.z), and if that is 0 as well, the sign of v.y - u.y
+///   (3) A node is inside of matter if w > 0, also if several solids overlap                          (4)
 /// @source    [JKS13] section 3 for the winding number; (3) is the simulation of simplicity of [EM90]
 /// @deviation crossings are counted on a row of nodes at once instead of adding solid angles, which is
 ///            equal for closed surfaces
-/// @valid     closed surfaces: at each edge as many triangles go one way as the other
-/// @accuracy  exact, but for nodes nearer to the surface than the rounding of xk
+/// @valid     closed surfaces: each edge is used equally often in both directions
+/// @accuracy  exact, except for nodes whose distance to the surface is below the rounding of xk
 /// @tests     tests/simulation/collision/test_distance_field.cpp
 #pragma once
 
@@ -52,8 +52,8 @@ inline int sideOf(const glm::dvec3& u, const glm::dvec3& v, double y, double z)
     return isTurned ? -sign : sign;
 }
 
-/// Calls f(y, z, x, sign) for each row of the grid along `axis` that the triangle crosses: y and z are the
-/// row's numbers along the next two axes, x [m] is where along it.
+/// Calls f(y, z, x, sign) for each row of the grid along `axis` that the triangle crosses. y and z are the
+/// row's indices along the next two axes; x [m] is the position of the crossing along the row.
 template <class F>
 void forEachCrossing(const Triangle& triangle, const DistanceGrid& grid, int axis, F&& f)
 {

@@ -1,5 +1,5 @@
 /// @file triangle_tree.h
-/// A tree of boxes around triangles that finds the distance to the nearest one.
+/// A bounding-box hierarchy of triangles for the distance to the nearest triangle.
 #pragma once
 
 #include "simulation/collision/mesh_surface.h"
@@ -12,7 +12,7 @@
 
 namespace fx::sim {
 
-/// Points of one query. The closer they are to each other, the cheaper is each.
+/// Number of points per query. The cost per point is lower if the points are closer to each other.
 constexpr uint32_t kPacketPoints = 8;
 
 struct PointPacket
@@ -22,16 +22,17 @@ struct PointPacket
     alignas(64) double z[kPacketPoints];
 };
 
-/// Nearest triangles of each point of a packet.
+/// Nearest triangle of each point of a packet.
 struct PacketNearest
 {
     static constexpr uint32_t kMaxEqualTriangles = 8;
 
     alignas(64) double squared[kPacketPoints]; ///< [m2] distance
-    uint32_t triangle[kPacketPoints];          ///< place in the tree of one that is as near
+    uint32_t triangle[kPacketPoints];          ///< position in the tree of one of the nearest triangles
     /// Number of other triangles at exactly the same distance.
     uint32_t equals[kPacketPoints];
-    uint32_t equal[kPacketPoints * kMaxEqualTriangles]; ///< positions of the first of them, by point
+    /// positions in the tree of the first of them, by point
+    uint32_t equal[kPacketPoints * kMaxEqualTriangles];
 };
 
 class TriangleTree
@@ -44,18 +45,19 @@ public:
     struct Nearest
     {
         double distance;   ///< [m]
-        uint32_t triangle; ///< kNone when none is near
+        uint32_t triangle; ///< kNone when no triangle is nearer than the limit
         Feature feature;
         glm::dvec3 point; ///< [m] of the triangle
     };
     static constexpr uint32_t kNone = ~0u;
 
-    /// The triangle nearest to `p`; `within` [m] and kNone when none is nearer than that. Any thread.
+    /// The triangle nearest to `p`. If none is nearer than `within` [m], gives `within` and kNone. [any
+    /// thread]
     Nearest nearest(const glm::dvec3& p, double within) const;
 
-    /// The same distances, bit for bit, of eight points, without a limit. Not of a tree without triangles.
-    /// Any thread.
-    /// @param guess place in the tree of a triangle that may be near: the better it is, the faster
+    /// Distances of eight points, with the bits of the function above, without a limit. The tree must not be
+    /// empty. [any thread]
+    /// @param guess position in the tree of a triangle that may be near; a better guess is faster
     void nearest(const PointPacket& points, uint32_t guess, PacketNearest& out) const;
 
     /// Result of nearest() for a given triangle, by position in the tree.
@@ -70,15 +72,15 @@ public:
         uint32_t first; ///< position of its triangles when `count` > 0, otherwise its second child
         uint32_t count; ///< triangles of a leaf; 0: children are the next node and `first`
     };
-    static constexpr size_t kDeepest = 64; ///< levels; halving 2^22 triangles takes 21
+    static constexpr size_t kDeepest = 64; ///< maximum depth; halving 2^22 triangles takes 21 levels
 
 private:
     uint32_t build(std::span<const Triangle> triangles, uint32_t begin, uint32_t end);
     static double squaredDistance(const Box& box, const glm::dvec3& p);
 
-    std::pmr::vector<uint32_t> order_;     ///< number of the triangle at each place
-    std::pmr::vector<Triangle> triangles_; ///< by place
-    std::pmr::vector<Box> boxes_;          ///< of triangles, by place
+    std::pmr::vector<uint32_t> order_;     ///< index of the triangle at each position in the tree
+    std::pmr::vector<Triangle> triangles_; ///< in tree order
+    std::pmr::vector<Box> boxes_;          ///< boxes of triangles, in tree order
     std::pmr::vector<Node> nodes_;
 };
 

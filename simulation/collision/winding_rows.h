@@ -1,5 +1,5 @@
 /// @file winding_rows.h
-/// Which nodes of a grid lie inside of closed surfaces. See row_crossings.h.
+/// Finds the nodes of a grid that lie inside of closed surfaces. See row_crossings.h.
 #pragma once
 
 #include "simulation/collision/distance_grid.h"
@@ -28,7 +28,7 @@ private:
         double x;     ///< [m]
         int32_t sign; ///< +1, -1
     };
-    std::pmr::vector<size_t> first_; ///< of each row's crossings, and the end of the last row's
+    std::pmr::vector<size_t> first_; ///< index of each row's first crossing, then the total number
     std::pmr::vector<Crossing> crossings_;
     uint32_t rowsInY_;
 };

@@ -1,9 +1,9 @@
 /// @file charge_plan.h
-/// Initial state of a charge of given energy, and the expected fireball.
+/// Initial state of a charge of given energy, and the size and duration of its fireball.
 ///
 /// @formula charge-plan
 /// Mass, ball of gas at the start and fireball, all from the energy.
-///
+/// Mass, initial ball of gas and fireball, all computed from the energy.
 /// symbol   unit      meaning
 ///   E       J         energy of the charge; W kg of TNT are 4.184e6 W
 ///   e       J/kg      nominal energy of the material
@@ -12,19 +12,19 @@
 ///   r, T    J/(kg K), K  gas constant and temperature of the gas at the start
 ///   p       Pa        pressure at the start
 ///   V, R    m3, m     volume and radius of the ball
-///   gamma   1         ratio of heats that makes the ball hold exactly the heat e_0 m
+///   gamma   1         ratio of specific heats with which the ball contains exactly the heat e_0 m
 ///   D, t    m, s      diameter and duration of the fireball
 /// @derivation
 ///   m = E / e                                                                          (1)
-///   The products have spread, without doing work yet, to the pressure p: V = m r T / p   (2)
+///   The products have expanded to the pressure p without doing work: V = m r T / p        (2)
 ///   p V / (gamma - 1) = e_0 m gives gamma = 1 + r T / e_0                              (3)
-///   without heat at the start the ball is at the air's pressure and gamma that of air   (4)
+///   Without heat at the start, the ball has the pressure of the air and gamma of the air  (4)
 ///   D = k_D m^(1/3), t = k_t m^(1/3); above the mass of large clouds t = k_l m^(1/6)    (5)
-///   so every length and time of one material grows as E^(1/3) (Hopkinson).
+///   Therefore every length and time of one material grows as E^(1/3) (Hopkinson scaling).
 /// @source    [ROB81] [CCPS10] for (5); (2)-(4) are elementary (ideal gas)
-/// @deviation (2) starts from a ball at moderate pressure instead of the solid charge: the work that the
-/// products
-///            do on the first air is left to the ball, so that the blast keeps the charge's energy
+/// @deviation (2) starts from a ball at moderate pressure instead of the solid charge. The work of the
+///            products on the first air is not subtracted, so that the blast has the whole energy of the
+///            charge
 /// @valid     E > 0 and finite; anything else gives a plan of mass 0
 /// @accuracy  p V / (gamma - 1) = e_0 m to 1e-14; scaling to 1e-14
 /// @tests     tests/simulation/combustion/test_charge_plan.cpp
@@ -35,7 +35,7 @@
 
 namespace fx::sim {
 
-/// The air that a charge meets.
+/// The air around a charge.
 struct AmbientAir
 {
     double temperature = kAirKelvin; ///< [K]
@@ -50,9 +50,9 @@ struct ChargePlan
     double pressure = 0;         ///< [Pa]
     double density = 0;          ///< [kg/m3]
     double gamma = 0;            ///< [1]
-    double rimSpeed = 0;         ///< [m/s] at the surface, growing linearly from the center
-    double heat = 0;             ///< [J] present at the start, above the air's
-    double fuel = 0;             ///< [J] still to be released by burning
+    double rimSpeed = 0;         ///< [m/s] at the surface, proportional to the distance from the center
+    double heat = 0;             ///< [J] initial heat above that of air
+    double fuel = 0;             ///< [J] heat that combustion will release
     double fireballDiameter = 0; ///< [m] expected
     double fireballDuration = 0; ///< [s] expected
 };

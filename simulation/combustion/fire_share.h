@@ -1,5 +1,5 @@
 /// @file fire_share.h
-/// Which part of hot matter a picture shows as fire.
+/// Share of hot matter that a picture shows as fire.
 ///
 /// @formula fire-share
 /// The part of a blob's opacity that counts as fire in the layers of a picture; the rest is smoke.
@@ -11,9 +11,8 @@
 ///   F        1      share of fire
 /// @derivation
 ///   u = (T - T0) / (T1 - T0) clamped to [0, 1],   F = u^2 (3 - 2 u)                         (1)
-/// @source    elementary (cubic step); the temperatures are those of the matter: gas takes them from its
-/// preset, solid
-///            fragments from the colors of incandescence
+/// @source    elementary (cubic step); the temperatures depend on the matter: for gas they come from its
+///            preset, for solid fragments from the colors of incandescence
 /// @deviation none
 /// @valid     T0 < T1; NaN gives 0
 /// @accuracy  float rounding
@@ -24,14 +23,14 @@
 
 namespace fx::sim {
 
-/// [K] Between which matter goes over from smoke to fire.
+/// [K] Range of temperatures in which matter changes from smoke to fire.
 struct GlowRange
 {
     float first;  ///< T0
     float bright; ///< T1
 };
 
-/// [1] F of matter of `temperature` [K].
+/// [1] Share F of fire of matter at `temperature` [K].
 inline float fireShareOf(float temperature, const GlowRange& glow)
 {
     return base::smoothStep(glow.first, glow.bright, temperature); // (1)

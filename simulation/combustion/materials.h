@@ -9,7 +9,8 @@
 
 namespace fx::sim {
 
-/// Constants of the Jones-Wilkins-Lee equation of the products of a detonation; all zero where none happens.
+/// Constants of the Jones-Wilkins-Lee equation of the products of a detonation; all zero without a
+/// detonation.
 struct JwlConstants
 {
     double a = 0;       ///< [Pa]
@@ -22,7 +23,7 @@ struct JwlConstants
     double speed = 0;   ///< [m/s] of the detonation
 };
 
-/// Extinction by one kind of particles, per kilogram of them.
+/// Extinction by one kind of particles, per kilogram of particles.
 struct ParticleOptics
 {
     double extinction; ///< [m2/kg] in the visible
@@ -31,19 +32,19 @@ struct ParticleOptics
 
 struct Material
 {
-    std::string_view name; ///< as presets write it
+    std::string_view name; ///< name in presets
 
-    double nominalEnergy;    ///< [J/kg] by which `energy` of a preset becomes a mass
-    double heatAtStart;      ///< [J/kg] already heat when the effect begins: a detonation, a bursting casing
+    double nominalEnergy;    ///< [J/kg] converts `energy` of a preset to a mass
+    double heatAtStart;      ///< [J/kg] heat that exists at the start: a detonation, a bursting casing
     double heatOfCombustion; ///< [J/kg] released as the gas burns
     double airNeeded;        ///< [kg/kg] air that complete combustion takes in
     double ownOxygen;        ///< [1] share that burns without air, 0..1
-    double burningAtStart;   ///< [1] share that is alight when the effect begins, 0..1
+    double burningAtStart;   ///< [1] share that burns at the start, 0..1
 
     double gasConstant;      ///< [J/(kg K)] of the gas at the start, per kilogram of material
     double startTemperature; ///< [K] of the gas at the start
     double heatCapacity;     ///< [J/(kg K)] of gas and air at constant pressure, mean over 300..2300 K
-    double startSpeed;       ///< [m/s] at the rim, of the content of a bursting vessel
+    double startSpeed;       ///< [m/s] speed of the content of a bursting vessel at its surface
 
     double ignitionTemperature; ///< [K]
     double ignitionDelay;       ///< [s] mean time to ignite when well above it
@@ -55,7 +56,8 @@ struct Material
 
     double fireballDiameter; ///< [m/kg^(1/3)]
     double fireballDuration; ///< [s/kg^(1/3)] below `largeMass`
-    double largeMass; ///< [kg] from here on buoyancy rules and the duration grows with m^(1/6); 0 for never
+    /// [kg] mass above which buoyancy dominates and the duration grows with m^(1/6); 0: never
+    double largeMass;
     double largeDuration; ///< [s/kg^(1/6)]
 
     JwlConstants jwl;

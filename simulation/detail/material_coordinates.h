@@ -1,9 +1,9 @@
 /// @file material_coordinates.h
-/// Where the balls of a medium were when each of two generations of coordinates was born. The noise that
-/// details the medium's field is read there, so that it moves with the medium.
+/// Positions of the balls of a medium at the births of two generations of coordinates. The noise for the
+/// detail of the medium is evaluated there, so that it moves with the medium.
 ///
 /// @formula material-coordinates
-/// Noise that is carried by a flow must be renewed before the flow has torn it.
+/// Noise that a flow carries must be renewed before the flow has distorted it too much.
 ///
 /// symbol   unit   meaning
 ///   S       1/s    rms of the traceless symmetric part of the velocity gradient over the balls
@@ -14,21 +14,21 @@
 ///   x, v           position and velocity of the ball
 ///   t, t_n  s      now, and when generation n was born
 /// @derivation
-///   In homogeneous flow without divergence the mean squares of strain and vorticity are tied:
+///   In homogeneous, divergence-free flow the mean squares of strain and vorticity are proportional:
 ///       S^2 = <w^2> / 2                                                                     (1)
 ///   A generation is born each time the shear has grown by 1/2, and lives for twice that:
 ///       de/dt = 2 l S, at most 8 /s, n = 1 + floor(e), f = e - floor(e)                     (2)
-///   with the preset's liveliness l. The weights f and 1 - f are triangles: a generation is born and
-///   dies unseen. Its coordinate is the place at which the ball was:
+///   with the preset's liveliness l. The weights f and 1 - f are triangle functions, so a generation has the
+///   weight 0 at its birth and at its death. Its coordinate is the position of the ball at its birth:
 ///       m_n = x(t_n)                                                                        (3)
-///   A ball that is born later joins the others as if its stream had flowed before, so that each ball of
-///   a steady stream has a coordinate of its own:
+///   A ball that is born later gets the coordinate that it would have if its stream had flowed before, so
+///   that the balls of a steady stream have different coordinates:
 ///       m_n = x - V (t - t_n)                                                               (4)
-///   V is its mean velocity in the first half life of a generation, by linear-drag-step.
+///   V is its mean velocity in the first half of the lifetime of a generation, by linear-drag-step.
 /// @source    [NEY03] advected textures with renewal, for the two generations
 /// @deviation (2) counts shear instead of time; the generations of all balls are born together
 /// @valid     any flow; e grows without limit
-/// @accuracy  (1) is exact in homogeneous turbulence; in a fireball it stands for the same order of magnitude
+/// @accuracy  (1) is exact in homogeneous turbulence; in a fireball it gives the order of magnitude
 /// @tests     tests/simulation/detail/test_generation_clock.cpp, tests/simulation/detail/test_gas_detail.cpp,
 ///            tests/simulation/detail/test_emitter_detail.cpp
 #pragma once
@@ -45,18 +45,18 @@
 
 namespace fx::sim {
 
-constexpr double kShearOfGeneration = 0.5; ///< [1] between two births
-constexpr double kMaxGenerationRate = 8.0; ///< [1/s] births
+constexpr double kShearOfGeneration = 0.5; ///< [1] shear between two births of generations
+constexpr double kMaxGenerationRate = 8.0; ///< [1/s] maximum birth rate of generations
 
-/// (2)
+/// The clock of generations, (2).
 class GenerationClock
 {
 public:
     /// @param shear [1] S times the time
-    /// @return generations that were born
+    /// @return number of generations that were born
     uint64_t advance(double shear, double seconds);
     uint64_t younger() const { return younger_; }
-    double fade() const { return fade_; } ///< [1] weight of the younger one, [0, 1)
+    double fade() const { return fade_; } ///< [1] weight of the younger generation, [0, 1)
     void set(uint64_t younger, double fade)
     {
         younger_ = younger;
@@ -68,7 +68,7 @@ private:
     double fade_ = 0;
 };
 
-/// m_n of two generations for a fixed number of balls, by row.
+/// The coordinates m_n of two generations for a fixed number of balls, by row.
 class MaterialCoordinates
 {
 public:

@@ -1,5 +1,5 @@
 /// @file emitter_def.h
-/// The definition of an emitter: its settings as a recipe of solvers.
+/// The definition of an emitter: its settings, and the creation of its solvers.
 #pragma once
 
 #include "simulation/detail/field_detail.h"
@@ -14,8 +14,8 @@ namespace fx::sim {
 
 struct ParticleProgram;
 
-/// Data shared by all solvers of a definition, created by the first of them. A copy of a definition creates
-/// its own.
+/// Compiled program shared by all solvers of a definition, created by the first solver. A copy of a
+/// definition creates its own program.
 class SharedProgram
 {
 public:
@@ -23,7 +23,7 @@ public:
     SharedProgram(const SharedProgram&) {}
     SharedProgram& operator=(const SharedProgram&) { return *this; }
 
-    /// Any thread.
+    /// [any thread]
     std::shared_ptr<const ParticleProgram> of(const EmitterSettings& settings) const;
 
 private:
@@ -31,11 +31,11 @@ private:
     mutable std::weak_ptr<const ParticleProgram> program_;
 };
 
-/// Immutable while it has solvers.
+/// Immutable while solvers of it exist.
 struct EmitterDef final : SolverDef, EmitterSettings
 {
     SharedProgram program;
-    FieldDetail detail; ///< of a medium
+    FieldDetail detail; ///< detail of the field of a medium
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
@@ -44,14 +44,15 @@ struct EmitterDef final : SolverDef, EmitterSettings
     double workOf(const StepLoad& load) const override;
     bool publishes(const base::KindDesc& kind) const override;
     bool bendsLight() const override { return appearance.kind == AppearanceKind::Medium && heat > 0.0f; }
-    /// Whether its particles carry coordinates for the detail of their field.
+    /// Whether its particles carry coordinates for the detail of the field.
     bool hasDetail() const { return detail.given && appearance.kind == AppearanceKind::Medium; }
     std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const override;
     Influence influence() const override;
     bool collides() const override;
     bool dependsOnPlacement() const override { return inWorld; }
     bool followsThermals() const override { return forces.updraft > 0.0f; }
-    /// Analytic when the state is a pure function of time: closed motion, no events, no trails, no moves.
+    /// Analytic when the state is a pure function of time: closed-form motion, no events, no trails, no
+    /// motion of the instance.
     CatchUp catchUp() const override
     {
         const bool isAlone = !fed && events.empty() && !inWorld && !(trail.lifetime > 0.0f);
@@ -67,8 +68,8 @@ struct EmitterDef final : SolverDef, EmitterSettings
 
 struct EffectDef;
 
-/// The definitions of an effect's emitters by solver index, null for its other solvers: for code that
-/// inspects emitters. Other code uses SolverDef.
+/// The definitions of an effect's emitters by solver index, null for its other solvers. For code that
+/// inspects emitters; other code uses SolverDef.
 std::vector<const EmitterDef*> emittersOf(const EffectDef& effect);
 
 } // namespace fx::sim

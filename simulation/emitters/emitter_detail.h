@@ -1,5 +1,5 @@
 /// @file emitter_detail.h
-/// The coordinates for the detail of one emitter's medium, formula material-coordinates.
+/// Coordinates for the detail of the medium of one emitter, formula material-coordinates.
 #pragma once
 
 #include "simulation/detail/material_coordinates.h"
@@ -9,30 +9,30 @@
 
 namespace fx::sim {
 
-/// Rows are those of the particle store. Particles of an emitter do not interact, so no gradient can be
-/// measured: generations begin at fixed local times, at a rate derived from the turbulence.
+/// Rows are those of the particle store. The particles of an emitter do not interact, so no velocity gradient
+/// is measured. Generations begin at fixed local times, at a rate derived from the turbulence.
 class EmitterDetail
 {
 public:
     EmitterDetail(const EmitterDef& def, uint32_t capacity, std::pmr::memory_resource* memory);
 
-    /// [tick] between two births: the turbulence of strength U and scale L has the strain 4.4 U / L, which is
-    /// the rms strain of an isotropic flow of one wave length.
+    /// [tick] Time between two births of generations. Turbulence of strength U and scale L has the strain 4.4
+    /// U / L, which is the rms strain of an isotropic flow of one wave length.
     static base::Ticks periodOf(const EmitterDef& def);
 
-    /// All particles with an index below `next` have their coordinates, or are gone.
+    /// Starts at `now`: all particles with an index below `next` already have coordinates, or are dead.
     void begin(uint64_t next, base::Ticks now);
-    /// A step has ended at job.now.
+    /// Updates the coordinates after a step that ended at job.now.
     void follow(const AppearanceJob& job, const StepContext& context);
     /// Adds the group for the group of blobs that was added last, without writing its rows.
     void open(base::Ticks now, base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;
-    /// Row `row` of the store becomes element `to`.
+    /// Copies row `row` of the store to element `to` of the group.
     void write(uint32_t row, uint32_t to, base::SnapshotGroup& group) const
     {
         for (size_t c = 0; c < MaterialCoordinates::kColumns; ++c)
             group.editColumn(c)[to] = coordinates_.value(c, row);
     }
-    /// Of the living rows.
+    /// Saves the coordinates of living rows.
     void save(StateWriter& writer, const ParticleStore& store, base::Ticks now) const;
     void restore(StateReader& reader, const ParticleStore& store, base::Ticks now);
 
@@ -47,8 +47,8 @@ private:
     const EmitterDef& def_;
     base::Ticks period_;
     DetailGenerations shared_;
-    uint64_t younger_ = 0; ///< generations up to it have coordinates
-    uint64_t next_ = 0;    ///< particles of smaller indices have them
+    uint64_t younger_ = 0; ///< youngest generation for which coordinates exist
+    uint64_t next_ = 0;    ///< particles with smaller indices have coordinates
     MaterialCoordinates coordinates_;
 };
 

@@ -1,5 +1,5 @@
 /// @file emitter_solver.h
-/// One emitter of one instance: births, motion, deaths.
+/// Solver of one emitter of one instance: births, motion, deaths.
 #pragma once
 
 #include "simulation/emitters/births/birth_schedule.h"
@@ -21,7 +21,7 @@
 
 namespace fx::sim {
 
-/// The kinds of groups that emitters publish; kNoKind where the schema lacks one.
+/// The kinds of groups that emitters publish; kNoKind if the schema lacks one.
 struct EmitterKinds
 {
     base::KindId blob;
@@ -54,7 +54,7 @@ public:
         base::WorkBudget unlimited;
         goOn(context, unlimited);
     }
-    /// Small emitters are not divided.
+    /// Steps of small emitters are not divided.
     bool proceed(const StepContext& context, base::WorkBudget& work) override
     {
         const bool isKept = context.board || !isLinked(); // its data in scratch memory
@@ -82,7 +82,7 @@ public:
         now_ = tick;
         endStep(counters);
     }
-    /// Spread over the threads of the last step; before it on the calling thread.
+    /// Runs on the threads of the last step; before the first step on the calling thread.
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
         PublicationPlace whole;
@@ -94,19 +94,19 @@ public:
     bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                          SpawnBatch& spawnBatch) const override;
     bool finished(base::Ticks tick) const override;
-    /// Exact but while the GPU computes the particles; then an upper bound.
+    /// Exact, except that it is an upper bound while the GPU computes the particles.
     uint32_t elementCount() const override;
     bool hasElements() const override;
-    /// Seeks forwards where motion has a closed form. Seeks backwards only if the host has changed no input
-    /// since local time 0. Without particles and births, any emitter can.
+    /// Seeks forwards are possible if motion has a closed form. Seeks backwards also require that the host
+    /// has changed no input since local time 0. Without particles and births, every emitter can seek.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
-    /// Without particles, up to the next birth. A birth that is caused by particles of another emitter
-    /// happens no earlier than the end of that emitter's rest.
+    /// If there are no particles: the time of the next birth. Births caused by particles of another emitter
+    /// happen no earlier than the end of the rest of that emitter.
     base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
-    /// Finite if particles do not depend on each other or on earlier ones, and no birth is dropped.
+    /// Finite if particles depend neither on each other nor on earlier ones, and no birth is dropped.
     base::Ticks influenceHorizon(const InstanceParameters& parameters) const override;
     void saveWithoutElements(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
@@ -116,7 +116,7 @@ public:
     FiniteMemorySolver* finiteMemory() override { return this; }
     PooledEmitter* pooledEmitter() override { return this; }
 
-    static constexpr uint32_t kFewRows = 8192; ///< emitters of so few do things together
+    static constexpr uint32_t kFewRows = 8192; ///< emitters with at most so many rows are not divided
 
     const EmitterPool* pool() const override { return pool_; }
     uint32_t member() const override { return member_; }
@@ -138,11 +138,11 @@ public:
         highWater_ = std::max(highWater_, rows);
     }
 
-    /// [byte] that a solver takes from its start on.
+    /// [byte] memory that a solver allocates when it is created.
     static uint64_t bytesOf(const EmitterDef& def, const ParticleProgram& program);
 
 private:
-    /// [unit] of base::WorkBudget that a step counts which is not divided.
+    /// [unit] of base::WorkBudget for a step that is not divided.
     uint64_t workOf(const StepCounters& done) const
     {
         return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
@@ -151,30 +151,30 @@ private:
     }
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                   std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);
-    /// A step of which some is still to be done.
+    /// Stages of a step that is divided.
     enum class StepPart : uint8_t
     {
         Old, ///< moves existing particles and collects their events
         Births,
         Young,  ///< moves the new particles
         Move,   ///< moves all particles, without events
-        Answer, ///< events cause births in other emitters
-        Follow, ///< trails
+        Answer, ///< events that cause births in other emitters
+        Follow, ///< update of trails
     };
     struct Linked;
     struct OpenStep
     {
         base::Ticks tick = -1;   ///< begin of the open step; -1: none
-        base::Ticks reached = 0; ///< local time up to which all are born
+        base::Ticks reached = 0; ///< local time before which all births are done
         StepPart part = StepPart::Old;
-        bool isWanted = false; ///< on the GPU
-        uint32_t row = 0;      ///< of the part
+        bool isWanted = false; ///< the GPU computes the particles, see StepContext::gpuParticles
+        uint32_t row = 0;      ///< next row of the stage
         uint64_t left = 0;     ///< births that may still be stored
         uint64_t asked = 0;    ///< attempted births
-        uint64_t refused = 0;  ///< that found it taken
+        uint64_t refused = 0;  ///< births whose row was occupied
         uint64_t droppedBefore = 0;
         Linked* linked = nullptr; ///< in scratch memory, for emitters with events
-        uint64_t board = 0;       ///< number of the EventBoard beside which that lies
+        uint64_t board = 0;       ///< number of the EventBoard of the step that allocated `linked`
     };
     bool isOpen(const StepContext& context) const;
     void begin(const StepContext& context);
@@ -185,7 +185,7 @@ private:
     bool stepAlone(const StepContext& context, base::WorkBudget& work);
     bool joins(const StepContext& context) const;
     bool isPoolable() const;
-    /// Updates its state from the pool, which may be ahead, before a query.
+    /// Copies its state from the pool, which may be ahead, before a query.
     void catchUpWithPool() const
     {
         if (pool_)
@@ -200,7 +200,7 @@ private:
     };
     Conditions conditionsOf(const StepContext& context) const;
     void applyConditions(const StepContext& context);
-    /// True without particles and without births up to `tick`.
+    /// True if there are no particles, and no births up to `tick`.
     bool restsThrough(const StepContext& context, base::Ticks tick) const;
     void seekHere(const StepContext& context, base::Ticks tick);
     base::Ticks lifetimeOf(double intensity) const;
@@ -217,7 +217,7 @@ private:
     void storeBatch(const StepContext& context, std::span<const Birth> births);
     bool move(const StepContext& context, base::WorkBudget& work, uint64_t firstIndex = 0,
               EventRoom* room = nullptr);
-    // where the GPU may compute
+    // if the GPU may compute the particles
     void offerToGpu(uint64_t droppedBefore, bool isWanted);
     void stepOnGpu(const StepContext& context);
     bool mayDieSooner() const;
@@ -227,13 +227,13 @@ private:
     // for emitters with events
     struct Origin
     {
-        glm::vec3 position{0.0f}; ///< [m] added to where the birth's own shape puts it
+        glm::vec3 position{0.0f}; ///< [m] added to the position from the shape of the birth
         glm::vec3 velocity{0.0f}; ///< [m/s] of the origin
         glm::vec3 tint{1.0f};     ///< [1] multiplies its color
-        bool fed = false;         ///< its birth was caused by an event of a particle
+        bool fed = false;         ///< the birth was caused by an event of a particle
         bool byClock = true;
     };
-    // where particles stay behind
+    // for particles that stay in world space
     template <class F>
     auto inHome(const StepContext& context, F&& body) const
     {
@@ -300,39 +300,39 @@ private:
                        base::SnapshotGroup& material) const;
     void writeMedium(uint32_t solver, uint32_t begin, uint32_t end, class BlobWriter& writer) const;
 
-    // Members used by every step and publication of a small emitter, adjacent for the cache.
+    // Members that every step and publication of a small emitter uses, adjacent for the cache.
     const EmitterDef& def_;
     const ParticleProgram& program_;
     base::Ticks now_ = 0;         ///< end of the last step
     base::Ticks motionBegin_ = 0; ///< see AppearanceJob
-    Conditions conditions_;       ///< of the last step
+    Conditions conditions_;       ///< conditions of the last step
     uint32_t highWater_ = 0;
-    bool varied_ = false; ///< they were others before
+    bool varied_ = false; ///< conditions have changed since the start
     bool started_ = false;
     bool bornWithMany_;      ///< see SpawnBatch
     bool publishesWithMany_; ///< see SpawnBatch
     bool poolable_;
-    uint32_t member_ = 0;         ///< of the pool
-    EmitterPool* pool_ = nullptr; ///< pool that computes it; the members below may then be outdated
+    uint32_t member_ = 0;         ///< number in the pool
+    EmitterPool* pool_ = nullptr; ///< pool that computes this emitter; the members below may then be outdated
     EmitterKinds kinds_;
     ParticleStore store_;
     BirthSchedule schedule_;
     std::shared_ptr<const ParticleProgram> shared_;
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
-    std::optional<EmitterDetail> detail_;    ///< of a medium with detail of its field
-    std::optional<MovedSpace> space_;        ///< of particles that stay where they are
-    std::optional<GpuEmitter> gpu_;          ///< where the GPU could compute the particles
-    BirthKey key_{};                         ///< of the last step
-    mutable std::pmr::vector<Light> lights_; ///< room for those that are published
-    uint64_t hostEvents_ = 0;                ///< number of events that have been processed
+    std::optional<EmitterDetail> detail_;    ///< if its medium has detail of the field
+    std::optional<MovedSpace> space_;        ///< if particles stay where they are when the instance moves
+    std::optional<GpuEmitter> gpu_;          ///< if the GPU may compute the particles
+    BirthKey key_{};                         ///< random key of the last step
+    mutable std::pmr::vector<Light> lights_; ///< scratch for the published lights
+    uint64_t hostEvents_ = 0;                ///< number of host events processed
     uint64_t dropped_ = 0;
-    base::TaskRunner* tasks_ = nullptr;              ///< of the last step
-    mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< scratch for sorting the published rows of a medium
+    base::TaskRunner* tasks_ = nullptr;              ///< task runner of the last step
+    mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< scratch to sort the published rows of a medium
     OpenStep open_;
-    bool isDivided_;            ///< its steps are, see proceed()
-    uint64_t refusedInRow_ = 0; ///< births that found their row taken, one after the other
-    base::Ticks fullUntil_ = 0; ///< local time up to which all rows are surely taken
+    bool isDivided_;            ///< whether steps are divided, see proceed()
+    uint64_t refusedInRow_ = 0; ///< number of consecutive births whose row was occupied
+    base::Ticks fullUntil_ = 0; ///< local time up to which all rows are certainly occupied
     double stepWork_;           ///< [unit] of base::WorkBudget, of a particle in a sub-step
 };
 

@@ -1,16 +1,16 @@
 /// @file fragment_flight.h
-/// How one fragment flies and cools.
+/// Flight and cooling of one fragment.
 ///
 /// @formula quadratic-drag-step
-/// A step of a body whose drag grows with the square of its speed.
+/// A step of a body with drag proportional to the square of its speed.
 ///
 /// symbol   unit   meaning
 ///   rho_a, rho  kg/m3  density of the air, of the body
 ///   C_d     1      drag coefficient
 ///   d       m      diameter
-///   b       1/m    drag per way through the air
+///   b       1/m    drag per distance through the air
 ///   w       m/s    speed relative to the air, before (0) and after (1)
-///   k       1/s    rate of linear drag that stands for it during the step
+///   k       1/s    equivalent rate of linear drag during the step
 /// @derivation
 ///   m dv/dt = -C_d rho_a (pi d^2 / 4) |w| w / 2 with m = rho pi d^3 / 6 gives
 ///       dw/dt = -b |w| w,  b = (3/4) C_d rho_a / (rho d)                            (1)
@@ -39,10 +39,9 @@
 ///       T <- T_a + (T - T_a) exp(-q t)                                                              (5)
 ///   radiation dT/dt = -r T^4 with r = 6 e sigma / (rho c d):
 ///       T <- T (1 + 3 r t T^3)^(-1/3), not below T_a                                                (6)
-///   half of the radiation before the convection, half after it (Strang)                            (7)
+///   half of the radiation before the convection, half of it afterwards (Strang splitting)          (7)
 /// @source    [RM52] for Nu; the rest is elementary
-/// @deviation one temperature for the whole body; the air's radiation is left out and the floor T_a put in
-/// its place
+/// @deviation one temperature for the whole body; radiation of the air is replaced by the lower bound T_a
 /// @valid     T >= T_a; any step length
 /// @accuracy  each part exact to rounding; both together second order in the step
 /// @tests     tests/simulation/fragments/test_fragment_flight.cpp
@@ -55,10 +54,10 @@ namespace fx::sim {
 
 constexpr float kAirDensity = 1.204f; ///< [kg/m3] at 20 degrees C
 
-/// [1/m] b
+/// [1/m] b of (1).
 float dragPerMeter(const FragmentMatter& matter, float size);
 
-/// A step of flight without ground. `perMeter` is b, `air` the velocity of the air [m/s].
+/// A step of flight without ground contact. `perMeter` is b, `air` the velocity of the air [m/s].
 MotionState flyStep(const MotionState& from, const glm::vec3& acceleration, const glm::vec3& air,
                     float perMeter, float seconds);
 

@@ -1,8 +1,9 @@
 /// @file fragment_sizes.h
-/// How large the pieces are into which something bursts.
+/// Distribution of the sizes of fragments.
 ///
 /// @formula fragment-sizes
-/// Diameter of a fragment from a uniform random number, by inverting the number of fragments above a size.
+/// Diameter of a fragment from a uniform random number, by inverting the number of fragments larger than a
+/// size.
 ///
 /// symbol   unit   meaning
 ///   u       1      uniform in [0, 1)

@@ -25,12 +25,12 @@ enum : size_t
     Size,        ///< [m] diameter
     Temperature, ///< [K]
     Hottest,     ///< [K] temperature at the start
-    Due,         ///< [m] way to the next blob of smoke
+    Due,         ///< [m] distance to the next blob of smoke
     Count
 };
 }
 
-/// Rows in the order of their numbers.
+/// Rows are in the order of fragment numbers.
 struct FragmentStore
 {
     /// [byte] of a row.
@@ -43,14 +43,14 @@ struct FragmentStore
     float* at(size_t column) { return attributes[column].data(); }
     const float* at(size_t column) const { return attributes[column].data(); }
 
-    /// Removes the rows whose end is not after `tick`; the others keep their order.
+    /// Removes the rows whose end is at or before `tick`; the other rows keep their order.
     void removeDead(base::Ticks tick);
 
     void save(StateWriter& writer) const;
     void restore(StateReader& reader);
 
     uint32_t count = 0;
-    base::Column<uint32_t> number;  ///< 0 .. those released
+    base::Column<uint32_t> number;  ///< index of the fragment in the burst
     base::Column<uint32_t> trailed; ///< blobs of smoke left so far
     base::Column<base::Ticks> dies; ///< local time
     std::array<base::Column<float>, fragment_column::Count> attributes;

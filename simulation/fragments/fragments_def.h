@@ -1,5 +1,5 @@
 /// @file fragments_def.h
-/// Definition of a burst of incandescent fragments. All lengths in the instance's local space.
+/// Definition of a burst of incandescent fragments. All lengths are in the instance's local space.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -12,7 +12,7 @@
 
 namespace fx::sim {
 
-/// Into which directions fragments fly.
+/// Directions in which fragments fly.
 enum class FragmentShape : uint8_t
 {
     Sphere,
@@ -34,27 +34,27 @@ struct FragmentMatter
     float specificHeat = 490.0f;  ///< [J/(kg K)] > 0
     float emissivity = 0.85f;     ///< [1] 0 .. 1; oxidized steel
     float dragCoefficient = 1.0f; ///< [1] >= 0; tumbling, a smooth ball has 0.47
-    float gravity = 1.0f;         ///< [1] multiple of the world's
+    float gravity = 1.0f;         ///< [1] multiple of the world's gravity
     float bounce = 0.35f;         ///< [1] restitution at the ground, 0 .. 1
     float friction = 0.4f;        ///< [1] tangential velocity lost at a bounce, 0 .. 1
 };
 
-/// The smoke that a hot fragment leaves behind: one blob every `spacing` of its way.
+/// The smoke behind a hot fragment: one blob for every `spacing` along its path.
 struct TrailDef
 {
-    float spacing = 0.2f;             ///< [m] 0 leaves none
+    float spacing = 0.2f;             ///< [m] distance between blobs; 0: no smoke
     float idle = 0.0f;                ///< [m/s] lowest speed used for the smoke rate of a fragment
-    uint32_t maxBlobs = 4096;         ///< alive at once
-    float coldest = 650.0f;           ///< [K] a fragment below it smokes no more
+    uint32_t maxBlobs = 4096;         ///< maximum number of living blobs
+    float coldest = 650.0f;           ///< [K] temperature below which a fragment emits no smoke
     base::Range lifetime{1.5f, 3.0f}; ///< [s] > 0
     base::Range radius{0.06f, 0.1f};  ///< [m] at birth, behind the largest fragment
     float opticalDepth = 0.5f;  ///< [1] along a diameter at birth, behind a fragment as hot as at the start
     float temperature = 900.0f; ///< [K] at birth
     float mixing = 5.0f;        ///< [1/s] rate of approach to the air's temperature
-    float spreading = 0.02f;    ///< [m2/s] how the square of the radius grows
+    float spreading = 0.02f;    ///< [m2/s] growth rate of the square of the radius
     float inherited = 0.15f;    ///< [1] share of the fragment's velocity
     float drag = 4.0f;          ///< [1/s] rate at which the velocity approaches the air's
-    float buoyancy = 1.0f;      ///< [1] multiple of Archimedes' force
+    float buoyancy = 1.0f;      ///< [1] multiple of the buoyancy force
     float curlStrength = 0.35f; ///< [m/s] turbulence
     float curlScale = 0.7f;     ///< [m]
     float curlRate = 0.4f;      ///< [1/s]
@@ -66,9 +66,9 @@ struct TrailDef
 
 /// Work of fragments and their smoke in units of base::WorkBudget, see docs/howto/bounded-updates.md.
 namespace fragment_work {
-constexpr double kMoved = 24.0; ///< of each fragment and each blob of smoke in a sub-step
-constexpr double kBirth = 20.0; ///< of each that is left or released
-constexpr double kShown = 11.0; ///< of each, once a step
+constexpr double kMoved = 24.0; ///< for each fragment and each blob of smoke in a sub-step
+constexpr double kBirth = 20.0; ///< for each fragment or blob that is born
+constexpr double kShown = 11.0; ///< for each fragment or blob, once a step, for publication
 } // namespace fragment_work
 
 /// A burst of fragments at one moment.
@@ -77,7 +77,7 @@ struct FragmentsDef final : SolverDef
     std::string name;
     uint32_t count = 100;      ///< 1 .. 8192
     float start = 0.0f;        ///< [s]
-    glm::vec3 position{0.0f};  ///< [m] center of the ball in which they begin
+    glm::vec3 position{0.0f};  ///< [m] center of the ball in which the fragments start
     float originRadius = 0.2f; ///< [m] of that ball
     FragmentShape shape = FragmentShape::Sphere;
     float angle = 0.5235988f;        ///< [rad] half angle of the cone
@@ -89,11 +89,11 @@ struct FragmentsDef final : SolverDef
     float exponent = 2.5f;           ///< [1] power law: N(larger than d) ~ d^-exponent, > 0
 
     base::Range temperature{1300.0f, 1700.0f}; ///< [K] at the start
-    base::Range lifetime{6.0f, 9.0f};          ///< [s] until the fragment is taken away
+    base::Range lifetime{6.0f, 9.0f};          ///< [s] until the fragment is removed
     FragmentMatter matter;
     TrailDef trail;
 
-    float visibleSize = 1.0f;   ///< [1] radius drawn over the fragment's
+    float visibleSize = 1.0f;   ///< [1] drawn radius over the fragment's radius
     float shutter = 0.0166667f; ///< [s]
     float heat = 0.0f;          ///< see EmitterDef
 

@@ -1,5 +1,5 @@
 /// @file fragments_solver.h
-/// The fragments of one instance and their smoke.
+/// Solver of the fragments of one instance and their smoke.
 #pragma once
 
 #include "simulation/fragments/fragment_store.h"
@@ -16,7 +16,7 @@ class FragmentsSolver final : public Solver, public BudgetedSolver
 {
 public:
     /// @param def outlives the solver
-    /// @param kind of the groups it publishes: first the fragments, then their smoke
+    /// @param kind kind of its two groups: the fragments, then their smoke
     FragmentsSolver(const FragmentsDef& def, base::KindId kind, std::pmr::memory_resource* memory);
 
     void step(const StepContext& context) override
@@ -40,12 +40,12 @@ public:
     BudgetedSolver* budgeted() override { return this; }
 
 private:
-    /// A step of which some is still to be done.
+    /// State of a step that is not finished.
     struct OpenStep
     {
         base::Ticks tick = -1; ///< begin of the open step; -1: none
-        bool hasFlown = false; ///< the fragments are at its end; smoke is still to be left
-        uint32_t row = 0;      ///< of the smoke that is next: to move, or to be left
+        bool hasFlown = false; ///< the fragments are at the end of the step; smoke remains to be emitted
+        uint32_t row = 0;      ///< next row of smoke to move or to emit
     };
     bool moveAll(const TrailStep& step, base::WorkBudget& work);
     bool leaveAll(const TrailStep& step, base::Ticks begin, base::WorkBudget& work);
@@ -62,7 +62,7 @@ private:
     base::Ticks start_;
     FragmentStore fragments_;
     TrailStore trail_;
-    base::Column<FragmentWay> ways_; ///< of the fragments, in the open step
+    base::Column<FragmentWay> ways_; ///< paths of the fragments in the open step
     OpenStep open_;
     base::Ticks now_ = 0; ///< end of the last step
     bool released_ = false;

@@ -1,30 +1,30 @@
 /// @file trail_smoke.h
-/// How the smoke of a fragment is left behind, moves and fades.
+/// Emission, motion and fading of the smoke of a fragment.
 ///
 /// @formula smoke-trail
 /// Blobs of smoke at equal distances along the path of a fragment, and their evolution.
 ///
 /// symbol   unit   meaning
-///   L       m      way of a fragment during a step, at least idle speed times its length
-///   D       m      way left to the next blob
+///   L       m      path length of a fragment in a step, at least idle speed times the step's length
+///   D       m      remaining distance to the next blob
 ///   h       m      spacing
-///   f_j     1      share of the step after which blob j is left
+///   f_j     1      share of the step after which blob j is emitted
 ///   R_0, R  m      radius at birth, at age a
 ///   K       m2/s   spreading
 ///   T_0, T  K      temperature at birth, at age a; T_a of the air
 ///   q       1/s    mixing
-///   s       1      how much of the smoke is still drawn
+///   s       1      share of the smoke that is still drawn
 ///   l       s      lifetime
 /// @derivation
-///   Blob j = 0, 1, ... is left after f_j = (D + j h) / L, while that is at most 1               (1)
-///   and D <- D + n h - L after n of them: the sum over steps is the way, however it is cut      (2)
+///   Blob j = 0, 1, ... is emitted after f_j = (D + j h) / L, if that is at most 1               (1)
+///   Then D <- D + n h - L for n blobs, so the spacing does not depend on the division into steps (2)
 ///   By diffusion the square of the radius grows linearly, R^2 = R_0^2 + K a                     (3)
 ///   By mixing T = T_a + (T_0 - T_a) exp(-q a)                                                    (4)
-///   The cross section stays (soot is conserved) and is faded out, s = (1 - (a/l)^2)^2             (5)
+///   The cross section is constant (soot is conserved), multiplied by the fading s = (1 - (a/l)^2)^2 (5)
 ///   A blob rises by (T / T_a - 1) g, with the mean of (4) over the step, and follows the air by
 ///   formula linear-drag-step                                                                     (6)
 /// @source    own; (1)-(4) are elementary
-/// @deviation the way within a step is its chord
+/// @deviation the path within a step is its chord
 /// @valid     h > 0
 /// @accuracy  spacing along the way: float rounding times the number of blobs; equal for all steps up to the
 ///            difference of chord and path, relative (turn of the velocity in a step)^2 / 24
@@ -60,30 +60,30 @@ struct FragmentWay
     MotionState to;
     float length;    ///< [m] L, as counted for smoke
     float due;       ///< [m] D before the step
-    uint32_t blobs;  ///< left during the step
+    uint32_t blobs;  ///< number of blobs emitted in the step
     uint32_t stored; ///< number of these that fit into the store
     uint32_t first;  ///< row of the first of them
 };
 
-/// n of (2): how many blobs a way leaves.
+/// n of (2): number of blobs along a path.
 uint32_t blobsAlong(float length, float due, float spacing);
 
-/// Rows that follow each other.
+/// A range of consecutive rows.
 struct SmokeRows
 {
     uint32_t begin;
     uint32_t end;
 };
 
-/// Writes `rows` of the smoke of fragment `row` along `way`, in their state at the end of the step.
-/// @param begin local time at which the way begins
+/// Writes the smoke of fragment `row` along `way` to `rows`, in its state at the end of the step.
+/// @param begin local time at which `way` begins
 void emitSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
                base::Ticks begin, const SmokeRows& rows, TrailStore& trail);
 
-/// Moves the rows [begin, end) through the whole step.
+/// Moves the rows [begin, end) over the whole step.
 void moveSmoke(const TrailStep& step, TrailStore& trail, uint32_t begin, uint32_t end);
 
-/// How a blob of radius `radius` at birth looks at an age.
+/// Appearance of a blob at an age. @param radius [m] at birth
 struct SmokeAppearance
 {
     float radius;      ///< [m] (3)

@@ -27,7 +27,7 @@ enum : size_t
 };
 }
 
-/// Which blob of which fragment: the same for any length of the steps.
+/// Id of a blob of a fragment; equal for any length of the steps.
 constexpr uint64_t trailId(uint32_t fragment, uint32_t blob)
 {
     return (uint64_t(fragment) << 24) | (blob & 0xFFFFFFu);
@@ -41,15 +41,15 @@ public:
     TrailStore(std::pmr::memory_resource* memory, size_t most);
 
     size_t capacity() const { return most_; }     ///< largest number of rows
-    size_t held() const { return id.capacity(); } ///< rows with reserved memory
+    size_t held() const { return id.capacity(); } ///< rows for which memory is reserved
     /// Reserves memory for `rows`, at most capacity(), at least doubling it. Strong guarantee.
     void reserve(size_t rows);
-    /// [byte] of so many rows.
+    /// [byte] Memory of this number of rows.
     static uint64_t bytesOf(size_t rows);
     float* at(size_t column) { return attributes[column].data(); }
     const float* at(size_t column) const { return attributes[column].data(); }
 
-    /// Removes the rows whose end is not after `tick`; the others keep their order.
+    /// Removes the rows whose end is at or before `tick`; the other rows keep their order.
     void removeDead(base::Ticks tick);
 
     void save(StateWriter& writer) const;

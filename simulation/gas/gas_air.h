@@ -21,14 +21,14 @@ class GasAir
 public:
     GasAir(const GasDef& def, const StepContext& step, const ThermalFlow& thermal);
 
-    /// Turbulence at the full strength of flames, at several positions at once: a vector of them takes little
-    /// more time than one.
+    /// Turbulence at the full strength of flames, evaluated at several positions at once, because a vector of
+    /// positions takes little more time than one.
     class Turbulence
     {
     public:
         static constexpr uint32_t kMax = 64; ///< positions
 
-        /// At the places [first, first + count) of the gas.
+        /// Evaluates at the slots [first, first + count) of the gas.
         void evaluate(const GasAir& air, const GasView<float>& gas, uint32_t first, uint32_t count);
         glm::vec3 at(uint32_t k) const { return {velocity_[0][k], velocity_[1][k], velocity_[2][k]}; }
 
@@ -37,7 +37,7 @@ public:
         alignas(64) float velocity_[3][kMax];      ///< [m/s]
     };
 
-    /// [m/s] at `position`, around gas of that temperature [K]: turbulence fades as the gas cools.
+    /// [m/s] Velocity at `position`, around gas of `temperature` [K]. Turbulence decreases as the gas cools.
     glm::vec3 velocity(const glm::vec3& position, float temperature, const glm::vec3& turbulence) const;
     const ThermalFlow& thermal() const { return thermal_; }
 
@@ -49,15 +49,15 @@ private:
 };
 
 /// @formula potential-temperature
-/// The entropy of a parcel in terms of the temperature that it has at the air's pressure.
+/// The entropy of a parcel as a function of its temperature at the air's pressure.
 ///
 /// symbol   unit        meaning
 ///   K       Pa (m3/kg)^gamma   entropy function, P = K rho^gamma
 ///   theta   K           temperature at the air's pressure
 ///   P_a     Pa          the air's pressure
 ///   R_f, R_a  J/(kg K)  gas constants of the material's gas and of air
-///   M       1           mass of the parcel with its air over its own
-///   tau     1           density at the air's pressure over that of the air
+///   M       1           mass of the parcel, including mixed-in air, over its own mass
+///   tau     1           density at the air's pressure over the density of the air
 /// @derivation
 ///   R = (R_f + (M - 1) R_a) / M                                  (1)
 ///   rho_e = P_a / (R theta), tau = rho_e / rho_a                 (2)

@@ -26,26 +26,28 @@ struct GasDef final : SolverDef
     const Material* material = findMaterial("petrol"); ///< never null
     double energy = 20e6;                              ///< [J] > 0
     float pressureRatio =
-        12.0f;                ///< [1] initial pressure over the air's, 1 .. 100, where the charge detonates
-    float soundSpeed = 60.0f; ///< [m/s] limit on the speed of sound, 0 for none: shorter steps, true blast
-    float jitter = 0.15f;     ///< [1] of the particle spacing: seeds the instabilities
-    float lumpiness = 0.3f;   ///< [1] 0 .. 1, unevenness of the throw in large jets
-    float throwSpeed = 1.0f;  ///< [1] multiple of the speed at which the material is thrown out
-    glm::vec3 initialBias{0.0f}; ///< [m/s] added to every particle
-    float entrainment = 1.0f;    ///< [1] multiple of the air that a thermal takes in, while it burns
+        12.0f; ///< [1] initial pressure over the air's, 1 .. 100, where the charge detonates
+    /// [m/s] limit on the speed of sound; 0: no limit, with shorter steps and a realistic blast
+    float soundSpeed = 60.0f;
+    float jitter = 0.15f;    ///< [1] random displacement in particle spacings, which starts the instabilities
+    float lumpiness = 0.3f;  ///< [1] 0 .. 1, strength of the large jets of the release
+    float throwSpeed = 1.0f; ///< [1] multiple of the initial speed of the material
+    glm::vec3 initialBias{0.0f}; ///< [m/s] velocity added to every particle
+    float entrainment = 1.0f;    ///< [1] multiple of the air entrained by a thermal, while the gas burns
     float radiation = 1.0f;      ///< [1] multiple of black-body loss
-    float drag = 0.35f;          ///< [1/s] momentum shared with the air
-    float braking = 0.3f;        ///< [1] multiple of the momentum lost to the air that is driven ahead
-    float buoyancy = 1.0f;       ///< [1] multiple of Archimedes' force
-    float rolling = 1.0f;        ///< [1] 0 .. [1] strength of the vortex-ring circulation of the rising cloud
+    float drag = 0.35f;          ///< [1/s] rate of momentum exchange with the air
+    float braking = 0.3f;        ///< [1] multiple of the momentum lost to displaced air
+    float buoyancy = 1.0f;       ///< [1] multiple of the buoyancy force
+    float rolling = 1.0f;        ///< [1] 0 .. 1, strength of the vortex-ring circulation of the rising cloud
     float curlStrength = 2.5f;   ///< [m/s] turbulence below the particles' size
     float curlScale = 2.0f;      ///< [m]
     float viscosity = 1.0f;      ///< [1] largest alpha of the artificial viscosity, 0 .. 4
 
     // optics
     float opacity = 1.0f; ///< [1] multiple of the extinction of the soot and salts that the material leaves
-    base::ColorCurve smokeTint{std::array{1.0f, 1.0f, 1.0f}}; ///< multiple of their albedo, t = share burnt
-    float sootTemperature = 1100.0f; ///< [K] below which soot no longer glows as fire in the picture's layers
+    /// multiplies the albedo of soot and salts; t = burnt share
+    base::ColorCurve smokeTint{std::array{1.0f, 1.0f, 1.0f}};
+    float sootTemperature = 1100.0f; ///< [K] below it, soot counts as smoke in the layers of the picture
     float growth = 1.4f;             ///< [1] radius of a blob over half the kernel's support
     float heat = 1.0f;               ///< see EmitterDef
     float dissipation = 0.12f;       ///< [1/s] rate at which cold smoke thins out

@@ -1,5 +1,5 @@
 /// @file gas_detail.h
-/// The coordinates for the detail of one gas, formula material-coordinates.
+/// Coordinates for the detail of the medium of one gas, formula material-coordinates.
 #pragma once
 
 #include "simulation/detail/material_coordinates.h"
@@ -8,7 +8,7 @@
 
 namespace fx::sim {
 
-/// Rows are the ids of particles.
+/// Rows are indexed by particle id.
 class GasDetail
 {
 public:
@@ -17,11 +17,11 @@ public:
         : detail_(detail), growth_(growth), coordinates_(memory, particles)
     {}
 
-    /// The gas has been released: both generations are born.
+    /// Creates both generations after the release of the gas.
     void begin(const GasView<const float>& gas, base::Arena& scratch);
-    /// Advances the generations after the gas has flowed for `seconds`.
+    /// Advances the generations after the gas has moved for `seconds`.
     void follow(const GasView<const float>& gas, double seconds, base::Arena& scratch);
-    /// Adds the group that belongs to the group of blobs added last.
+    /// Adds the group for the group of blobs that was added last.
     void publish(base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;
     void save(StateWriter& writer, uint32_t particles) const;
     void restore(StateReader& reader, uint32_t particles);

@@ -1,5 +1,5 @@
 /// @file gas_parcels.h
-/// Data of each gas particle besides its motion: the burning parcel and its optics.
+/// Data of each gas particle apart from its motion: the burning parcel and its optics.
 #pragma once
 
 #include "foundation/memory/column.h"
@@ -11,7 +11,7 @@
 namespace fx::sim {
 
 /// Arrays indexed by the particle's id, which never changes, unlike its place in the gas.
-constexpr float kFaintest = 0.02f; ///< [1] presence below which smoke is no longer drawn, having faded to it
+constexpr float kFaintest = 0.02f; ///< [1] smallest presence of drawn smoke
 
 struct GasParcels
 {
@@ -19,9 +19,9 @@ struct GasParcels
         : fire(memory, capacity), vigor(memory, capacity), presence(memory, capacity)
     {}
 
-    base::Column<FireParcel> fire; ///< its temperature is that at the air's pressure
-    base::Column<float> vigor;     ///< [1] this parcel's rate of mixing over the mean
-    base::Column<float> presence;  ///< [1] part of the smoke that has not yet dissolved, 1..0
+    base::Column<FireParcel> fire; ///< the temperature is that at the air's pressure
+    base::Column<float> vigor;     ///< [1] mixing rate of this parcel over the mean rate
+    base::Column<float> presence;  ///< [1] share of the smoke that has not yet dissolved, 1..0
 };
 
 } // namespace fx::sim

@@ -2,18 +2,18 @@
 /// Initial state of the gas.
 ///
 /// @formula gas-release
-/// Fills a ball evenly with particles of the charge, thrown out unevenly.
+/// Fills a ball evenly with particles of the charge and gives them uneven outward velocities.
 ///
 /// symbol   unit    meaning
 ///   R, U    m, m/s  radius of the ball, speed of the charge's rim (charge-plan)
 ///   N       1       particles
 ///   phi     1       1.2207..., the real solution of x^4 = x + 1
 ///   d       1       direction from the center
-///   g       1       unevenness of the throw into direction d, mean 0
+///   g       1       unevenness of the velocity in direction d, mean 0
 ///   L       1       lumpiness
 /// @derivation
 ///   u_k = frac(1/2 + i phi^-k), k = 1..3, fill the unit cube evenly                                 (1)
-///   r = u_1^(1/3), cos = 1 - 2 u_2, azimuth u_3 turns: the cube's volume becomes the ball's          (2)
+///   r = u_1^(1/3), cos = 1 - 2 u_2, azimuth u_3 turns: maps the cube to the ball, uniformly in volume  (2)
 ///   six jets of random direction j and strength s in [-1, 1]: g = sum s max(d.j, 0)^4               (3)
 ///   position R r d (1 + L g / 4) displaced by `jitter` spacings at random, velocity U r d (1 + L g)  (4)
 /// @source    [ROB18] Roberts, "The unreasonable effectiveness of quasirandom sequences", for (1)
@@ -37,7 +37,7 @@ namespace fx::sim {
 base::Status releaseGas(const GasDef& def, const ChargePlan& plan, const StepContext& context,
                         std::span<GasParticle> scratch, GasDynamics<float>& gas, GasParcels& parcels);
 
-/// [m] distance between neighbors in the ball of the plan.
+/// [m] Distance between neighbors in the initial ball of the plan.
 double spacingOf(const ChargePlan& plan, uint32_t particles);
 
 } // namespace fx::sim

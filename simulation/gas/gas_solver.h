@@ -1,5 +1,5 @@
 /// @file gas_solver.h
-/// One explosion of gas of one instance.
+/// Solver of one gas of one instance.
 #pragma once
 
 #include "simulation/gas/gas_air.h"
@@ -14,29 +14,29 @@
 
 namespace fx::sim {
 
-/// Most sub-steps between two exchanges with the air. Time beyond them is not simulated, but reported as
-/// debt.
+/// Maximum number of sub-steps between two exchanges with the air. Time beyond it is not simulated; it is
+/// reported as debt.
 constexpr uint32_t kMaxGasSubSteps = 400;
-constexpr double kMaxGasSlices = 64.0; ///< exchanges with the air in a step
+constexpr double kMaxGasSlices = 64.0; ///< maximum number of exchanges with the air in a step
 constexpr double kGasCourant = 0.6;
 
-// [unit] of base::WorkBudget, for each particle
+// [unit] of base::WorkBudget, per particle
 constexpr uint64_t kGasReleaseWork = 200;
 constexpr uint64_t kGasExchangeWork = 80;
 constexpr uint64_t kGasShownWork = 12;
-constexpr uint64_t kGasBytes = 1500; ///< [byte] of each particle, about, lists of neighbors included
+constexpr uint64_t kGasBytes = 1500; ///< [byte] per particle, approximate, including neighbor lists
 
-/// [m] Support radius of particles that fill a ball of `radius` evenly and have `neighbors` neighbors each.
+/// [m] Support radius at which each of `particles` particles in a ball of `radius` has `neighbors` neighbors.
 double evenSupport(double radius, uint32_t particles, double neighbors);
 
-/// Gas dynamics between exchanges with the air, which come as often as the cloud moves a third of its size,
-/// and in every step.
+/// Gas dynamics with exchanges with the air in between. An exchange takes place whenever the cloud has moved
+/// by a third of its size, and at least once in every step.
 class GasSolver final : public Solver, public BudgetedSolver, public AirMover
 {
 public:
     /// @param def outlives the solver
-    /// @param kind of the groups it publishes
-    /// @param material kind of those with coordinates for detail
+    /// @param kind kind of its groups
+    /// @param material kind of the groups with coordinates for detail
     GasSolver(const GasDef& def, const Quality& quality, base::KindId kind, base::KindId material,
               std::pmr::memory_resource* memory);
 
@@ -47,7 +47,7 @@ public:
     }
     bool proceed(const StepContext& context, base::WorkBudget& work) override;
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
-    /// Not divided.
+    /// Publishes everything in one call.
     bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                             PublicationPlace& /*ioPlace*/, base::WorkBudget& work) const override
     {
@@ -69,7 +69,7 @@ private:
     {
         base::Ticks tick = -1; ///< begin of the open step; -1: none
         double seconds = 0;    ///< [s] length of the step
-        double left = 0;       ///< [s] of that, from the beginning of the current slice
+        double left = 0;       ///< [s] remaining time, from the beginning of the current slice
         double slice = 0;      ///< [s] of gas dynamics between two exchanges; 0 between slices
     };
     bool waitsForRelease(const StepContext& context, const base::WorkBudget& work) const;
@@ -80,13 +80,13 @@ private:
     struct FlowSpeeds
     {
         double flow;         ///< root mean square
-        double sound;        ///< of the hottest gas
-        double reducedSound; ///< that is simulated
+        double sound;        ///< speed of sound of the hottest gas
+        double reducedSound; ///< as simulated
     };
     FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;
     double exchange(const StepContext& context, double longest, double shortest);
     void takeIn(double pressureScale, base::TaskRunner& tasks);
-    /// @param before [m] of each parcel by id, where its way began; empty without geometry
+    /// @param before [m] positions of parcels at the beginning of their paths, by id; empty without geometry
     void settle(const StepContext& context, float seconds, std::span<const glm::vec3> before);
     void retireWhenDissolved();
     void writeMotion(class BlobWriter& writer) const;
@@ -96,13 +96,13 @@ private:
     Quality quality_;
     base::KindId kind_;
     base::KindId material_;
-    ChargePlan plan_; ///< at the def's energy
+    ChargePlan plan_; ///< plan for the energy of the definition
     GasThermodynamics thermodynamics_;
     uint32_t particles_;
     GasDynamics<float> gas_;
     GasParcels parcels_;
-    std::optional<GasDetail> detail_;   ///< where the preset gives detail of the field
-    base::Column<GasParticle> scratch_; ///< of the release
+    std::optional<GasDetail> detail_;   ///< if the preset defines detail of the field
+    base::Column<GasParticle> scratch_; ///< scratch for the release
     std::pmr::memory_resource* memory_;
     base::Column<glm::vec3> ways_; ///< [m] begin of the path of each parcel; allocated for collisions only
     Open open_;

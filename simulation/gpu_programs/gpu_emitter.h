@@ -1,7 +1,7 @@
 /// @file gpu_emitter.h
-/// Log of an emitter's births and conditions, for computing its particles on the GPU. It is always recorded.
-/// While the GPU computes the emitter, it has no rows: births are only counted, and the log is published.
-/// Rows can be restored bit for bit at any time.
+/// Log of an emitter's births and conditions, from which the GPU computes its particles. It is always
+/// recorded. While the GPU computes the emitter, the emitter has no rows: births are only counted, and the
+/// log is published. The rows can be restored bit for bit at any time.
 #pragma once
 
 #include "simulation/emitters/births/birth_log.h"
@@ -18,48 +18,49 @@ namespace fx::sim {
 class GpuEmitter
 {
 public:
-    /// @param program one with a program for the GPU; outlives it
+    /// @param program a program that the GPU can compute; must outlive this object
     GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory);
 
-    /// Log of births, filled by BirthSchedule.
+    /// Log of births, written by BirthSchedule.
     BirthLog& log() { return log_; }
     const BirthLog& log() const { return log_; }
 
     /// Clears the log and ends GPU computation. History before `now` is unknown, unless `now` is 0.
     void clear(const BirthKey& key, base::Ticks now, uint64_t next, const glm::vec3& pull);
-    /// A step that is about to be taken, wherever that happens. Only where motion has no closed form.
+    /// Records a step before it is taken, on the CPU or the GPU. Only for motion without a closed form.
     void noteStep(const StepContext& context);
-    /// Gravity or wind change.
+    /// Records a change of gravity or wind.
     void setPull(base::Ticks now, const glm::vec3& pull);
-    /// Births were dropped before `now`.
+    /// Records that births were dropped before `now`.
     void noteDrop(base::Ticks now) { dropped_ = now; }
     /// Whether all births since the last forget() had free rows, by a conservative bound.
     bool surelyFits() const { return log_.next() - log_.front() <= rows_; }
     /// Removes entries of particles that are dead at `now`.
     void forget(base::Ticks now);
 
-    /// Whether a step needs more than the GPU supports.
+    /// True if a step needs more than the GPU supports.
     bool asksTooMuch(const StepContext& context) const
     {
         constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
         return (dependsOnHost_ && (context.collider || context.contactHook)) ||
                (steps_ && context.stepTicks > kLongest);
     }
-    /// Whether particles may die before their time.
+    /// True if particles may die before the end of their lifetime.
     bool kills() const { return kills_; }
     bool isOn() const { return on_; }
-    /// Whether the log covers all particles that live at `now`, and is small enough for publication.
+    /// True if the log covers all particles alive at `now` and is small enough for publication.
     bool mayBegin(base::Ticks now) const;
     bool mayGoOn(base::Ticks now) const;
     void begin() { on_ = true; }
     void end() { on_ = false; }
 
-    /// Births that may be alive; at least as many as are.
+    /// Upper bound of the number of living particles.
     uint32_t count() const { return uint32_t(log_.next() - log_.front()); }
-    /// True when no particle is alive at `now`. Examines each birth, once after the last one.
+    /// True when no particle is alive at `now`. After the last birth, all births are examined once and the
+    /// result is cached.
     bool isEmpty(const BirthKey& key, base::Ticks now) const;
 
-    /// The rows at `now`. @param store is filled; its `placed` is kept
+    /// Restores the rows at `now`. @param store is filled; its `placed` does not change
     AppearanceJob rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const;
     /// Adds a group of the kind "gpuParticle".
     void publish(const base::GroupInfo& base, base::KindId kind, const BirthKey& key, base::Ticks now,
@@ -73,7 +74,7 @@ private:
 
     const ParticleProgram& program_;
     uint32_t rows_;
-    base::Ticks window_; ///< [tick] longer than any life
+    base::Ticks window_; ///< [tick] longer than any lifetime
     bool steps_;         ///< motion has no closed form
     bool kills_;
     bool dependsOnHost_;
@@ -82,10 +83,10 @@ private:
     BirthLog log_;
     StepLog stepLog_;
     std::pmr::vector<MotionCondition> conditions_; ///< the first one applies to the oldest living particle
-    base::Ticks known_ = 0;                        ///< time since which no step is missing
+    base::Ticks known_ = 0;                        ///< time since which all steps are recorded
     base::Ticks dropped_ = -1;                     ///< [tick] births were dropped before then; -1: never
     bool on_ = false;
-    mutable uint64_t deathsOf_ = ~uint64_t(0); ///< index of the next birth when the next member was found
+    mutable uint64_t deathsOf_ = ~uint64_t(0); ///< index of the next birth when lastDeath_ was computed
     mutable base::Ticks lastDeath_ = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file gpu_program.h
-/// Selection of emitters for the GPU, and their parameters there.
+/// Selection of emitters for the GPU, and their parameters for it.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -11,13 +11,13 @@
 
 namespace fx::sim {
 
-/// Reason why an emitter is computed on the CPU, as text; empty for the GPU.
+/// Reason why an emitter must be computed on the CPU, as text; empty if the GPU can compute it.
 std::string_view gpuObstacle(const EmitterSettings& def);
 
-/// @param def one without an obstacle; it is copied
+/// @param def a definition that the GPU can compute; it is copied
 std::shared_ptr<const base::GpuParticleProgram> makeGpuProgram(const EmitterSettings& def);
 
-/// Birth shape of an emitter for the GPU. @param def its shape is one that GpuShape has
+/// Birth shape of an emitter for the GPU. @param def its shape must be one of GpuShape
 base::GpuShape gpuShapeOf(const EmitterSettings& def);
 
 /// Parameters of an emitter's births and appearance for the GPU. @param program of `def`

@@ -1,6 +1,6 @@
 /// @file gpu_replay.h
-/// Computes the rows of an emitter from the log of its births on the CPU, with the same bits as if it had
-/// been stepped there.
+/// Computes the rows of an emitter on the CPU from the log of its births. The rows have the bits that steps
+/// on the CPU would have given.
 #pragma once
 
 #include "simulation/gpu_programs/step_log.h"
@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-/// Conditions of ballistic particles from a time on.
+/// Conditions of ballistic particles, valid from a time on.
 struct MotionCondition
 {
     base::Ticks begin; ///< local time
@@ -31,7 +31,7 @@ struct ReplayStep
     float ground;
 };
 
-/// [tick] Longer than any life, roundings included.
+/// [tick] Upper bound of lifetimes, including rounding.
 base::Ticks longestKept(const ParticleProgram& program);
 
 /// The steps of a group that ended after `since`.
@@ -45,23 +45,24 @@ struct ReplayInput
     BirthKey key;
     uint64_t first; ///< births [first, next)
     uint64_t next;
-    /// The ticks of the births from `first` on, which do not fall.
+    /// Gives the ticks of the births from `first` on, which never decrease.
     std::function<void(uint64_t first, std::span<base::Ticks> out)> ticksOf;
     std::span<const MotionCondition> conditions; ///< ascending, at least one
     base::Ticks now;
-    bool placed;                            ///< see ParticleStore::placed
-    std::span<const ReplayStep> steps = {}; ///< all in which they lived; where motion has no closed form
+    bool placed; ///< see ParticleStore::placed
+    /// All steps during the lives of the particles; for motion without a closed form
+    std::span<const ReplayStep> steps = {};
 };
 
 /// Fills `store` with the living particles. @return the job for their appearance
 AppearanceJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
-/// The same step by step.
+/// As replayBirths(), step by step, for motion without a closed form.
 AppearanceJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
 
-/// Restarts closed-form motion at the present state.
+/// Restarts closed-form motion from the present state.
 void restartMotion(const AppearanceJob& job, ParticleStore& store);
 
-/// As base::GpuParticleProgram::replay.
+/// Implements base::GpuParticleProgram::replay.
 void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& group, base::FrameSnapshot& out);
 
 } // namespace fx::sim

@@ -1,6 +1,6 @@
 /// @file step_log.h
-/// Log of an emitter's steps and their conditions, as runs of equal steps. Particles depend only on it and on
-/// the births.
+/// Log of an emitter's steps and their conditions, as runs of equal steps. The particles depend only on this
+/// log and on the births.
 #pragma once
 
 #include "foundation/snapshot/gpu_modules.h"
@@ -19,22 +19,22 @@ namespace fx::sim {
 struct StepConditions
 {
     glm::vec3 gravity{0.0f}; ///< [m/s2] local
-    glm::vec3 wind{0.0f};    ///< [m/s] local, without the emitter's own
+    glm::vec3 wind{0.0f};    ///< [m/s] local, without the wind of the emitter itself
     float ground = 0.0f;     ///< [m] see StepContext::groundHeight
-    float intensity = 1.0f;  ///< of births
+    float intensity = 1.0f;  ///< intensity of births
     bool emitting = true;
 
     bool operator==(const StepConditions&) const = default;
 };
 
-/// One step out of a run.
+/// One step of a run.
 struct LoggedStep
 {
     base::Ticks begin, end;
     const StepConditions& conditions;
 };
 
-/// Keeps the steps of a window of time.
+/// Log of the steps in a window of time.
 class StepLog
 {
     struct Run
@@ -42,11 +42,11 @@ class StepLog
         base::Ticks begin;
         base::Ticks length;
         uint32_t count;
-        uint64_t history; ///< hash of all steps before it and of its initial state
+        uint64_t history; ///< hash of all previous steps and of the initial state
         StepConditions conditions;
 
         base::Ticks end() const { return begin + length * base::Ticks(count); }
-        /// The first that ended after `tick`, or their count.
+        /// Index of the first step that ended after `tick`; `count` if there is none.
         uint32_t firstSince(base::Ticks tick) const
         {
             if (tick < begin)
@@ -58,15 +58,15 @@ class StepLog
 public:
     explicit StepLog(std::pmr::memory_resource* memory) : runs_(memory) {}
 
-    /// Clears the log. @param seed of the following steps
+    /// Clears the log. @param seed, solver random key of the following steps
     void clear(uint64_t seed, uint32_t solver);
-    /// A step is taken. @param next index of the next birth before it
+    /// Adds a step. @param next index of the next birth before the step
     void add(base::Ticks begin, base::Ticks length, uint64_t next, const StepConditions& conditions);
     /// Removes steps that ended before `tick`.
     void forget(base::Ticks tick);
 
     size_t runs() const { return runs_.size(); }
-    /// How many steps ended after `tick`.
+    /// Number of steps that ended after `tick`.
     uint64_t stepsSince(base::Ticks tick) const;
     /// Calls take(const StepConditions&) for each run.
     template <class Take>
@@ -75,7 +75,7 @@ public:
         for (const Run& run : runs_)
             take(run.conditions);
     }
-    /// @param out at least runs() of them
+    /// Writes the runs for publication at `now`. @param out space for at least runs() elements
     void publish(base::Ticks now, std::span<base::GpuStepRun> out) const;
     /// Calls take(LoggedStep) for each step that ended after `tick`, in order.
     template <class Take>

@@ -1,5 +1,5 @@
 /// @file ambient_air.h
-/// The air that effects start in.
+/// The ambient air of effects.
 #pragma once
 
 namespace fx::sim {

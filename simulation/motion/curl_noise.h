@@ -1,6 +1,5 @@
 /// @file curl_noise.h
-/// Turbulent air: a random velocity field without sources or sinks, so that it stirs particles and never
-/// gathers them.
+/// Turbulent air: a random, divergence-free velocity field. It mixes particles without concentrating them.
 ///
 /// @formula curl-noise
 /// The curl of a vector potential of gradient noise, differentiated analytically.
@@ -18,12 +17,12 @@
 ///   A_k = sum over the 8 corners of w (G_k . d)                                            (1)
 ///   dA_k/dp_j = sum of (dw/dp_j) (G_k . d) + w G_kj                                        (2)
 ///   u = N (dA_z/dy - dA_y/dz, dA_x/dz - dA_z/dx, dA_y/dx - dA_x/dy)                        (3)
-///   so div u = 0 wherever A is twice differentiable, which the fade makes it everywhere.
+///   so div u = 0 wherever A is twice differentiable; the fade makes it so everywhere.
 ///   In time, G_k is replaced by cos(theta) G_k + sin(theta) G_(k+1), which keeps its variance. (4)
 /// @source    [BHN07] Bridson, Houriham, Nordenstam, doi:10.1145/1276377.1276435 for the curl of a potential;
 ///            [PER02] Perlin, doi:10.1145/566654.566636 for the fade
-/// @deviation derivative analytic instead of by differences; time by turning gradients instead of a fourth
-/// dimension
+/// @deviation analytic instead of finite differences; time rotates the gradients instead of being a fourth
+///            dimension
 /// @valid     |p| < 2^30; outside, and for NaN, the lattice coordinate is clamped
 /// @accuracy  |div u| <= 1e-3 of the rms gradient (float); rms |u| = strength within 5 %: N is fitted by
 ///            CurlNoise.itsRootMeanSquareSpeedIsTheStrength
@@ -37,12 +36,12 @@
 
 namespace fx::sim {
 
-/// The field at one moment. Cheap to make; evaluate from any thread.
+/// The field at one moment. Construction is cheap; evaluation is possible on any thread.
 class CurlNoise
 {
 public:
-    /// @param seed chooses the field
-    /// @param strength [m/s] root mean square speed, 0 switches off
+    /// @param seed selects the field
+    /// @param strength [m/s] root mean square speed; 0 switches the field off
     /// @param scale [m] length of one period, > 0
     /// @param turns number of elapsed periods of the noise's variation in time
     CurlNoise(uint32_t seed, float strength, float scale, double turns);
@@ -50,22 +49,22 @@ public:
     bool active() const { return strength_ > 0.0f; }
     /// Velocity [m/s] at `position` [m].
     glm::vec3 velocity(const glm::vec3& position) const;
-    /// Adds the velocity at each of `count` places, the same bits as velocity(); counts are rounded up to a
-    /// multiple of 16. Columns begin at multiples of 64 bytes.
+    /// Adds the velocity at each of `count` positions, with the bits of velocity(). Counts are rounded up to
+    /// a multiple of 16. Columns begin at multiples of 64 bytes.
     void addTo(const std::array<const float*, 3>& position, const std::array<float*, 3>& velocity,
                uint32_t count) const;
 
-    /// Parameters of a field, for its kernels.
+    /// Parameters of a field for its kernels.
     struct Parts
     {
         uint32_t seed;
         float gain;          ///< [m/s] of the field with mean square speed of about 1
         float perScale;      ///< [1/m]
-        const float* cosine; ///< of kPhases phases
+        const float* cosine; ///< cosines of kPhases phases
         const float* sine;
     };
     static constexpr uint32_t kPhases = 16;
-    Parts parts() const; ///< as long as it lives
+    Parts parts() const; ///< valid as long as this object
 
 private:
     uint32_t seed_;

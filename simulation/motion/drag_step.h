@@ -1,5 +1,5 @@
 /// @file drag_step.h
-/// One step of motion through air, exact for any step length and any drag.
+/// One step of motion through air with drag, exact for any step length and drag rate.
 ///
 /// @formula linear-drag-step
 /// Velocity and position after a step under constant acceleration and drag towards moving air.
@@ -11,8 +11,8 @@
 ///   u       m/s    velocity of the air, constant over the step
 ///   v, x           velocity and position
 ///   E       1      decay of the velocity relative to the air
-///   G       s      gain: how long acceleration has acted, as seen by the velocity
-///   R       s2     ramp: the same for the position
+///   G       s      gain: effect of acceleration on velocity
+///   R       s2     ramp: effect of acceleration on position
 ///
 /// @derivation
 ///   dv/dt = a - k (v - u) has the solution, with z = k t,
@@ -37,7 +37,7 @@ namespace fx::sim {
 struct DragStep
 {
     float decay;   ///< [1] E
-    float share;   ///< [1] 1 - E, the part of the air's velocity that is taken over
+    float share;   ///< [1] 1 - E, share of the air's velocity that the particle takes on
     float gain;    ///< [s] G
     float drift;   ///< [s] t - G
     float ramp;    ///< [s2] R

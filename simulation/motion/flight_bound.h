@@ -1,8 +1,9 @@
 /// @file flight_bound.h
-/// Upper bound of the distance of a flight, for any directions of the forces.
+/// Upper bound of the distance that a body flies, for any directions of the forces.
 ///
 /// @formula flight-bound
-/// The largest distance from its start of a body under bounded acceleration with drag towards moving air.
+/// The largest distance from its start that a body reaches, under bounded acceleration and drag towards
+/// moving air.
 ///
 /// symbol   unit   meaning
 ///   T       s      time of flight, >= 0
@@ -12,17 +13,17 @@
 ///   k       1/s    drag rate, >= 0
 ///   s       m      the bound
 /// @derivation
-///   Without drag |x(T) - x(0)| <= v T + a T^2 / 2, the air does not matter                     (1)
+///   Without drag |x(T) - x(0)| <= v T + a T^2 / 2, independent of the air                      (1)
 ///   With dv/dt = a + k (u - v) the speed obeys d|v|/dt <= a + k u - k |v|, hence
 ///       |v(t)| <= max(v, u + a / k), and |v(t)| <= v + (a + k u) t                             (2)
-///   so that the way is at most the smaller of
+///   so the path length is at most the smaller of
 ///       s1 = max(v, u + a / k) T,  s2 = v T + (a + k u) T^2 / 2                                (3)
-///   What is faster than w = u + a / k comes near to it, |v(t)| <= w + (v - w) exp(-k t), hence also
+///   A speed above w = u + a / k approaches w, |v(t)| <= w + (v - w) exp(-k t), hence also
 ///       s3 = w T + max(v - w, 0) / k                                                           (4)
 /// @source    elementary (comparison of differential inequalities)
 /// @deviation none
 /// @valid     all arguments finite and >= 0
-/// @accuracy  an upper bound in exact arithmetic; 1e-6 of it is added for the rounding of what is bounded
+/// @accuracy  an upper bound in exact arithmetic; 1e-6 of it is added for the rounding of the bounded motion
 /// @tests     tests/simulation/test_flight_bound.cpp
 #pragma once
 

@@ -1,8 +1,8 @@
 /// @file ground_contact.h
-/// Particles against the ground plane.
+/// Collision of particles with the ground plane.
 ///
 /// @formula ground-bounce
-/// Reflects the part of a step that lies below the ground.
+/// Reflects the part of a step's path that lies below the ground.
 ///
 /// symbol   unit   meaning
 ///   y0, y1  m      height before and after the free step
@@ -11,14 +11,14 @@
 ///   e       1      restitution, 0..1
 ///   c       1      friction: tangential velocity lost, 0..1
 /// @derivation
-///   The path is taken as straight: contact after f = (y0 - yg) / (y0 - y1)                      (1)
-///   velocity at contact v* = v0 + f (v1 - v0), reflected to v' = (v*x (1-c), -e v*y, v*z (1-c)) (2)
-///   the rest of the step, with the mean acceleration (v1 - v0) / t of the free step:
+///   The path is taken as straight, so the contact is after f = (y0 - yg) / (y0 - y1)             (1)
+///   The velocity at the contact v* = v0 + f (v1 - v0) is reflected to v' = (v*x (1-c), -e v*y, v*z (1-c))
+///   (2) The rest of the step has the mean acceleration (v1 - v0) / t of the free step:
 ///       v = v' + (1 - f)(v1 - v0),  x = x* + (1 - f) t v' + (1 - f)^2 t (v1 - v0) / 2           (3)
-///   A particle that would be below the ground again rests on it.                                 (4)
+///   A particle that would be below the ground again is put to rest on it                         (4)
 /// @source    elementary
-/// @deviation second and later bounces within one step are replaced by rest
-/// @valid     yg = -infinity never touches; a particle that starts below is put onto the ground
+/// @deviation after the first bounce in a step, a particle that falls again is put to rest
+/// @valid     yg = -infinity: no contact; a particle that starts below the ground is put onto it
 /// @accuracy  never below the ground; no step gains height from a resting state
 /// @tests     tests/simulation/test_emitter_motion.cpp
 #pragma once
@@ -44,7 +44,7 @@ struct GroundContact
     float friction;    ///< [1] 0..1
 };
 
-/// The state after a step from `before` whose free flight of `seconds` would have ended in `after`.
+/// State after a step that begins with `before`. `after` is the end of the free flight of `seconds`.
 inline MotionState bounce(const MotionState& before, const MotionState& after, float seconds,
                           const GroundContact& ground)
 {

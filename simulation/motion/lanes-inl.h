@@ -1,6 +1,6 @@
 /// @file lanes-inl.h
-/// Elementary functions on vectors of particles. Included once for each instruction set; all give the same
-/// bits, because every operation is correctly rounded and stands in the same order.
+/// Elementary functions on vectors of particles. Included once for each instruction set. All instruction sets
+/// give the same bits, because every operation is correctly rounded and their order is the same.
 ///
 /// @formula drag-coefficients
 /// The coefficients of linear-drag-step in single precision, lane by lane.
@@ -10,11 +10,12 @@
 ///   z       1      k t
 ///   q       1      R / t^2
 /// @derivation
-///   q = 1/2! - z/3! + z^2/4! - ... . For z < 2: the polynomial of degree 7 that equals q at the 8
-///   Chebyshev nodes of [0, 2]; with rounded coefficients it is off by at most 4e-8 of q             (1)
-///   R = q t^2, G = t - k R, and for z < 1 E = 1 - k G: the definitions solved for G and E         (2)
-///   Otherwise E = exp(-z), G = (1 - E) / k, R = (t - G) / k                                        (3)
-///   exp(-z) = 2^-n exp(-r), with z = n ln 2 + r in two pieces, and the Taylor polynomial to r^7     (4)
+///   q = 1/2! - z/3! + z^2/4! - ... . For z < 2, q is replaced by the polynomial of degree 7 that equals q at
+///   the 8 Chebyshev nodes of [0, 2]. With rounded coefficients its error is at most 4e-8 of q           (1)
+///   R = q t^2, G = t - k R, and for z < 1 E = 1 - k G, from the definitions of G and E             (2)
+///   For larger z: E = exp(-z), G = (1 - E) / k, R = (t - G) / k                                    (3)
+///   exp(-z) = 2^-n exp(-r), with z = n ln 2 + r, where ln 2 is split into two constants. exp(-r) is its
+///   Taylor polynomial to r^7                                                                       (4)
 /// @source    elementary
 /// @deviation none
 /// @valid     0 <= k <= 1e6, 0 <= t <= 1e9; z > 87 is taken as 87, where E is 1.6e-38
@@ -38,7 +39,7 @@ namespace fx::sim::particles::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The processor's vector width, at most 16 lanes, the padding of tiles.
+// The vector width of the processor, limited to 16 lanes, the padding of tiles.
 using FloatTag = hn::CappedTag<float, 16>;
 using IntTag = hn::Rebind<int32_t, FloatTag>;
 using WordTag = hn::Rebind<uint32_t, FloatTag>;
@@ -81,7 +82,7 @@ HWY_INLINE Floats expMinus(Floats z)
 }
 
 /// @param perK 1 / k, where k > 0
-/// @tparam kDecay whether `decay` is wanted; the other two are the same bits without it
+/// @tparam kDecay whether `decay` is required; the bits of the other two do not depend on it
 template <bool kDecay>
 HWY_INLINE DragLanes dragLanes(Floats k, Floats perK, Floats t)
 {
@@ -107,7 +108,7 @@ HWY_INLINE DragLanes dragLanes(Floats k, Floats perK, Floats t)
             hn::IfThenElse(strong, r, ramp)};
 }
 
-/// [s] between two local times that lie `ticks` apart.
+/// [s] Time between two local times that differ by `ticks`.
 HWY_INLINE Floats secondsOf(const int64_t* HWY_RESTRICT born, int64_t now)
 {
 #if HWY_TARGET == HWY_SCALAR
@@ -125,7 +126,7 @@ HWY_INLINE Floats secondsOf(const int64_t* HWY_RESTRICT born, int64_t now)
 #endif
 }
 
-/// The same for times less than 2^32 ticks apart, of which the low words are known.
+/// As above, for differences below 2^32 ticks, from the low words of the times.
 HWY_INLINE Floats secondsOf(const uint32_t* HWY_RESTRICT born, uint32_t now)
 {
     const Words ticks = hn::Sub(hn::Set(kWords, now), hn::LoadU(kWords, born));

@@ -1,13 +1,13 @@
 /// @file thermal_flow.h
-/// The air in and around a rising cloud: up through the middle, down along the rim, in at the foot. This
-/// circulation gives a rising fireball the shape of a mushroom.
+/// The air flow in and around a rising cloud: up in the middle, down along the rim, inwards at the bottom.
+/// This circulation gives a rising fireball the shape of a mushroom.
 ///
 /// @formula hill-vortex
 /// Hill's spherical vortex in the frame of the ground.
 ///
 /// symbol   unit   meaning
-///   a       m      radius of the sphere that the cloud fills
-///   U       m/s    speed at which it rises
+///   a       m      radius of the sphere that represents the cloud
+///   U       m/s    rising speed of the cloud
 ///   s, r    m      position relative to its center, and its length
 ///   z       m      s along the upward unit vector e
 ///   u       m/s    velocity of the air
@@ -18,15 +18,15 @@
 ///       w = (3 U / 2) [ (1 - (2 r^2 - z^2) / a^2) e + (z / a^2) (s - z e) ],  u = w + U e         (1)
 ///   Outside, the potential flow around a sphere:
 ///       u = (U a^3 / 2) (3 z s / r^5 - e / r^3)                                                   (2)
-///   Both are free of divergence and meet at r = a.
-///   No air passes the ground: the flow and its mirror image together,
+///   Both flows are divergence-free and continuous at r = a.
+///   No air crosses the ground: the sum of the flow and its mirror image,
 ///       u_g(p) = u(p) + u(p')'                                                                    (3)
-///   have u_y - u_y = 0 where p' = p.
-/// @source    [TUR64] Turner, "The flow into an expanding spherical vortex", doi:10.1017/S0022112064000544,
-/// for thermals
-///            as Hill vortices; [BAT67] section 7.2 for (1), (2); (3) is the method of images
-/// @deviation the sphere's growth is left to the particles
-/// @valid     a > 0; a cloud that does not rise makes no flow; (3) without ground is u
+///   has no vertical component on the ground, where p' = p.
+/// @source    [TUR64] Turner, "The flow into an expanding spherical vortex",
+///            doi:10.1017/S0022112064000544, for thermals as Hill vortices; [BAT67] section 7.2 for (1),
+///            (2); (3) is the method of images
+/// @deviation the growth of the sphere is not part of the flow; it follows from the particles
+/// @valid     a > 0; without rising there is no flow; without ground (3) is u
 /// @accuracy  float rounding; continuous at r = a within 1e-5 U; (3) is exactly 0 along y at the ground
 /// @tests     tests/simulation/test_thermal_flow.cpp
 #pragma once
@@ -41,15 +41,15 @@ struct ThermalFlow
     glm::vec3 up{0.0f};     ///< unit; zero for no flow
     float radius = 1;       ///< [m] a, > 0
     float speed = 0;        ///< [m/s] U
-    glm::vec3 mean{0.0f};   ///< [m/s] of u over the particles
+    glm::vec3 mean{0.0f};   ///< [m/s] mean of u over the particles
 
     bool active() const { return speed != 0.0f; }
-    /// [m/s] of the air at `position`.
+    /// [m/s] Velocity of the air at `position`, without ground.
     glm::vec3 velocity(const glm::vec3& position) const;
-    /// [m/s] of the air above ground.
+    /// [m/s] Velocity of the air at `position` above a ground plane.
     /// @param height [m] of the ground, y; -infinity for none
     glm::vec3 velocityAbove(float height, const glm::vec3& position) const;
-    /// The velocity without the mean lift of the cloud.
+    /// The velocity minus the mean velocity over the cloud.
     glm::vec3 circulation(const glm::vec3& position) const { return velocity(position) - mean; }
 };
 

@@ -1,5 +1,5 @@
 /// @file appearance_kernel.h
-/// Computes the published columns of particles from their state in one pass over memory.
+/// Computes the published columns of particles from their state, in one pass over memory.
 ///
 /// @formula ballistic-motion
 /// Position and velocity of a particle under gravity, linear drag and wind as a function of its age.
@@ -15,8 +15,8 @@
 ///   One step of linear-drag-step over the whole time, with t - G = k R:
 ///       x(t) = x0 + G v0 + R (a + k u)                                                     (1)
 ///       v(t) = E v0 + G (a + k u)                                                          (2)
-///   Nothing is integrated: any time is reached at once, whatever the steps were. When gravity or wind
-///   change, x0 and v0 become the state at that moment, and t counts from there.
+///   No integration is needed, so any time is computed directly, independent of steps. When gravity or wind
+///   change, x0 and v0 are set to the state at that time, and t is counted from there.
 /// @source    elementary (linear ordinary differential equation)
 /// @deviation none
 /// @valid     as linear-drag-step
@@ -33,7 +33,7 @@
 
 namespace fx::sim {
 
-constexpr float kLongestStep = 1.0f; ///< [s] between two snapshots
+constexpr float kLongestStep = 1.0f; ///< [s] maximum time between two snapshots
 constexpr float kFarAway = std::numeric_limits<float>::infinity();
 
 /// Data shared by all particles of an emitter in a publication.
@@ -43,9 +43,9 @@ struct AppearanceJob
     const ParticleStore* store;
     RowWindow rows;
     base::Ticks now;
-    base::Ticks motionBegin;          ///< begin of the motion of older particles
+    base::Ticks motionBegin;          ///< beginning of the motion of particles that were born before it
     glm::vec3 pull;                   ///< [m/s2] a + k u; only where motion is ballistic
-    float secondsBack = kLongestStep; ///< [s] since the snapshot before, for bounds
+    float secondsBack = kLongestStep; ///< [s] time since the previous snapshot, for bounds
 };
 
 /// Columns of a group of the kind "particle"; null if absent.
@@ -62,7 +62,7 @@ struct AppearanceColumns
     float* frame;
     float* orientation[4];
     uint64_t* index;
-    bool stream; ///< write past the caches
+    bool stream; ///< use non-temporal stores
 };
 
 /// Box of the centers, and the largest half height of a drawn particle.
@@ -76,25 +76,25 @@ struct AppearanceBounds
     base::Bounds box() const;
 };
 
-/// Writes the rows [begin, end); begin is a multiple of kTilePadding, end too or the window's count. Empty
-/// rows are zero throughout.
+/// Writes the rows [begin, end). `begin` is a multiple of kTilePadding; `end` is a multiple too or the
+/// window's count. All columns of empty rows are zero.
 AppearanceBounds writeAppearance(const AppearanceJob& job, const AppearanceColumns& out, uint32_t begin,
                                  uint32_t end);
 
-/// One of many groups that are written together.
+/// One of many groups that are written in one call.
 struct AppearancePart
 {
     AppearanceJob job;
     float* storage; ///< see base::SnapshotGroup::editStorage(); columns are those that the program publishes
-    size_t group;   ///< of the snapshot
+    size_t group;   ///< index in the snapshot
     AppearanceBounds bounds; ///< out
 };
 
-/// The same as writeAppearance() for all rows of each part, bit for bit; much cheaper where parts are small.
-/// Parts of one program that follow each other share the most.
+/// As writeAppearance() for all rows of each part, with the same bits; much faster for small parts.
+/// Consecutive parts of one program share the most work.
 void writeManyAppearances(std::span<AppearancePart> parts);
 
-/// Where particles are and how they move, for rows that are read one by one.
+/// Positions and velocities of particles, for rows that are read one by one.
 struct alignas(64) MotionTile
 {
     float position[3][kTileRows];
@@ -103,7 +103,8 @@ struct alignas(64) MotionTile
     float life[kTileRows]; ///< [1] age / lifetime; >= 1 or NaN: empty row
 };
 
-/// Fills the first `count` rows from those that begin at `row`, a multiple of kTilePadding.
+/// Fills the first `count` rows of a MotionTile from the rows of the store that begin at `row`, a multiple of
+/// kTilePadding.
 void readMotion(const AppearanceJob& job, uint32_t row, uint32_t count, MotionTile& out);
 
 } // namespace fx::sim

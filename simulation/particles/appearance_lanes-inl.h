@@ -1,5 +1,5 @@
 /// @file appearance_lanes-inl.h
-/// The pass that writes the kind "particle". Included once for each instruction set.
+/// The pass that writes groups of the kind "particle". Included once for each instruction set.
 #if defined(FX_PARTICLE_LOOK_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PARTICLE_LOOK_LANES_INL
 #undef FX_PARTICLE_LOOK_LANES_INL
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 
-/// Box and radius in lanes.
+/// Bounding box and largest radius, per lane.
 struct BoundsLanes
 {
     Floats low[3];
@@ -29,7 +29,7 @@ struct BoundsLanes
             high[a] = all(-kFarAway);
         }
     }
-    /// @tparam kFull all are alive
+    /// @tparam kFull true if all particles of the vector are alive
     template <bool kFull>
     HWY_INLINE void add(Which alive, const Floats* position, Floats r)
     {
@@ -87,8 +87,9 @@ public:
     }
 
     /// @tparam kPlain ParticleProgram::plain
-    /// @tparam kStream whether plain columns are written with non-temporal stores; otherwise as in
-    ///         AppearanceColumns
+    /// @tparam kStream true: plain columns are written with non-temporal stores; false:
+    /// AppearanceColumns::stream
+    ///         decides
     template <bool kBallistic, bool kBrief, bool kPlain, bool kStream>
     void run(uint32_t begin, uint32_t end, AppearanceBounds& outBounds) const
     {
@@ -106,7 +107,7 @@ public:
         for (uint32_t row = begin; row < end;) {
             const uint32_t inside = std::min(insideFrom(row), end);
             for (; row < inside; row += kWidth) {
-                if (stream) { // all comes from memory
+                if (stream) { // the data are read from memory
                     reader.fetch(row + kAhead);
                     fetch<kPlain>(row + kAhead);
                 }
@@ -132,7 +133,8 @@ public:
         }
         bounds.store(outBounds);
     }
-    /// vzeroupper, which the compiler omits here; otherwise the transition from AVX to SSE costs 60 ns.
+    /// Executes vzeroupper, which the compiler omits here; otherwise the transition from AVX to SSE costs 60
+    /// ns.
     static HWY_INLINE void leaveVectors()
     {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
@@ -141,10 +143,11 @@ public:
     }
 
 private:
-    /// Prefetch distance in rows: covers the latency of memory without filling a cache.
+    /// Prefetch distance in rows. It covers the latency of memory and keeps the prefetched data within a
+    /// cache.
     static constexpr uint32_t kAhead = 256;
 
-    /// Pieces of the curves that the last particles were in.
+    /// Pieces of the curves in which the previous particles were.
     struct Pieces
     {
         uint32_t life = 0;
@@ -172,7 +175,7 @@ private:
             hn::Store(color.high, kWides, to + kWidth / 2);
         }
     }
-    /// Rows that are neither in the gap nor beyond the window.
+    /// Mask of the rows that are neither in the gap nor beyond the window.
     HWY_INLINE Which inWindow(uint32_t row) const
     {
         const auto rows = hn::Add(hn::Iota(kInts, 0), hn::Set(kInts, int32_t(row)));
@@ -181,7 +184,7 @@ private:
                                    hn::Lt(rows, hn::Set(kInts, int32_t(job_->rows.count))));
         return hn::RebindMask(kFloats, hn::Or(lower, upper));
     }
-    /// The end of the vectors from `row` on that lie in the window with all their rows.
+    /// End of the vectors from `row` on whose rows are all in the window.
     uint32_t insideFrom(uint32_t row) const
     {
         const RowWindow& rows = job_->rows;
@@ -207,7 +210,7 @@ private:
     }
 
     void writeNobody(uint32_t row) const;
-    /// @tparam kFull all are alive
+    /// @tparam kFull true if all particles of the vector are alive
     template <bool kPlain, bool kStream, bool kFull>
     HWY_INLINE void write(uint32_t row, Which alive, const MotionLanes& motion, Pieces& pieces,
                           BoundsLanes& bounds) const;
@@ -272,8 +275,9 @@ HWY_INLINE void AppearanceLanes::write(uint32_t row, Which alive, const MotionLa
         writeMore(row, alive, motion);
 }
 
-/// Sprites are extended along their path unless they rotate. Particles born since the previous snapshot are
-/// drawn along their path since birth. Ages do not identify them, because the instance's time may run faster.
+/// Extends the bounds. Sprites are stretched along their path unless they rotate. Particles born since the
+/// previous snapshot are drawn along their path since birth. They cannot be found by age, because the
+/// instance's time may run faster.
 HWY_INLINE void AppearanceLanes::addMoving(Which alive, const MotionLanes& motion, Floats radius,
                                            BoundsLanes& bounds) const
 {

@@ -1,5 +1,5 @@
 /// @file birth.h
-/// When a particle is born.
+/// The index and the time of a birth.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -10,7 +10,7 @@ namespace fx::sim {
 
 constexpr base::Ticks kForever = INT64_MAX / 4; ///< later than any event
 
-/// One particle that is to be born.
+/// The birth of one particle.
 struct Birth
 {
     uint64_t index;   ///< running number within the emitter, ascending with the tick

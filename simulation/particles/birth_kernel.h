@@ -1,5 +1,5 @@
 /// @file birth_kernel.h
-/// Makes particles: draws their attributes and puts them into their rows.
+/// Creates particles: draws their random attributes and writes them to their rows.
 #pragma once
 
 #include "simulation/particles/birth.h"
@@ -9,16 +9,16 @@
 
 namespace fx::sim {
 
-/// Whose random numbers are drawn.
+/// Key of the random numbers of one emitter of an instance.
 struct BirthKey
 {
     uint64_t seed;
     uint32_t solver;
 };
 
-/// Draws and stores `births`, at most as many as the store has rows, with ascending indices without gaps.
-/// Those whose row is taken at the moment of birth are left out.
-/// @return how many live
+/// Draws and stores `births`, at most as many as the store has rows, with consecutive ascending indices. A
+/// birth is left out if its row is occupied at its birth tick.
+/// @return number of stored births
 uint32_t storeBirths(const ParticleProgram& program, const BirthKey& key, std::span<const Birth> births,
                      ParticleStore& store);
 
@@ -29,22 +29,23 @@ struct ScatteredBirth
     uint64_t seed;
     Birth birth;
     uint32_t row;  ///< its row by ParticleStore::rowOf()
-    bool isStored; ///< out: false when its row was taken
+    bool isStored; ///< out: false if its row was occupied
 };
 
-/// The same for births in different emitters, with the same bits as for separate emitters. Births of one
+/// As storeBirths() for births in different emitters, with the bits of separate emitters. The births of one
 /// emitter are in order and have different rows.
 void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<ScatteredBirth> births);
 
-/// A birth in one emitter of many that share the rows of one store.
+/// A birth in one of many emitters that share the rows of one store.
 struct PooledBirth
 {
-    Birth row;      ///< index and tick as the store counts
-    uint64_t index; ///< of the particle in its own emitter
+    Birth row;      ///< index and tick in the shared store
+    uint64_t index; ///< index of the particle in its own emitter
     uint64_t seed;
 };
 
-/// The same for emitters that share a store. Indices ascend without gaps, and their rows are free.
+/// As storeBirths() for emitters that share a store. Indices are consecutive and ascending; the rows must be
+/// free.
 void storePooled(const ParticleProgram& program, uint32_t solver, std::span<const PooledBirth> births,
                  ParticleStore& store);
 

@@ -1,5 +1,5 @@
 /// @file birth_lanes.h
-/// Random numbers and places of a tile of births, once for each instruction set.
+/// Random numbers and positions of a tile of births, compiled for each instruction set.
 ///
 /// @formula birth-lanes
 /// birth-shapes for ball, disc and cone of directions, in single precision, lane by lane.
@@ -8,9 +8,9 @@
 ///   u1..u4  1      independent uniform numbers in [0, 1)
 ///   y       1      approximation of u3^(1/3)
 /// @derivation
-///   direction and radius as in birth-shapes; sine and cosine of the azimuth from u2 turns         (1)
-///   A third of the bit pattern of u3 is a guess of its cube root within 6 %, which two steps of
-///   Halley's iteration y (y^3 + 2 u) / (2 y^3 + u) bring to float rounding                       (2)
+///   direction and radius are those of birth-shapes, with sine and cosine of u2 turns for the azimuth  (1)
+///   A third of the bit pattern of u3 approximates its cube root within 6 %. Two steps of Halley's iteration
+///   y (y^3 + 2 u) / (2 y^3 + u) improve it to float rounding                                      (2)
 /// @source    elementary; [MUL16] for bit-pattern guesses
 /// @deviation none
 /// @valid     u3 = 0 gives the center
@@ -27,21 +27,21 @@ namespace fx::sim {
 /// Working columns of up to kTileRows births; rows up to the next multiple of kTilePadding are written too.
 struct alignas(64) BirthTile
 {
-    float u[4][kTileRows];       ///< [1] the last random numbers that were drawn
+    float u[4][kTileRows];       ///< [1] random numbers of the last draw
     float heading[4][kTileRows]; ///< [1] random numbers for directions
     float position[3][kTileRows];
     float direction[3][kTileRows];
     float value[kTileRows];
     uint32_t indexLow[kTileRows];
     uint32_t indexHigh[kTileRows];
-    uint32_t seedLow[kTileRows]; ///< of each birth; only where seeds differ
+    uint32_t seedLow[kTileRows]; ///< seed of each birth; used only if seeds differ
     uint32_t seedHigh[kTileRows];
     uint32_t count;
     bool seedsDiffer = false;
 };
 
-/// Four uniform numbers for each birth, as base::randomUnit4.
-/// @param seed of all, unless they differ
+/// Draws four uniform numbers for each birth, as base::randomUnit4.
+/// @param seed of all births, unless seeds differ
 void drawUnits(const BirthTile& tile, uint64_t seed, uint32_t solver, uint32_t purpose,
                float (*out)[kTileRows]);
 

@@ -1,5 +1,5 @@
 /// @file birth_rows.h
-/// Where the births of a tile go: into the rows of one emitter, or into those of many.
+/// Rows of the births of a tile, in one emitter or in many emitters.
 #pragma once
 
 #include "simulation/particles/birth_kernel.h"
@@ -9,11 +9,11 @@
 
 namespace fx::sim {
 
-/// Births of one emitter: rows that follow each other, up to the end of the ring.
+/// Births of one emitter in consecutive rows, up to the end of the ring.
 class RowsOfOne
 {
 public:
-    static constexpr bool kAreFree = false; ///< rows are not tested for particles
+    static constexpr bool kAreFree = false; ///< rows may be occupied and must be tested
     RowsOfOne(std::span<const Birth> births, ParticleStore& store) : births_(births), store_(store) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }
@@ -35,7 +35,7 @@ public:
             row = row + 1 == store_.capacity() ? 0 : row + 1;
         }
     }
-    /// Where all values of a column go, one after another; null when they do not.
+    /// Start of a column's values if they are contiguous; otherwise null.
     float* run(size_t column) const
     {
         const uint32_t row = store_.rowOf(births_[0].index);
@@ -54,11 +54,11 @@ private:
     ParticleStore& store_;
 };
 
-/// Births of many emitters in one store.
+/// Births of many emitters in one shared store.
 class RowsOfPool
 {
 public:
-    static constexpr bool kAreFree = true; ///< rows are not tested for particles
+    static constexpr bool kAreFree = true; ///< rows are known to be free
     RowsOfPool(std::span<const PooledBirth> births, ParticleStore& store) : births_(births), store_(store) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }
@@ -95,11 +95,11 @@ private:
     ParticleStore& store_;
 };
 
-/// Births of many emitters.
+/// Births of many emitters, each in its own store.
 class RowsOfMany
 {
 public:
-    static constexpr bool kAreFree = false; ///< rows are not tested for particles
+    static constexpr bool kAreFree = false; ///< rows may be occupied and must be tested
     explicit RowsOfMany(std::span<ScatteredBirth> births) : births_(births) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }

@@ -1,5 +1,5 @@
 /// @file builtin_ops.h
-/// The modules that every emitter may have: the members of EmitterForces.
+/// The built-in modules of emitters, controlled by the members of EmitterForces.
 #pragma once
 
 #include "simulation/motion/ground_contact.h"
@@ -11,11 +11,11 @@
 
 namespace fx::sim {
 
-/// Appends those that `def` needs, in the order in which they run.
+/// Appends the built-in modules that `def` needs, in the order of execution.
 void addBuiltinOps(const EmitterSettings& def, std::vector<std::shared_ptr<const TileOp>>& ops);
 
-/// Reflects the rows that have gone below the ground, neither Empty nor Stuck, and marks them Hit and
-/// Collided: the same bits as bounce() for each.
+/// Reflects the rows below the ground that are neither Empty nor Stuck, and marks them Hit and Collided.
+/// Gives the bits of bounce() for each row.
 void bounceTile(const GroundContact& ground, Tile& tile);
 
 } // namespace fx::sim

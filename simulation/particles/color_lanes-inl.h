@@ -1,16 +1,17 @@
 /// @file color_lanes-inl.h
-/// Four floats a particle to four binary16 in 64 bits. Included once for each instruction set.
+/// Converts four floats per particle to four binary16 values in 64 bits. Included once for each instruction
+/// set.
 ///
 /// @formula half-floats
-/// A float in [0, 65504] to binary16, to nearest, ties to even, as the conversion instruction does it.
+/// Converts a float in [0, 65504] to binary16, to nearest, ties to even, as the conversion instruction does.
 ///
 /// symbol   unit   meaning
 ///   b       1      bit pattern of the float
 ///   h       1      bit pattern of the binary16
 /// @derivation
-///   For normal results the exponent is rebased and 13 bits of the mantissa are rounded away:
+///   For normal results the exponent bias is changed and the mantissa is rounded by 13 bits:
 ///       h = (b - (112 << 23) + 0xFFF + ((b >> 13) & 1)) >> 13                               (1)
-///   Below 2^-14 the addition of 1/2 rounds to a multiple of 2^-24, which ends up in the low bits:
+///   Below 2^-14, adding 1/2 rounds to a multiple of 2^-24, and the result is in the low bits:
 ///       h = bits(x + 1/2) - bits(1/2)                                                        (2)
 /// @source    elementary
 /// @deviation none
@@ -60,14 +61,14 @@ HWY_INLINE Words halfWords(Floats bounded)
 }
 #endif
 
-/// The colors of kWidth particles; with one lane all of them in `low`.
+/// The colors of kWidth particles. With one lane, `low` contains all of them.
 struct ColorLanes
 {
     hn::Vec<WideTag> low;
     hn::Vec<WideTag> high;
 };
 
-/// Red, green, blue and opacity, all bounded.
+/// Converts red, green, blue and opacity, which must be bounded.
 HWY_INLINE ColorLanes packColor(const Floats* rgb, Floats opacity)
 {
 #if HWY_TARGET <= HWY_AVX3

@@ -1,5 +1,5 @@
 /// @file emitter_appearance.h
-/// How the particles of an emitter are drawn when they are not a medium.
+/// Appearance of the particles of an emitter that are not a medium.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -17,12 +17,12 @@ enum class AppearanceKind : uint8_t
     None,   ///< no particles are published: they only cause births of other particles
 };
 
-/// How the frame of a flipbook texture is chosen.
+/// Selection of the frame of a flipbook texture.
 enum class FrameClock : uint8_t
 {
-    None,      ///< the first, or the one that `firstFrame` draws
-    OverLife,  ///< all frames once from birth to death
-    PerSecond, ///< `framesPerSecond`, from the first again after the last
+    None,      ///< constant: the first frame, or a random frame in `firstFrame`
+    OverLife,  ///< all frames once between birth and death
+    PerSecond, ///< `framesPerSecond`, repeated from the first frame
 };
 
 struct EmitterAppearance
@@ -47,7 +47,7 @@ struct EmitterAppearance
     uint32_t motion = 0;      ///< id in the AssetTable, 0 none
     float motionScale = 0.0f; ///< [1]
     uint32_t mesh = 0;        ///< id in the AssetTable, 0 none
-    float meshReach = 1.0f;   ///< [1] distance of its farthest vertex, of the radius
+    float meshReach = 1.0f;   ///< [1] distance of the farthest vertex from the origin, in units of the radius
 
     base::ColorCurve colorOverLife{std::array{1.0f, 1.0f, 1.0f}}; ///< linear Rec. 709
     base::Range opacity{1.0f, 1.0f};    ///< [1] 0..1, multiplied by the emitter's opacityOverLife
@@ -57,10 +57,10 @@ struct EmitterAppearance
     base::Range spin{0.0f, 0.0f};  ///< [rad/s]
     FrameClock frames = FrameClock::None;
     float framesPerSecond = 0.0f;
-    base::Range firstFrame{0.0f, 0.0f}; ///< [1] frame at birth, a fraction of a frame is kept
+    base::Range firstFrame{0.0f, 0.0f}; ///< [1] frame at birth; may be fractional
 
-    // Curves over speed, t = speed / fastest in [0, 1]; they multiply the curves over life. fastest 0: not
-    // used.
+    // Curves over speed, t = speed / fastest in [0, 1]. They multiply the curves over life. If fastest is 0,
+    // they are not used.
     float fastest = 0.0f; ///< [m/s]
     base::ColorCurve colorOverSpeed{std::array{1.0f, 1.0f, 1.0f}};
     base::ScalarCurve sizeOverSpeed{std::array{1.0f}};

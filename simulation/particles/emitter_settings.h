@@ -1,6 +1,6 @@
 /// @file emitter_settings.h
-/// Definition of one emitter as plain data: births, motion and appearance of its particles. All lengths in
-/// the instance's local space.
+/// Definition of one emitter as plain data: births, motion and appearance of its particles. All lengths are
+/// in the instance's local space.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -19,7 +19,7 @@
 
 namespace fx::sim {
 
-/// Where particles are born.
+/// Shapes of births.
 enum class EmitterShape : uint8_t
 {
     Point,
@@ -28,14 +28,14 @@ enum class EmitterShape : uint8_t
     Cone,   ///< on the disc of radius size.x, moving within `angle` of the axis +Y
 };
 
-/// A burst: a number of births at one moment, or at several moments at equal intervals.
+/// A burst: a number of births at one time, or at several times at equal intervals.
 struct Burst
 {
     float time = 0; ///< [s] after the start, >= 0
     uint32_t count = 0;
-    uint32_t cycles = 1;   ///< how often it happens, 0: for ever
+    uint32_t cycles = 1;   ///< number of repetitions; 0: forever
     float interval = 0;    ///< [s] between two cycles, > 0 for several cycles
-    float probability = 1; ///< [1] 0..1 that a cycle happens at all, drawn for each
+    float probability = 1; ///< [1] 0..1, probability of each cycle
 };
 
 /// A birth rate over an interval of local time.
@@ -43,19 +43,19 @@ struct Emission
 {
     float rate = 0;            ///< [1/s] >= 0
     float start = 0;           ///< [s]
-    float duration = 0;        ///< [s], +infinity for ever
+    float duration = 0;        ///< [s], +infinity: forever
     std::vector<Burst> bursts; ///< in declaration order
 
-    /// Multiplies the rate, t in [0, 1] from the start to the end of a finite duration. The rate runs
-    /// straight between the curve's samples.
+    /// Multiplies the rate; t in [0, 1] from the start to the end of a finite duration. Between the curve's
+    /// samples the rate is linear.
     base::ScalarCurve rateOverTime{std::array{1.0f}};
 };
 
-/// Forces on each particle; the sum of accelerations, with drag and buoyancy relative to the moving air.
+/// Forces on each particle. Accelerations are added; drag and buoyancy are relative to the moving air.
 struct EmitterForces
 {
     float gravity = 1.0f;      ///< [1] multiple of the world's gravity
-    float drag = 0.0f;         ///< [1/s] rate at which velocity approaches the wind's, exact exponential
+    float drag = 0.0f;         ///< [1/s] linear drag rate towards the wind, exact exponential
     float buoyancy = 0.0f;     ///< [1] multiple of (T / T_air - 1) * g upwards
     glm::vec3 wind{0.0f};      ///< [m/s]
     float curlStrength = 0.0f; ///< [m/s] speed scale of the divergence-free noise that is added to the wind
@@ -68,12 +68,12 @@ struct EmitterForces
     uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
 };
 
-/// Processor of the particles of a drawn emitter.
+/// Processor that computes the particles of an emitter.
 enum class ComputeOn : uint8_t
 {
     Cpu,
-    Gpu,  ///< the GPU wherever it can, see gpuObstacle()
-    Auto, ///< the same for capacities of at least kManyParticles
+    Gpu,  ///< the GPU if it can compute the emitter, see gpuObstacle()
+    Auto, ///< as Gpu for capacities of at least kManyParticles, otherwise as Cpu
 };
 constexpr uint32_t kManyParticles = 10'000;
 
@@ -91,44 +91,45 @@ struct EmitterSettings
     Emission emission;
     /// True: particles keep their world position when the host moves the instance; false: they move with it.
     bool inWorld = false;
-    float inheritVelocity = 0.0f; ///< [1] 0..1 of the velocity with which the host moves it; with inWorld
+    /// [1] 0..1 share of the instance's velocity that births inherit, if inWorld
+    float inheritVelocity = 0.0f;
 
     base::Range lifetime{1, 1};            ///< [s] > 0
-    std::shared_ptr<const ShapeOp> births; ///< where and whereto particles are born, instead of `shape`
-    base::Range speed{0, 0}; ///< [m/s] along the shape's direction: radially for sphere and point, +Y for box
+    std::shared_ptr<const ShapeOp> births; ///< position and direction of births, instead of `shape`
+    base::Range speed{0, 0}; ///< [m/s] along the shape's direction: radial for sphere and point, +Y for box
     base::Range radius{0.5f, 0.5f}; ///< [m] > 0
     base::Range crossSection{
         1, 1}; ///< [m2] >= 0, or of optical depth through the center when opticalDepth is set
-    bool opticalDepthGiven = true; ///< `crossSection` holds the optical depth along a diameter at birth size
+    bool opticalDepthGiven = true; ///< true: `crossSection` is the optical depth along a diameter at birth
     base::Range temperature{293, 293}; ///< [K]
     EmitterForces forces;
-    /// Run after the forces above, in order within their phase. None: with gravity, drag and wind alone
-    /// motion has a closed form.
+    /// Modules executed after the forces above, in order within their phase. Without modules, and with
+    /// gravity, drag and wind alone, motion has a closed form.
     std::vector<std::shared_ptr<const TileOp>> modules;
     bool meetsDepth = false; ///< some obstacle is ObstacleKind::Depth, which works on the GPU only
 
-    // Over life, t in [0, 1]; multiply the values drawn at birth.
+    // Curves over life, t in [0, 1]; they multiply the values drawn at birth.
     base::ScalarCurve sizeOverLife{std::array{1.0f}};
     base::ScalarCurve opacityOverLife{std::array{1.0f}};             ///< multiplies the cross section
     base::ScalarCurve temperatureOverLife{std::array{1.0f}};         ///< multiplies (T - T_air)
     base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}};   ///< [0, 1] single scattering albedo
     base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [cd/m2] besides the black body
 
-    std::vector<EventRule> events; ///< rules by which events of its particles cause births in other emitters
-    bool fed = false;              ///< events of other emitters' particles give birth in this one
+    std::vector<EventRule> events; ///< rules by which its particles' events cause births in other emitters
+    bool fed = false;              ///< events of other emitters' particles cause births in this emitter
     bool tinted = false;           ///< its particles may inherit a color
 
     RibbonDef trail;
     LightDef light;
-    EmitterAppearance appearance; ///< how particles are drawn; the members below are those of a medium
-    float fireShare = 0.0f;       ///< [0, 1] part of the medium accounted to the fire layer
-    float heat = 0.0f;            ///< [1] how strongly the excess temperature bends light (shimmer), 0 none
+    EmitterAppearance appearance; ///< how particles are drawn; the members below apply to media
+    float fireShare = 0.0f;       ///< [0, 1] share of the medium that counts as fire
+    float heat = 0.0f;            ///< [1] refraction (heat shimmer) per excess temperature; 0: none
     float detailAmount = 0.0f;    ///< see blob_constant
     float detailScale = 1.5f;
     float anisotropy = 0.0f;
     float shutter = 0.0f; ///< [s]
 
-    /// Motion has a closed form: gravity, linear drag and wind alone.
+    /// True if motion has a closed form: gravity, linear drag and wind alone.
     bool isBallistic() const
     {
         return modules.empty() && forces.buoyancy == 0.0f && !(forces.curlStrength > 0.0f) &&

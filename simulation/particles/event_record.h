@@ -1,5 +1,5 @@
 /// @file event_record.h
-/// Events of a row of a tile that is being stepped.
+/// Creates events of rows of a tile that is being stepped.
 #pragma once
 
 #include "simulation/particles/event_list.h"
@@ -33,7 +33,7 @@ inline ParticleEvent collisionOf(const TileContext& context, const Tile& tile, u
     return event;
 }
 
-/// The death of row `i`, which is Killed.
+/// The death of row `i`, which has the flag Killed.
 inline ParticleEvent killOf(const TileContext& context, const Tile& tile, uint32_t i)
 {
     ParticleEvent event = eventAt(context, tile, i, tile.contact[i], EventKind::Death);

@@ -1,5 +1,5 @@
 /// @file gpu_module_source.h
-/// Additional interface of a tile module that the GPU can compute.
+/// Additional interface of tile modules that the GPU can compute.
 #pragma once
 
 #include "foundation/snapshot/gpu_modules.h"
@@ -7,7 +7,8 @@
 
 namespace fx::sim {
 
-/// A TileOp is one too, or only the CPU can run it. Immutable.
+/// A TileOp that implements this interface can run on the GPU; any other TileOp runs on the CPU only.
+/// Immutable.
 class GpuModuleSource
 {
 public:
@@ -18,7 +19,7 @@ public:
     virtual void writeWords(const void* /*scratch*/, uint32_t* /*out*/) const {}
 };
 
-/// Null where only the CPU can.
+/// Interface of a module; null if only the CPU can compute it.
 inline const GpuModuleSource* gpuSourceOf(const TileOp& op)
 {
     return dynamic_cast<const GpuModuleSource*>(&op);

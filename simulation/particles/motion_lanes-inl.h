@@ -1,5 +1,5 @@
 /// @file motion_lanes-inl.h
-/// Where particles are at a moment, and curves over their lives. Included once for each instruction set.
+/// Positions of particles at a time, and curves over their lives. Included once for each instruction set.
 #if defined(FX_PARTICLE_MOTION_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PARTICLE_MOTION_LANES_INL
 #undef FX_PARTICLE_MOTION_LANES_INL
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 
-/// An attribute that is stored, or is the same for all.
+/// An attribute that is stored in rows, or constant for all particles.
 struct Source
 {
     const float* rows;
@@ -70,7 +70,7 @@ public:
         longest_ = float(base::toSeconds(job.now - job.motionBegin));
     }
 
-    /// @tparam kDeadStay the dead may be anywhere: they have not moved, which takes less than where they were
+    /// @tparam kDeadStay positions of dead particles are arbitrary: they are not moved, which needs less data
     template <bool kVelocity, bool kDeadStay>
     HWY_INLINE MotionLanes read(uint32_t row) const
     {
@@ -135,14 +135,14 @@ private:
     bool hasDrag_;
     float perDrag_; ///< [s]
     glm::vec3 pull_;
-    float longest_; ///< [s] that any particle has been moving
+    float longest_; ///< [s] upper bound of the time for which a particle has been moving
 };
 
-/// ramp-curves for the channels of one RampCurves at one place.
+/// Evaluates ramp-curves for the channels of one RampCurves, at one parameter per particle.
 class CurveLanes
 {
 public:
-    /// @param ioPiece piece of the previous particles, usually also of these
+    /// @param ioPiece piece of the previous particles, usually also of these particles
     HWY_INLINE CurveLanes(const RampCurves& curves, Floats t, uint32_t& ioPiece) : curves_(curves), t_(t)
     {
         if (HWY_UNLIKELY(curves_.byTable)) {
@@ -181,7 +181,7 @@ public:
     }
 
 private:
-    /// From a table of pieces, that of the piece in which each particle is.
+    /// Looks up the piece of each particle in a table of pieces.
     HWY_INLINE Floats ofPlace(const float* table) const
     {
 #if HWY_TARGET != HWY_SCALAR

@@ -1,10 +1,11 @@
 /// @file particle_store.h
-/// The particles of one emitter of one instance: a ring of rows.
+/// The particles of one emitter of one instance, stored in a ring of rows.
 ///
-/// The particle with birth index i occupies row i mod capacity for its whole lifetime. The row depends on
-/// nothing else, so any division of time into steps, and any seek, gives the same rows. A birth whose row is
-/// still occupied is dropped. Columns are filled in order of birth and never moved. All are in one block of
-/// memory, beginning with those that every publication reads, so that a small emitter uses few cache lines.
+/// The particle with birth index i occupies row i mod capacity for its whole lifetime. The row depends only
+/// on i, so any division of time into steps, and any seek, gives the same rows. A birth whose row is still
+/// occupied is dropped. Columns are filled in order of birth and never moved. All columns are in one block of
+/// memory, beginning with the columns that every publication reads, so that a small emitter uses few cache
+/// lines.
 #pragma once
 
 #include "foundation/memory/column.h"
@@ -21,7 +22,7 @@ struct Birth;
 
 constexpr uint64_t kNoParticle = ~uint64_t(0); ///< birth index of a row that no particle has used
 
-/// Rows that may hold living particles: those below `count` outside of [gapBegin, gapEnd).
+/// Rows that may hold living particles: the rows below `count` outside of [gapBegin, gapEnd).
 struct RowWindow
 {
     uint32_t count = 0;
@@ -29,7 +30,7 @@ struct RowWindow
     uint32_t gapEnd = 0;
 };
 
-/// A column of a store, in the store's memory; null when the store has none.
+/// A column in the memory of the store; null if the store does not have it.
 template <class T>
 class StoredColumn
 {
@@ -48,7 +49,7 @@ private:
 class ParticleStore
 {
 public:
-    /// @param capacity rows; 0: the capacity of the definition
+    /// @param capacity number of rows; 0: the capacity of the definition
     ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory, uint32_t capacity = 0);
 
     /// [byte] memory of a store with `capacity` rows.
@@ -75,7 +76,7 @@ public:
         for (size_t a = 0; a < 3; ++a)
             __builtin_prefetch(values[stored::VelocityX + a].data());
     }
-    /// How many the window has.
+    /// Number of rows in the window.
     uint32_t rowsInUse() const { return uint32_t(std::min<uint64_t>(next_ - front_, capacity_)); }
     bool empty() const { return front_ == next_; }
 
@@ -84,24 +85,24 @@ public:
     {
         return values[column].data() ? values[column][row] : constant[column];
     }
-    /// The same comparison that the kernels make.
+    /// Tests by the same comparison as the kernels.
     bool isAlive(uint32_t row, base::Ticks now) const;
-    /// [s] the same age that the kernels compute.
+    /// [s] Age, with the same bits as in the kernels.
     float ageOf(uint32_t row, base::Ticks now) const;
 
-    /// The next indices [next(), next() + count) have been given out.
+    /// Marks the indices [next(), next() + count) as used by births.
     void advance(uint64_t count) { next_ += count; }
     uint64_t next() const { return next_; }
-    uint64_t front() const { return front_; } ///< the oldest index that may be alive; next() when none does
-    /// Drops empty rows at the old end of the window.
+    uint64_t front() const { return front_; } ///< the oldest index that may be alive; next() if none is
+    /// Removes rows without living particles at the old end of the window.
     void retire(base::Ticks now)
     {
         if (now >= frontUntil_)
             retireFront(now);
     }
     uint32_t countAlive(base::Ticks now) const;
-    /// [tick] time up to which the particles of all rows are alive for certain; valid only where particles
-    /// die of age alone.
+    /// [tick] time up to which the particles of all rows are certainly alive; valid only if particles die of
+    /// age alone.
     base::Ticks allLiveUntil() const;
     bool isAnyAlive(base::Ticks now) const
     {
@@ -109,16 +110,17 @@ public:
     }
     /// Empties all rows; the next birth has index `next`.
     void clear(uint64_t next);
-    /// The same where the indices [front, next) have been given out: `front` and maybe more of them are going
-    /// to be put into their rows.
+    /// Empties all rows, with the indices [front, next) already used. Particles of some of these indices are
+    /// then written to their rows; the particle `front` is one of them.
     void clear(uint64_t front, uint64_t next, base::Ticks now);
-    /// Copies a particle of a store of the same program into `row`, as the one of that index and birth.
+    /// Copies a particle from a store of the same program into `row`, with its index and birth.
     void copyRow(const ParticleStore& from, uint32_t fromRow, uint32_t row, const Birth& birth);
-    /// Ends the particle in `row`. For brief lives: until it leaves the window, at most 3 s from now.
+    /// Kills the particle in `row`. With brief lives, the mark is valid until the row leaves the window, at
+    /// most 3 s from now.
     void endRow(uint32_t row, base::Ticks now);
 
     void save(StateWriter& writer, base::Ticks now) const;
-    void saveEmpty(StateWriter& writer) const; ///< the same, once all particles of now are dead
+    void saveEmpty(StateWriter& writer) const; ///< as save(), after all particles of now have died
     /// @param now [tick] local time of the state: living particles are born before it and die after it
     void restore(StateReader& reader, base::Ticks now);
 
@@ -133,12 +135,12 @@ private:
     bool alwaysPlaced_;
 
 public:
-    bool placed;                      ///< false: all motion began at one place, X, Y, Z are not in use yet
-    StoredColumn<uint32_t> bornShort; ///< low 32 bits of `born`, where lives are brief
+    bool placed; ///< false: all particles began at one position, and X, Y, Z are not used yet
+    StoredColumn<uint32_t> bornShort;                      ///< low 32 bits of `born`, where lives are brief
     std::array<StoredColumn<float>, stored::Count> values; ///< empty when not stored
-    StoredColumn<uint64_t> index;                          ///< of the particle that lives or lived in the row
-    StoredColumn<base::Ticks> born;                        ///< local time
-    StoredColumn<uint32_t> flags;                          ///< tile_flag, where modules keep any
+    StoredColumn<uint64_t> index;   ///< index of the particle that lives or last lived in the row
+    StoredColumn<base::Ticks> born; ///< local time
+    StoredColumn<uint32_t> flags;   ///< tile_flag bits, if modules keep any
     std::array<float, stored::Count> constant;
 
 private:
@@ -146,11 +148,11 @@ private:
     void retireFront(base::Ticks now);
     void searchFront(base::Ticks now);
 
-    base::Column<std::byte> memory_; ///< of all columns
+    base::Column<std::byte> memory_; ///< memory of all columns
 };
 
-/// The first tick, after `from`, at which the particle in `row` does not live; it lives at `from` and not at
-/// `to`: (2) of particle-event-ticks.
+/// The first tick after `from` at which the particle in `row` is dead, by (2) of particle-event-ticks. It
+/// must be alive at `from` and dead at `to`.
 base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from, base::Ticks to);
 
 } // namespace fx::sim

@@ -6,21 +6,21 @@
 ///
 /// symbol   unit   meaning
 ///   t       1      parameter, 0..1
-///   t_k     1      where slopes change, common to all channels
+///   t_k     1      parameters at which slopes change, common to all channels
 ///   c       -      value at 0
 ///   s       -      slope from 0 to t_1
 ///   d_k     -      change of slope at t_k
-///   a_i,b_i -      value at 0 and slope of the line that piece i lies on; t_i is where it begins
+///   a_i,b_i -      value at 0 and slope of the line of piece i, which begins at t_i
 /// @derivation
 ///   f(t) = c + s t + sum of d_k max(t - t_k, 0)                                            (1)
 ///   On piece i the sum is a line: with b_i = s + d_1 + ... + d_i and a_i = f(t_i) - b_i t_i,
 ///   f(t) = a_i + b_i t                                                                     (2)
-///   Pieces do not depend on the channel, and particles that follow each other are mostly in the same one.
-///   With more than 8 changes of slope the samples of the curve are looked up instead:
+///   Pieces are common to all channels, and consecutive particles are mostly in the same piece.
+///   With more than 8 changes of slope, a table of samples of the curve is interpolated instead:
 ///   f(t) = p_i + (64 t - i) (p_(i+1) - p_i), i = floor(64 t)                              (3)
 /// @source    elementary
 /// @deviation none
-/// @valid     t in [0, 1]; outside, the last pieces go on
+/// @valid     t in [0, 1]; outside, the first and the last piece are extrapolated
 /// @accuracy  (2) differs from the curve by at most 2^-20 of its largest value plus 2^-20 of its slopes
 /// @tests     tests/simulation/particles/core/test_ramp_curves.cpp
 #pragma once
@@ -43,7 +43,7 @@ struct RampCurves
     /// @param channels values at the 65 equally spaced samples of base::Curve, one span a channel
     explicit RampCurves(std::span<const std::array<float, base::kCurveSamples + 1>> channels);
 
-    /// Lowest and highest of the samples of a channel.
+    /// Smallest and largest sample of a channel.
     float lowest(uint32_t channel) const;
     float highest(uint32_t channel) const;
     bool isConstant(uint32_t channel) const { return (varying >> channel & 1u) == 0; }
@@ -53,7 +53,7 @@ struct RampCurves
     bool byTable = false;                     ///< (3) instead of (2)
     uint32_t ramps = 0;                       ///< one fewer than pieces
     std::array<float, kPieceRoom + 1> from{}; ///< t_i; -infinity for the first, +infinity after the last
-    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceStart{}; ///< a_i; the last one repeated
+    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceStart{}; ///< a_i; the last value is repeated
     std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceSlope{}; ///< b_i
     std::array<float, kMaxRamps> at{};                                    ///< t_k
     std::array<float, kMaxChannels> start{};                              ///< c
@@ -62,7 +62,7 @@ struct RampCurves
     std::array<std::array<float, base::kCurveSamples + 1>, kMaxChannels> table{};
 };
 
-/// The samples of channel `k` of a curve, as RampCurves takes them.
+/// The samples of channel `k` of a curve, in the form that RampCurves takes.
 template <size_t N>
 std::array<float, base::kCurveSamples + 1> samplesOf(const base::Curve<N>& curve, size_t k)
 {

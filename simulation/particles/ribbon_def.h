@@ -9,29 +9,29 @@
 
 namespace fx::sim {
 
-/// A ribbon along the way of each particle.
+/// A ribbon along the path of each particle.
 struct RibbonDef
 {
-    float lifetime = 0;           ///< [s] length of the visible path in time; 0: no trail
+    float lifetime = 0;           ///< [s] the ribbon shows the path of this last time; 0: no trail
     float width = 0.1f;           ///< [m] > 0
     float minDistance = 0;        ///< [m] between points
     uint32_t maxPoints = 32;      ///< 2..256
     float arcPerTile = 1.0f;      ///< [m] see base::particle_constant
     float edge = 0.0f;            ///< [1] see base::particle_constant
-    float softEnds = 0.0f;        ///< [m] over which both ends fade
+    float softEnds = 0.0f;        ///< [m] length over which both ends fade
     EmitterAppearance appearance; ///< blend, order, luminance, lit, softness and texture of the ribbon
     base::ScalarCurve widthAlong{std::array{1.0f}};            ///< t in [0, 1]: age of the point / lifetime
     base::ColorCurve colorAlong{std::array{1.0f, 1.0f, 1.0f}}; ///< linear Rec. 709
     base::ScalarCurve opacityAlong{std::array{1.0f}};
 };
 
-/// The light that particles shed on their surroundings.
+/// The light that particles emit on their surroundings.
 struct LightDef
 {
     bool given = false;
-    float intensity = 0;     ///< [cd] of a particle with color 1; 0: its luminance times its projected area
+    float intensity = 0;     ///< [cd] of a particle of color 1; 0: its luminance times its projected area
     uint32_t maxLights = 16; ///< the brightest are kept
-    bool merged = false;     ///< one light for all
+    bool merged = false;     ///< true: one light represents all particles
 };
 
 } // namespace fx::sim

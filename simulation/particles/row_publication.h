@@ -1,5 +1,5 @@
 /// @file row_publication.h
-/// Rows of particles as groups of the kind "particle".
+/// Publishes rows of particles as groups of the kind "particle".
 #pragma once
 
 #include "simulation/particles/appearance_kernel.h"
@@ -17,7 +17,7 @@ void writeConstants(const EmitterSettings& def, const EmitterAppearance& appeara
 /// The columns of a group of the kind "particle", null if absent.
 AppearanceColumns columnsOf(base::SnapshotGroup& group);
 
-/// Whose group is published, and of which kind.
+/// Identity and kind of the group that is published.
 struct GroupPlace
 {
     base::KindId kind;
@@ -28,7 +28,7 @@ struct GroupPlace
 base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, uint32_t rows,
                              const GroupPlace& place, base::FrameSnapshot& snapshot);
 
-/// Publishes rows as a group of the kind of particles, as BudgetedSolver::proceedPublication().
+/// Publishes rows as a group of particles; see BudgetedSolver::proceedPublication().
 /// @param tasks null: on the calling thread
 bool publishRows(const AppearanceJob& job, const GroupPlace& group, base::TaskRunner* tasks,
                  base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work);

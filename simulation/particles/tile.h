@@ -1,13 +1,13 @@
 /// @file tile.h
 /// Working set of an emitter's modules: a tile of particles whose columns fit into the L1 cache.
 ///
-/// An emitter whose motion has no closed form is stepped tile by tile: the tile is loaded from the store, all
-/// modules run on it in order of phase, and it is stored. Memory is read and written once, however many
-/// modules there are. Rows without a living particle are loaded too: they have seconds 0 and the flag Empty,
-/// and their results are discarded. Arithmetic is by multiplication and addition in a fixed order (no fused
-/// multiply-add, no sums across rows), so that every vector width gives the same bits.
+/// An emitter whose motion has no closed form is stepped tile by tile. A tile is loaded from the store, all
+/// modules process it in order of phase, and it is stored. Memory is therefore read and written once, for any
+/// number of modules. Rows without a living particle are loaded too: they have seconds 0 and the flag Empty,
+/// and their results are discarded. Arithmetic consists of multiplications and additions in a fixed order (no
+/// fused multiply-add, no sums across rows), so every vector width gives the same bits.
 ///
-/// Threads: tiles of one step are run by several threads at once; a module keeps no state of its own.
+/// Threads: several threads process tiles of one step at once; modules keep no mutable state.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -24,7 +24,7 @@ namespace fx::sim {
 constexpr uint32_t kTileRows = 256;
 constexpr uint32_t kTilePadding = 16; ///< modules may work on rows up to the next multiple of this
 
-/// Bits of Tile::flags. Stuck and Collided stay with the particle; the others are set for one step.
+/// Bits of Tile::flags. Stuck and Collided are kept from step to step; the others are set for one step.
 namespace tile_flag {
 enum : uint32_t
 {
@@ -39,53 +39,56 @@ enum : uint32_t
 /// Working columns. Arrays begin at multiples of 64 bytes; rows [count, kTileRows) hold finite numbers.
 struct alignas(64) Tile
 {
-    float x[kTileRows]; ///< [m] local; before Integrate at the step's begin, after it at its end
+    float x[kTileRows]; ///< [m] local; before Integrate: at the step's begin, afterwards: at its end
     float y[kTileRows];
     float z[kTileRows];
     float vx[kTileRows]; ///< [m/s] velocity
     float vy[kTileRows];
     float vz[kTileRows];
-    float fromX[kTileRows]; ///< [m] where the row was when its part of the step began
+    float fromX[kTileRows]; ///< [m] position when the row's part of the step began
     float fromY[kTileRows];
     float fromZ[kTileRows];
-    float fromVX[kTileRows]; ///< [m/s] its velocity then
+    float fromVX[kTileRows]; ///< [m/s] velocity when the row's part of the step began
     float fromVY[kTileRows];
     float fromVZ[kTileRows];
-    float ax[kTileRows]; ///< [m/s2] sum of accelerations; forces add
+    float ax[kTileRows]; ///< [m/s2] sum of accelerations; forces add to it
     float ay[kTileRows];
     float az[kTileRows];
-    float ux[kTileRows]; ///< [m/s] velocity of the air; forces add
+    float ux[kTileRows]; ///< [m/s] velocity of the air; forces add to it
     float uy[kTileRows];
     float uz[kTileRows];
-    float drag[kTileRows];      ///< [1/s] linear drag rate towards the air, >= 0; forces add
-    float quadratic[kTileRows]; ///< [1/m] quadratic drag: acceleration -q |v - u| (v - u), >= 0; forces add
-    float age[kTileRows];       ///< [s] when its part of the step begins; 0 for a row born within the step
+    float drag[kTileRows]; ///< [1/s] linear drag rate towards the air, >= 0; forces add to it
+    /// [1/m] quadratic drag q: acceleration -q |v - u| (v - u), >= 0; forces add to it
+    float quadratic[kTileRows];
+    /// [s] at the begin of the row's part of the step; 0 for a row born within the step
+    float age[kTileRows];
     float seconds[kTileRows]; ///< [s] length of its part of the step; shorter when born within it, 0 if Empty
-    float life[kTileRows];    ///< [1] age / lifetime when its part of the step begins, 0..1
+    float life[kTileRows];    ///< [1] age / lifetime at the begin of the row's part of the step, 0..1
     float excess[kTileRows];  ///< [K] temperature above the air's
-    float contact[kTileRows]; ///< [1] 0..1 of its part of the step, set together with Hit or Killed
+    /// [1] 0..1, share of the row's part of the step; set together with Hit or Killed
+    float contact[kTileRows];
     uint32_t indexLow[kTileRows]; ///< birth index: counter words 0 and 1 of base::philox
     uint32_t indexHigh[kTileRows];
     uint32_t flags[kTileRows]; ///< tile_flag
     uint32_t count;            ///< rows in use
     uint32_t padded;           ///< count rounded up to kTilePadding
-    uint32_t firstRow;         ///< of the store
+    uint32_t firstRow;         ///< row of the store
 };
 
 /// One contact of a row in its part of the step.
 struct TileContact
 {
     float share;        ///< [1] 0..1 of the row's part of the step
-    float speed;        ///< [m/s] >= 0 against the surface, along its normal, just before
+    float speed;        ///< [m/s] >= 0, normal component against the surface, just before the contact
     glm::vec3 position; ///< [m]
-    glm::vec3 velocity; ///< [m/s] just after; of killed particles, just before
+    glm::vec3 velocity; ///< [m/s] just after the contact; of killed particles, just before
     bool isLast;        ///< the row is killed or sticks
-    uint32_t number;    ///< contacts of the row in this step before this one, at least
+    uint32_t number;    ///< lower bound of the number of previous contacts of the row in this step
 };
 
 struct TileContext;
 
-/// Hears of every contact that begins. Called by several threads at once, for different tiles.
+/// Receives every contact when it begins. Called by several threads at once, for different tiles.
 class ContactListener
 {
 public:
@@ -99,7 +102,7 @@ struct TileContext
 {
     const StepContext& step;
     base::Ticks end;                     ///< local time at which the step ends
-    glm::vec3 wind;                      ///< [m/s] effect's, host's and emitter's
+    glm::vec3 wind;                      ///< [m/s] sum of the winds of effect, host and emitter
     double begin;                        ///< [s] local time at which the step begins
     float seconds;                       ///< [s] its length
     ContactListener* listener = nullptr; ///< null: contacts are not collected
@@ -109,31 +112,31 @@ struct TileContext
 enum class TilePhase : uint8_t
 {
     Force,     ///< adds to acceleration, air velocity and drag; reads position and velocity at the begin
-    Integrate, ///< the core's own: moves every row by its seconds
-    Contact,   ///< corrects the way from `from` to x, y, z: collisions, kill volumes
-    Event,     ///< looks at flags and contacts
+    Integrate, ///< built in: moves every row over its part of the step
+    Contact,   ///< corrects the path from `from` to x, y, z: collisions, kill volumes
+    Event,     ///< reads flags and contacts
 };
 
-/// The most that a module does to a particle.
+/// Upper bounds of the action of a module on a particle.
 struct TileBound
 {
     float acceleration = std::numeric_limits<float>::infinity(); ///< [m/s2]
-    float air = 0.0f;                                            ///< [m/s] that it adds to the air
-    /// It accelerates particles towards the air's velocity, other than by linear drag.
+    float air = 0.0f;                                            ///< [m/s] velocity that it adds to the air
+    /// True if it accelerates particles towards the air's velocity by something other than linear drag.
     bool followsAir = false;
 };
 
-/// One module, compiled. Immutable: shared by all instances and threads.
+/// One compiled module. Immutable and shared by all instances and threads.
 class TileOp
 {
 public:
     virtual ~TileOp() = default;
     virtual TilePhase phase() const = 0;
-    /// Bytes that prepare() fills once a step and all tiles of the step read; 64-byte aligned.
+    /// Size of the memory that prepare() fills once a step and all tiles of the step read; 64-byte aligned.
     virtual size_t scratchBytes() const { return 0; }
     virtual void prepare(const TileContext&, void* /*scratch*/) const {}
     virtual void run(const TileContext& context, const void* scratch, Tile& tile) const = 0;
-    /// Bound on the distance of particles; unknown without one.
+    /// Upper bounds for the distance of particles; the default is unbounded.
     virtual TileBound bound() const { return {}; }
     /// True when the tile flags Stuck or Collided must survive the step.
     virtual bool keepsFlags() const { return false; }
@@ -141,7 +144,7 @@ public:
     virtual bool collides() const { return false; }
 };
 
-/// Places and directions of births from uniform numbers, many at once.
+/// Computes positions and directions of many births from uniform numbers.
 class ShapeOp
 {
 public:
@@ -149,14 +152,14 @@ public:
 
     struct Births
     {
-        const float* place[4];   ///< [1] uniform in [0, 1), one array a number
+        const float* place[4];   ///< [1] uniform in [0, 1), one array per number
         const float* heading[4]; ///< [1]
         float* position[3];      ///< [m] out, local
         float* direction[3];     ///< [1] out, unit vectors
         uint32_t count;
     };
     virtual void sample(const Births& births) const = 0;
-    /// [m] no birth is farther from the origin; infinite when unknown.
+    /// [m] Upper bound of the distance of births from the origin; infinite when unknown.
     virtual float extent() const { return std::numeric_limits<float>::infinity(); }
 };
 

@@ -1,5 +1,5 @@
 /// @file tile_motion.h
-/// The core's own work on a tile, once for each instruction set.
+/// Integration of a tile, compiled for each instruction set.
 ///
 /// @formula tile-motion
 /// One step of a row under the sums of acceleration, air velocity, linear and quadratic drag.
@@ -13,12 +13,12 @@
 ///   t         s    the row's part of the step
 ///   E, G, R        as in linear-drag-step
 /// @derivation
-///   Quadratic drag alone, dw/dt = -q |w| w for w = v - u, has the solution
+///   Quadratic drag alone, dw/dt = -q |w| w with w = v - u, has the solution
 ///       w(t) = w / (1 + q |w| t)                                                            (1)
-///   It acts for half the time before and for half of it after a step of linear-drag-step:
+///   It acts for half of the time before and for half of it after a step of linear-drag-step:
 ///       v = u + w / (1 + q |w| t / 2)                                                       (2)
 ///       x = x + G v + k R u + R a,  v = E v + k G u + G a                                   (3)
-///   and (2) again. Two halves of (1) are the whole, so the velocity is exact when nothing else acts.
+///   and (2) again. Two half steps of (1) equal a whole one, so the velocity is exact if nothing else acts.
 /// @source    elementary; the splitting is Strang's
 /// @deviation none
 /// @valid     any t >= 0, k >= 0, q >= 0; no step length makes it unstable, because (1) and E only shrink
@@ -30,17 +30,18 @@
 
 namespace fx::sim {
 
-/// Ages and lives of the rows of a tile when their part of the step begins, and how long that is.
+/// Inputs for the ages and the lengths of the parts of the step of the rows of a tile.
 struct TileTimes
 {
-    const base::Ticks* born; ///< of the tile's first row
-    const float* perLife;    ///< [1/s] null when it is the same for all
+    const base::Ticks* born; ///< birth ticks of the rows of the tile
+    const float* perLife;    ///< [1/s] null when equal for all particles
     float perLifeOfAll;
     base::Ticks begin;
     base::Ticks end;
 };
 
-/// Fills age, seconds and life, and marks rows outside of [firstLiving, endLiving) or past their life Empty.
+/// Computes age, seconds and life. Marks rows outside of [firstLiving, endLiving) or past their lifetime
+/// Empty.
 void fillTimes(const TileTimes& times, Tile& tile);
 
 /// Moves every row by its seconds; rows that are Stuck or Empty stay.

@@ -1,6 +1,6 @@
 /// @file tile_step.h
-/// Steps particles whose motion has no closed form: from the store into a tile, through all modules, and
-/// back.
+/// Steps particles whose motion has no closed form: loads them into a tile, runs all modules on it, and
+/// stores it.
 #pragma once
 
 #include "simulation/particles/particle_store.h"
@@ -9,7 +9,7 @@
 
 namespace fx::sim {
 
-/// The modules of an emitter and their prepared data for this step.
+/// One module of an emitter with its prepared data for this step.
 struct PreparedOp
 {
     const TileOp* op;
@@ -34,7 +34,7 @@ public:
     /// Steps the rows [begin, end) of `store` that are in its window; begin is a multiple of kTilePadding.
     void run(ParticleStore& store, uint32_t begin, uint32_t end) const;
 
-    /// Steps only particles whose index is at least `first`.
+    /// Restricts the step to particles whose index is at least `first`.
     void onlyFrom(uint64_t first) { first_ = first; }
     void watchBy(TileWatch* watch)
     {

@@ -1,5 +1,5 @@
 /// @file ribbon_store.h
-/// Where particles have been: rings of points, one a row of the particle store.
+/// Past positions of particles: one ring of points for each row of the particle store.
 ///
 /// @formula ribbon-points
 /// Points of a trail, their distance from the birth, and the visible part.
@@ -9,28 +9,28 @@
 ///   T        tick   lifetime of the trail, in ticks
 ///   N        1      most points
 ///   k        1      number of a point, 0, 1, ...
-///   x_k      m      place of the particle at tick b + k h; m least distance between points
+///   x_k      m      position of the particle at tick b + k h; m least distance between points
 ///   s_k      m      arc length from the birth
 /// @derivation
-///   Points are taken at ticks that the birth alone decides, N - 2 of them in a lifetime:
+///   Points are sampled at ticks that depend only on the birth, N - 2 of them in a lifetime:
 ///       b + k h,   h = T / (N - 2) rounded up                                               (1)
-///   and kept when they are farther than m from the last one that was kept; from one kept point to the next
+///   A point is kept if its distance from the last kept point exceeds m. From a kept point j to the next, k,
 ///       s_k = s_j + |x_k - x_j|                                                             (2)
-///   so that a point never changes its arc length while it is seen. The head lies where the particle is, or
-///   where it died, with (2) from the newest point. The tail ends at the age T: between the last point that
-///   is younger and the first that is not, place and arc length are interpolated in proportion to time (3)
-///   What is published goes on beyond that age for a step, at most 1/30 s, so that the tail is known at any
-///   moment between two steps of that length; drawing ends it at the age T of that moment.
-///   Near its ends, at arc length s between the tail's s_t and the head's s_h, a strip whose ends are soft
-///   over f has its opacity times
+///   so the arc length of a point does not change while it is visible. The head is the position of the
+///   particle, or of its death, with (2) from the newest point. The tail ends at the age T: position and arc
+///   length are interpolated in time between the oldest point younger than T and the next older point    (3)
+///   The published trail extends beyond the age T by one step, at most 1/30 s, so that the tail is known at
+///   any moment between two steps. Drawing cuts it at the age T at that moment.
+///   At arc length s between the tail's s_t and the head's s_h, a strip with soft ends of length f has its
+///   opacity multiplied by
 ///       min(s_h - s, s - s_t, f) / f                                                        (4)
-///   and a texture that is as long as the strip is read at
+///   A texture that is stretched over the whole strip is read at
 ///       (s - s_t) / (s_h - s_t)                                                             (5)
-///   Where motion is integrated, x_k lies on the straight way of its step, in proportion to time.
+///   If motion is integrated, x_k is interpolated in time along the straight path of its step.
 /// @source    elementary
 /// @deviation none
-/// @valid     T > 0, N >= 3; a birth that takes the row of a dead particle ends that one's trail
-/// @accuracy  float rounding of sums of at most one term a point
+/// @valid     T > 0, N >= 3; a birth in the row of a dead particle removes the trail of that particle
+/// @accuracy  float rounding of sums with at most one term per point
 /// @tests     tests/simulation/particles/events/test_trails.cpp
 #pragma once
 
@@ -56,27 +56,28 @@ public:
         return size_t(rows) * (sizeof(Trail) + size_t(def.maxPoints) * sizeof(Point));
     }
 
-    /// A stretch of local time.
+    /// An interval of local time.
     struct Span
     {
         base::Ticks begin;
         base::Ticks end;
     };
-    /// Adds the points of a step, at the end of which `job` describes the particles, within the work budget.
+    /// Adds the points of a step, within the work budget. `job` describes the particles at the end of the
+    /// step.
     /// @param ioRow row of the next particle, 0 at first @return whether all particles have been processed
     bool follow(const AppearanceJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work);
     bool empty() const { return count_ == 0; }
-    /// Most rows that publish() writes.
+    /// Largest number of rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
     /// Writes all trails at `now`, as BudgetedSolver::proceedPublication().
-    /// @param past [tick] before `now` for which the tails must be known; trails are longer by about this
-    ///         time
+    /// @param past [tick] time before `now` for which the tails must be known; trails are longer by about
+    ///             this time
     bool publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group, PublicationPlace& ioPlace,
                  base::WorkBudget& work) const;
     void clear();
 
     void save(StateWriter& writer) const;
-    /// @param store of the particles, restored  @param now [tick] local time of the state
+    /// @param store restored store of the particles  @param now [tick] local time of the state
     void restore(StateReader& reader, const ParticleStore& store, base::Ticks now);
 
 private:
@@ -88,13 +89,13 @@ private:
     };
     struct Trail
     {
-        uint64_t index = kNoParticle; ///< of the particle
+        uint64_t index = kNoParticle; ///< index of the particle
         Point head;                   ///< position now, or at death
         uint32_t first = 0;           ///< oldest point in the ring
         uint32_t count = 0;
-        uint64_t next = 0; ///< k of the next point
+        uint64_t next = 0; ///< number k of the next point
         bool ended = false;
-        glm::vec3 tint{1.0f}; ///< of the particle
+        glm::vec3 tint{1.0f}; ///< tint of the particle
     };
     const Point& pointOf(uint32_t row, uint32_t k) const ///< 0: the oldest
     {

@@ -1,5 +1,5 @@
 /// @file air_mover.h
-/// Solvers whose matter moves the air around it.
+/// Interface of solvers whose matter sets the surrounding air in motion.
 #pragma once
 
 #include "simulation/motion/thermal_flow.h"
@@ -15,7 +15,7 @@ constexpr size_t kMaxThermals =
 class AirMover
 {
 public:
-    /// The flow of the present state, a function of it and of the arguments alone.
+    /// The air flow of the present state. It depends only on the state and the arguments.
     /// @param gravity [m/s2] local  @param wind [m/s] local
     virtual ThermalFlow thermal(const glm::vec3& gravity, const glm::vec3& wind) const = 0;
 

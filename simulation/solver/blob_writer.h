@@ -13,17 +13,19 @@
 
 namespace fx::sim {
 
-/// Identity of element `index` of solver `solver`: the same element has the same id in every snapshot.
+/// Id of element `index` of solver `solver`. An element has the same id in every snapshot.
 inline uint64_t blobId(uint32_t solver, uint64_t index)
 {
     return (uint64_t(solver) << 40) | (index & ((uint64_t(1) << 40) - 1));
 }
 
-/// Names and units a group of `count` blobs; columns are written afterwards, then the bounds are closed.
+/// Creates a group of `count` blobs with its constants. The caller then writes the columns and calls
+/// closeBounds().
 class BlobWriter
 {
 public:
-    /// @param capacity elements the solver can ever have, so that later snapshots reuse the group's memory
+    /// @param capacity maximum number of elements of the solver, so that later snapshots reuse the group's
+    ///          memory
     BlobWriter(base::FrameSnapshot& snapshot, const base::GroupInfo& base, base::KindId kind, uint32_t count,
                uint32_t capacity)
         : group_(snapshot.addGroup(kind, capacity)), count_(count), secondsBack_(snapshot.secondsBack())
@@ -54,10 +56,11 @@ public:
         std::fill(column(index) + begin, column(index) + end, value);
     }
 
-    void closeBounds() { addBounds(0, count_); } ///< of all rows
-    /// The bounds gain the rows [begin, end), which have been written: the balls, drawn out along their way
-    /// while the shutter is open, and at any moment since the snapshot before, including blobs that were not
-    /// in it. Ages do not identify those: they count time of the instance, which may run faster.
+    void closeBounds() { addBounds(0, count_); } ///< computes the bounds of all rows
+    /// Extends the bounds by the rows [begin, end), which have been written. The bounds contain the balls,
+    /// stretched along their path by the open shutter, at any moment since the previous snapshot. That
+    /// includes blobs that were not in it. They cannot be found by age, because ages are in the time of the
+    /// instance, which may run faster.
     void addBounds(uint32_t begin, uint32_t end)
     {
         namespace blob = base::blob_column;
@@ -80,7 +83,7 @@ public:
     }
 
 private:
-    static constexpr float kRoundedUp = 1.001f; ///< more than the rounding of times
+    static constexpr float kRoundedUp = 1.001f; ///< exceeds the rounding of times
 
     glm::vec3 vector(size_t first, uint32_t i)
     {

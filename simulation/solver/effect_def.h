@@ -28,7 +28,7 @@ struct EffectDef
 {
     std::string name;
     uint64_t fingerprint = 0;         ///< hash of the preset, equal for equal presets; 0 without a preset
-    base::Ticks duration = 0;         ///< end of the effect's life; 0 for "until its solvers have finished"
+    base::Ticks duration = 0;         ///< lifetime of the effect; 0: until its solvers have finished
     base::Ticks prewarm = 0;          ///< simulated time before the first visible step
     uint32_t subSteps = 1;            ///< steps of the effect per step of the scene, 1..16
     glm::vec3 wind{0.0f};             ///< [m/s] local
@@ -37,10 +37,10 @@ struct EffectDef
     /// [m] upper bound of the local distance of elements from the origin; 0: that of its solvers.
     float bound = 0;
     std::vector<std::unique_ptr<const SolverDef>> solvers;
-    /// Where events of one solver's particles give birth in another's: all solvers, causes before effects.
+    /// Order of all solvers in which events of one solver cause births in later ones; empty: any order.
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of the host's events
-    EffectCost cost;                     ///< as the preset's loader has estimated it
+    EffectCost cost;                     ///< estimate of the preset's loader
     DrawingHints hints;
 
     /// True when it depends on the host's geometry.
@@ -77,7 +77,7 @@ struct EffectDef
         return sum;
     }
 
-    /// The preset's choice, or the most careful one that a solver requires.
+    /// The preset's choice. Without one, the policy of the solver that allows the least.
     CatchUp catchUp() const
     {
         if (offscreen)
@@ -104,7 +104,7 @@ struct EffectDef
         return most;
     }
 
-    /// [byte] memory of emitters in each instance with its own simulation, without snapshots.
+    /// [byte] memory of the solvers of each instance with its own simulation, without snapshots.
     uint64_t bytes() const
     {
         uint64_t sum = 0;
@@ -113,7 +113,7 @@ struct EffectDef
         return sum;
     }
 
-    /// Most elements alive at once, at medium quality.
+    /// Maximum number of simultaneously alive elements, at medium quality.
     uint64_t capacity() const
     {
         uint64_t sum = 0;

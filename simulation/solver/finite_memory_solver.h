@@ -1,13 +1,13 @@
 /// @file finite_memory_solver.h
-/// States that depend on a limited past only.
+/// Interface of solvers whose state depends only on a limited past.
 #pragma once
 
 #include "simulation/solver/solver.h"
 
 namespace fx::sim {
 
-/// A solver whose elements all die within a known time, so that its state need not be kept while it is out of
-/// sight for longer. See Solver::finiteMemory().
+/// A solver whose elements all die within a known time. Its state can be discarded while it is out of sight
+/// for longer than that. See Solver::finiteMemory().
 class FiniteMemorySolver
 {
 public:
@@ -18,8 +18,8 @@ public:
     /// Solver::save() without living elements. A state restored from it is correct after influenceHorizon().
     virtual void saveWithoutElements(StateWriter& writer) const = 0;
 
-    /// Goes forwards to local time `tick` without the births meanwhile: right once influenceHorizon()
-    /// has passed after it. Only where that is known; the context's own tick and stepTicks are ignored.
+    /// Advances to local time `tick` without births. The state is correct once influenceHorizon() has passed
+    /// after `tick`. Requires a known influenceHorizon(). The context's tick and stepTicks are ignored.
     virtual void passOver(const StepContext& context, base::Ticks tick) = 0;
 
 protected:

@@ -1,9 +1,9 @@
 /// @file quality.h
-/// How much work an instance may cost. Chosen when the instance is created and fixed for its life, so that
-/// equal calls give equal bits.
+/// Simulation quality, which controls the cost of an instance. It is chosen when the instance is created and
+/// does not change, so that equal calls give equal bits.
 ///
-/// Gases follow it. Emitters do not: their particle counts are the author's, they cost little beside a gas,
-/// and fewer but denser particles would change the picture.
+/// Quality applies to gases, not to emitters. The author chooses the particle counts of emitters, their cost
+/// is small compared to a gas, and fewer but denser particles would change the picture.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ enum class QualityLevel : uint8_t
     Low,
     Medium, ///< the level for which presets are designed
     High,
-    Reference, ///< reference for measuring the other levels
+    Reference, ///< used to measure the errors of the other levels
 };
 
 /// Parameters of solvers at a level. Errors of the levels are measured by `fx accuracy`.

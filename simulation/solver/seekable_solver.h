@@ -1,29 +1,29 @@
 /// @file seekable_solver.h
-/// Time and place reached without the steps between.
+/// Interface of solvers that can reach a time or placement without taking the steps in between.
 #pragma once
 
 #include "simulation/solver/solver.h"
 
 namespace fx::sim {
 
-/// A solver that can leave out steps. See Solver::seekable().
+/// A solver that can skip steps. See Solver::seekable().
 class SeekableSolver
 {
 public:
-    /// Whether seek() can move it from its state to local time `tick`.
+    /// True if seek() can move the solver from its present state to local time `tick`.
     virtual bool canSeek(const StepContext& context, base::Ticks tick) const = 0;
 
-    /// Moves to local time `tick` under the conditions of `context`, with the same bits as steps from its
-    /// state (forwards) or from 0 (backwards). Requires canSeek(); the context's own tick and stepTicks are
-    /// ignored.
+    /// Moves to local time `tick` under the conditions of `context`. The result has the bits of taking all
+    /// steps, from the present state (forwards) or from time 0 (backwards). Requires canSeek(). The context's
+    /// tick and stepTicks are ignored.
     virtual void seek(const StepContext& context, base::Ticks tick) = 0;
 
-    /// Local time, at least `tick`, up to which steps from `tick` on change no visible element. canSeek()
-    /// holds for any tick up to it.
+    /// Local time, at least `tick`, up to which steps from `tick` on do not change any visible element.
+    /// canSeek() is true for every tick up to it.
     virtual base::Ticks restsUntil(base::Ticks tick) const = 0;
 
-    /// Local time, at least `tick`, up to which steps under the conditions of the last one can be replaced by
-    /// passTo(), because the state does not change except for time.
+    /// Local time, at least `tick`, up to which passTo() may replace steps under the conditions of the last
+    /// step, because only the time of the state changes.
     virtual base::Ticks quietUntil(base::Ticks tick) const { return tick; }
 
     /// Advances the time to `tick`, at most quietUntil(), without taking steps.

@@ -30,17 +30,17 @@ class GpuParticleProgram;
 
 namespace fx::sim {
 
-/// Policy for a hidden instance: how it reaches the present when it is visible again.
+/// Policy for a hidden instance: how its state reaches the present when the instance is visible again.
 enum class CatchUp : uint8_t
 {
-    Analytic, ///< not simulated; computed for the present directly, with the bits of an unbroken simulation
-    Replay,   ///< not simulated; takes the missing steps later, some each frame, with the same bits
-    Coarse,   ///< steps of four times the length, on the schedule of ticks. Deterministic, other bits
-    Skip,     ///< not simulated; the missing time is left out: particles grow older where they are
+    Analytic, ///< not simulated; the present is computed directly, with the bits of an unbroken simulation
+    Replay,   ///< not simulated; the missing steps are taken later, some each frame, with the same bits
+    Coarse,   ///< steps of four times the length, at fixed ticks; deterministic, but other bits
+    Skip,     ///< not simulated; the missing time is left out: particles age without moving
     Authoritative, ///< always simulated
 };
 
-/// True when a pause leaves no trace in the state.
+/// True if hiding an instance does not change its state.
 constexpr bool isExact(CatchUp policy)
 {
     return policy == CatchUp::Analytic || policy == CatchUp::Replay || policy == CatchUp::Authoritative;
@@ -65,8 +65,8 @@ struct StepCounters
     uint64_t neighborPairs = 0;
     uint64_t subSteps = 0;
     uint64_t clamped = 0; ///< values limited to keep the state finite
-    base::Ticks debt = 0; ///< time that a solver's budget of sub-steps did not cover: it is not simulated
-    uint64_t events = 0;  ///< of particles, once for each rule that may answer
+    base::Ticks debt = 0; ///< time that is not simulated, because the limit of sub-steps was reached
+    uint64_t events = 0;  ///< events of particles, counted once for each rule that may answer
 
     StepCounters& operator+=(const StepCounters& more)
     {
@@ -94,13 +94,14 @@ struct StepCounters
     }
 };
 
-/// Geometry behind a function of the host, called for each path of a particle that depends on it.
+/// Geometry behind a callback of the host. The callback is called for each path of particles that collide
+/// with it.
 struct ContactHook
 {
     void* user = nullptr;
-    /// Intersects the segment from `from` to `to` [m, local]: returns 0 when it is free, otherwise the free
-    /// share, 0..1, and the normal, of any length. Called by several threads at once; equal arguments must
-    /// give equal results during a step.
+    /// Intersects the segment from `from` to `to` [m, local]. Returns 0 when it is free. Otherwise gives the
+    /// share of the path before the contact, 0..1, and the normal, of any length. Called by several threads
+    /// at once. Equal arguments must give equal results during a step.
     int (*meet)(void* user, const float from[3], const float to[3], float* outShare,
                 float outNormal[3]) = nullptr;
 };
@@ -119,37 +120,41 @@ class EventBoard;
 /// An event of the host.
 struct HostEvent
 {
-    uint32_t event; ///< number in EffectDef::hostEvents
-    uint32_t count; ///< how often
+    uint32_t event; ///< index in EffectDef::hostEvents
+    uint32_t count; ///< number of times that it was triggered
 };
 
 /// Input of a solver for one step.
 struct StepContext
 {
-    base::Ticks tick;                     ///< local time at which the step begins
-    base::Ticks stepTicks;                ///< its length, > 0
-    uint64_t seed;                        ///< of the instance
-    uint32_t solverIndex;                 ///< position in the effect: part of every random key
-    glm::vec3 gravity;                    ///< [m/s2] local
-    glm::vec3 wind;                       ///< [m/s] local
-    float groundHeight;                   ///< [m] local y of the ground plane; -infinity for none
-    const Collider* collider;             ///< the host's geometry; null for none
-    const InstanceParameters* parameters; ///< intensity and emission; its wind is part of `wind` already
+    base::Ticks tick;         ///< local time at which the step begins
+    base::Ticks stepTicks;    ///< length of the step, > 0
+    uint64_t seed;            ///< seed of the instance
+    uint32_t solverIndex;     ///< position in the effect; part of the key of every random number
+    glm::vec3 gravity;        ///< [m/s2] local
+    glm::vec3 wind;           ///< [m/s] local
+    float groundHeight;       ///< [m] local y of the ground plane; -infinity for none
+    const Collider* collider; ///< the host's geometry; null for none
+    /// intensity and emission; the host's wind is already part of `wind`
+    const InstanceParameters* parameters;
     base::TaskRunner* tasks;
     base::Arena* scratch; ///< freed after the step
     StepCounters* counters;
     const ContactHook* contactHook = nullptr; ///< null for none
     EventBoard* board = nullptr;              ///< events between solvers in this step; null for none
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
-    SpawnBatch* spawnBatch = nullptr; ///< may defer births until the end of the step; null: make them at once
-    base::Placement placement{}; ///< target of the instance's motion; default unless the effect depends on it
+    /// may defer births to the end of the step; null: births are computed at once
+    SpawnBatch* spawnBatch = nullptr;
+    /// target of the instance's motion; identity unless the effect depends on it
+    base::Placement placement{};
     /// [1] 0..1, share of the remaining motion to `placement` that takes place in this step.
     float moveShare = 1.0f;
     glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
-    glm::vec3 worldWind{0.0f};    ///< [m/s] world, the host's share of `wind`; 0 unless placement matters
-    glm::vec3 effectWind{0.0f};   ///< [m/s] local, the preset's share of `wind`
-    std::span<const ThermalFlow> thermals{}; ///< of the effect's gases, for solvers that follow them
-    bool gpuParticles = false; ///< emitters that may be computed on the GPU are not needed as rows
+    /// [m/s] world, the host's share of `wind`; 0 unless the effect depends on the placement
+    glm::vec3 worldWind{0.0f};
+    glm::vec3 effectWind{0.0f};              ///< [m/s] local, the preset's share of `wind`
+    std::span<const ThermalFlow> thermals{}; ///< flows of the effect's gases, for solvers that follow them
+    bool gpuParticles = false; ///< emitters that the GPU may compute need not be computed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -166,13 +171,13 @@ class Solver
 public:
     virtual ~Solver() = default;
 
-    /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates nothing
-    /// but scratch.
+    /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates scratch
+    /// memory only.
     virtual void step(const StepContext& context) = 0;
 
     /// Adds the visible groups to `snapshot`. `base` has instance, solver and placement to copy into each
-    /// group. A solver without elements also adds its group, so that its memory is allocated before the first
-    /// element is born.
+    /// group. A solver without elements also adds its group, so that the memory of the group exists before
+    /// the first birth.
     virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
 
     /// True when no element is alive and none will be born from local time `tick` on.
@@ -191,7 +196,7 @@ public:
     /// Validates all data. After a failure, which the reader records, the solver may only be destroyed.
     virtual void restore(StateReader& reader) = 0;
 
-    // Optional interfaces; null if the solver lacks one.
+    // Optional interfaces; null if the solver does not have one.
 
     virtual const AirMover* airMover() const { return nullptr; }
     virtual BudgetedSolver* budgeted() { return nullptr; }
@@ -205,14 +210,14 @@ struct ReachConditions
 {
     float gravity = 0; ///< [m/s2] magnitude
     float wind = 0;    ///< [m/s] magnitude
-    float seconds = 0; ///< after the start
+    float seconds = 0; ///< [s] time since the start
 };
 
 /// Bounds of births caused by events of other solvers.
 struct BirthReach
 {
-    float distance = 0; ///< [m] from the origin, at most
-    float speed = 0;    ///< [m/s] that is inherited, at most
+    float distance = 0; ///< [m] largest distance from the origin
+    float speed = 0;    ///< [m/s] largest inherited speed
 
     void add(const BirthReach& more)
     {
@@ -224,10 +229,11 @@ struct BirthReach
 /// Influence of an instance's past on its living elements.
 struct Influence
 {
-    float seconds = 0;  ///< [s] of the instance's time; infinite if unknown
+    /// [s] time of the instance after which the past has no influence; infinite if unknown
+    float seconds = 0;
     float inherits = 0; ///< [1] share of the instance's velocity that particles inherit
-    float extent = 0;   ///< [m] local extent of the births of these particles
-    float drawnOut = 0; ///< [s] by which sprites are stretched along their velocity
+    float extent = 0;   ///< [m] local extent of the births of particles that inherit velocity
+    float drawnOut = 0; ///< [s] time by which sprites are stretched along their velocity
 
     void add(const Influence& more)
     {
@@ -238,13 +244,13 @@ struct Influence
     }
 };
 
-/// Expected load of a step of a solver.
+/// Expected amounts of work of a step of a solver.
 struct StepLoad
 {
     double seconds;    ///< [s] length
-    double births = 0; ///< of emitters: made, those that events cause included
-    double alive = 0;  ///< of emitters, at most their capacity
-    double events = 0; ///< of emitters: of particles, once for each rule that may answer
+    double births = 0; ///< of emitters: births, including those caused by events
+    double alive = 0;  ///< of emitters: living particles, at most the capacity
+    double events = 0; ///< of emitters: events of particles, counted once for each rule that may answer
 };
 
 /// Immutable definition of a solver; shared by all instances of a preset.
@@ -261,11 +267,11 @@ public:
     virtual bool publishes(const base::KindDesc& kind) const = 0;
     /// Whether its published media refract light (heat shimmer).
     virtual bool bendsLight() const { return false; }
-    /// Program with which the GPU replaces its solvers; null if this is impossible or disabled. Any thread.
+    /// Program by which the GPU replaces the solvers; null if this is impossible or disabled. [any thread]
     virtual std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const { return nullptr; }
     /// Influence of the instance's past, without that of the host's parameters.
     virtual Influence influence() const { return {.seconds = std::numeric_limits<float>::infinity()}; }
-    /// [byte] of memory that a solver takes at the most, at medium quality.
+    /// [byte] maximum memory of a solver, at medium quality.
     virtual uint64_t bytes() const { return 0; }
     /// True when its solvers depend on StepContext::collider.
     virtual bool collides() const { return false; }
@@ -273,7 +279,7 @@ public:
     virtual bool dependsOnPlacement() const { return false; }
     /// True when its solvers depend on StepContext::thermals.
     virtual bool followsThermals() const { return false; }
-    /// Catch-up policy of hidden instances, unless the preset has one.
+    /// Catch-up policy of hidden instances, unless the preset defines one.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
     /// [m] upper bound of the distance of elements, radius included, from the instance's origin within
     /// `seconds` after the start; infinite when unknown.
@@ -282,15 +288,15 @@ public:
     {
         return std::numeric_limits<float>::infinity();
     }
-    /// reach() for solvers whose births are caused by events.
-    /// @param bounds of births in it @param ioOthers by solver index: extended by births that it causes in
-    ///         others
+    /// As reach(), for solvers whose births are caused by events.
+    /// @param births bounds of its births @param ioOthers bounds of births by solver index; extended by the
+    ///         births that it causes in other solvers
     virtual float reachFrom(const ReachConditions& conditions, const BirthReach& /*births*/,
                             std::span<BirthReach> /*ioOthers*/) const
     {
         return reach(conditions.gravity, conditions.wind, conditions.seconds);
     }
-    /// [unit] of base::WorkBudget, about, that the most expensive step counts, at medium quality.
+    /// [unit] of base::WorkBudget: estimated work of the most expensive step, at medium quality.
     virtual double workOf(const StepLoad& /*load*/) const { return 0.0; }
 };
 

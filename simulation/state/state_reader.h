@@ -1,6 +1,6 @@
 /// @file state_reader.h
-/// Reads the output of a StateWriter with full validation. The first failure is recorded, and all later
-/// values are zero, so that code can check once at the end. Never reads beyond the given bytes.
+/// Reads and validates the output of a StateWriter. The first failure is recorded. All later values are zero,
+/// so that code can check once at the end. Never reads beyond the given bytes.
 #pragma once
 
 #include "foundation/math/bits.h"
@@ -26,7 +26,7 @@ public:
         if (!condition && status_.ok())
             status_ = {base::Code::Parse, what};
     }
-    /// Adopts the failure of a larger state that contains this one.
+    /// Takes over the failure of a larger state that contains this one.
     void fail(const base::Status& status)
     {
         if (status_.ok())
@@ -40,7 +40,7 @@ public:
         take(&value, sizeof value);
         return value;
     }
-    /// A number in [least, most]; fails for others and for NaN, and gives `least` then.
+    /// Reads a number in [least, most]. Any other number, and NaN, is a failure and gives `least`.
     template <StateValue T>
     T value(T least, T most, const char* what)
     {
@@ -50,7 +50,7 @@ public:
         return ok() ? found : least;
     }
     bool flag() { return value<uint8_t>(0, 1, "a flag of the state is neither 0 nor 1") == 1; }
-    /// A finite vector.
+    /// Reads a finite vector.
     glm::vec3 vector()
     {
         float xyz[3] = {};
@@ -78,7 +78,8 @@ public:
             require(std::all_of(out.begin(), out.end(), [](T x) { return base::isFinite(x); }),
                     "a number of the state is not finite");
     }
-    /// The bytes of StateWriter::block(), valid as long as those of the reader; empty after a failure.
+    /// The bytes of StateWriter::block(). They are valid as long as the bytes of the reader; empty after a
+    /// failure.
     std::span<const std::byte> block()
     {
         const uint64_t size = value<uint64_t>();

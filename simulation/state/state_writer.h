@@ -1,7 +1,7 @@
 /// @file state_writer.h
-/// Serializes the state of solvers and scenes to memory, to be restored, or to a hash, to be compared. Values
-/// are written one by one in the byte order of the machine, without pointers and padding, so equal states
-/// give equal bytes. A StateReader reads them in the same order.
+/// Serializes the state of solvers and scenes, either to memory for restoring or to a hash for comparison.
+/// Values are written one by one in the byte order of the machine, without pointers and padding, so equal
+/// states give equal bytes. A StateReader reads the values in the same order.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -51,13 +51,13 @@ public:
         const float xyzw[4] = {q.x, q.y, q.z, q.w};
         put(xyzw, sizeof xyzw);
     }
-    /// Writes the elements without their number, which the reader must know.
+    /// Writes the elements without their number; the reader must know the number.
     template <StateValue T>
     void values(std::span<const T> values)
     {
         put(values.data(), values.size_bytes());
     }
-    /// Bytes of another format, with their number.
+    /// Writes bytes of another format, preceded by their number.
     void block(std::span<const std::byte> bytes)
     {
         value(uint64_t(bytes.size()));
@@ -68,7 +68,7 @@ protected:
     virtual void put(const void* data, size_t size) = 0;
 };
 
-/// Keeps the bytes.
+/// Stores the written bytes in memory.
 class StateBuffer final : public StateWriter
 {
 public:

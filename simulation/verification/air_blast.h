@@ -14,11 +14,11 @@
 ///       ps / p0 = 808 (1 + (Z/4.5)^2) / sqrt((1 + (Z/0.048)^2) (1 + (Z/0.32)^2) (1 + (Z/1.35)^2))      (1)
 ///   Fit to measurements of TNT spheres in free air:
 ///       log10(ps / kPa) = sum_k c_k U^k,  U = -0.214362789151 + 1.35034249993 log10 Z                   (2)
-///   The history at a place, t after arrival:
+///   The overpressure at a place, at time t after the arrival of the wave:
 ///       p = ps (1 - t/td) exp(-b t/td)                                                                  (3)
 /// @source    [KG85] Kinney, Graham, chapter 6, for (1); [KB84] Kingery, Bulmash, for (2), spherical charge,
 ///            incident pressure; (3) is the wave of Friedlander, as [KG85] gives it
-/// @deviation coefficients of (2) as programs print them, since the report is a scan
+/// @deviation the coefficients of (2) are those of published programs, since the report is a scan
 /// @valid     (1) 0.05 to 500 m/kg^(1/3); (2) 0.0531 to 40 m/kg^(1/3); sea level, 15 degrees
 /// @accuracy  (1) and (2) agree within 15 % for Z from 0.5 to 10
 /// @tests     tests/simulation/verification/test_air_blast.cpp
@@ -35,7 +35,7 @@ constexpr double kEnergyOfTnt = 4.184e6; ///< [J/kg] by definition
 double kinneyGrahamOverpressure(double scaledDistance);   ///< [Pa]
 double kingeryBulmashOverpressure(double scaledDistance); ///< [Pa]
 
-/// (3), fitted to a history.
+/// Wave (3), fitted to a history of overpressure.
 struct FriedlanderWave
 {
     double peak = 0;     ///< [Pa]
@@ -52,9 +52,9 @@ struct PressureSample
     double overpressure; ///< [Pa]
 };
 
-/// Fits a wave to samples in the order of time. For a smeared shock, the arrival is the time of half the
-/// rise, and the peak is the decay extrapolated back to the arrival. Peak 0 when the samples have no positive
-/// phase that ends.
+/// Fits a wave to samples in the order of time. For a smeared shock, the arrival is the time at half of the
+/// rise, and the peak is the decay curve extrapolated back to the arrival. The peak is 0 if the samples
+/// contain no complete positive phase.
 FriedlanderWave fitFriedlander(std::span<const PressureSample> samples);
 
 } // namespace fx::sim

@@ -1,5 +1,5 @@
 /// @file case_base.h
-/// Common base of most cases: particles, and a center or axis of evaluation.
+/// Common base of most cases: stores particles and sample times, and evaluates around the origin.
 #pragma once
 
 #include "simulation/verification/gas_case.h"
@@ -18,16 +18,16 @@ public:
     ProfilePoint seen(const CaseParticle& particle) const override;
 
 protected:
-    /// @param gamma, time of the case, used where the settings leave them open
+    /// @param gamma, time defaults of the case, used if the settings do not set them
     CaseBase(const CaseSettings& settings, double gamma, double time);
 
-    /// Fills def_ from the particles and settings; called last by constructors.
-    /// @param sampleCount equal parts of the time
+    /// Sets def_ from the particles and settings. Constructors call it last.
+    /// @param sampleCount number of equal intervals between samples
     void finish(uint32_t sampleCount);
 
     double gamma_;
-    double time_;  ///< [s] end
-    bool ownTime_; ///< the case's own gamma and end are used, so its limits hold
+    double time_;  ///< [s] end of the simulation
+    bool ownTime_; ///< true: gamma and end are the case's defaults, so its limits apply
     GasDynamicsDef def_;
     std::vector<GasParticle> particles_;
 

@@ -1,5 +1,5 @@
 /// @file case_run.h
-/// Runs a case and measures it.
+/// Runs a verification case and measures it.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -14,14 +14,14 @@ struct CaseReport
 {
     CaseMeasures measures;
     uint32_t particles = 0;
-    double seconds = 0;         ///< simulated
+    double seconds = 0;         ///< [s] simulated time
     double energyStart = 0;     ///< [J]
     double energyDrift = 0;     ///< [1] (E - E_start) / E_start at the end
-    double momentumDrift = 0;   ///< [1] |P - P_start| / sum m |v|; not measured with walls
-    AdvanceReport work;         ///< of all steps
-    double initialSeconds = 0;  ///< wall time until the first step
-    double steppingSeconds = 0; ///< wall time of steps; looks are not in it
-    uint64_t hash = 0;          ///< of the state at the end
+    double momentumDrift = 0;   ///< [1] |P - P_start| / sum m |v|; not measured if there are walls
+    AdvanceReport work;         ///< total of all steps
+    double initialSeconds = 0;  ///< [s] wall time before the first step
+    double steppingSeconds = 0; ///< [s] wall time of the steps, without sampling
+    uint64_t hash = 0;          ///< hash of the state at the end
     std::vector<ProfilePoint> profile;
 };
 
@@ -29,7 +29,7 @@ struct CaseWatch
 {
     /// Called before each sample with its number and the total.
     std::function<void(uint32_t sample, uint32_t samples)> progress;
-    /// Called often; true ends the run as soon as possible, with Code::Interrupted.
+    /// Called often; returning true ends the run as soon as possible, with Code::Interrupted.
     std::function<bool()> stop;
 };
 

@@ -1,9 +1,9 @@
 /// @file flow_errors.h
-/// Errors of particles against a known flow.
+/// Errors of simulated particles against an exact flow.
 ///
 /// @formula flow-error
-/// Mean distance between particles and the exact flow, each counted by the volume it stands for; the place of
-/// a shock in the profile.
+/// Mean deviation of particles from the exact flow, weighted by their volume, and the position of a shock in
+/// the profile.
 ///
 /// symbol    unit    meaning
 ///   m, rho   kg, kg/m3  mass and density of a particle
@@ -12,14 +12,15 @@
 ///   D_k      kg/m3   mean density of the particles in shell k
 /// @derivation
 ///   L1(q) = sum (m / rho) |q - q_e| / sum (m / rho)                                             (1)
-///   The shock is where, coming from outside, D passes half the way from the density ahead to the largest D:
+///   The shock is at the outermost radius where D equals the mean of the density ahead and the largest D:
 ///       D = (rho_ahead + max D) / 2, linear between the centers of shells                        (2)
-///   Where the density falls off on both sides of the shock, as behind a point blast, the particles smear it
-///   evenly and the shock is at the top of the parabola through the largest D and its neighbors         (3)
+///   Where the density falls on both sides of the shock, as behind a point blast, the particles smear the
+///   shock evenly. Then the shock is at the top of the parabola through the largest D and its neighbors
+///   (3)
 /// @source    own definition; [PRI12] Price, section 4, uses (1) on particles of equal volume
 /// @deviation none
 /// @valid     at least one particle; in (2) rho_ahead below max D
-/// @accuracy  (2): a shock smeared evenly over both sides keeps its place to a quarter of the smearing
+/// @accuracy  (2): smearing a shock evenly to both sides moves it by at most a quarter of the smearing width
 /// @tests     tests/simulation/verification/test_flow_errors.cpp
 #pragma once
 
@@ -31,7 +32,7 @@
 
 namespace fx::sim {
 
-/// Sums (1).
+/// Accumulates the sums of (1).
 class FlowErrors
 {
 public:
@@ -55,15 +56,15 @@ struct Shell
 
 std::vector<Shell> shellsOf(std::span<const ProfilePoint> points, double width);
 
-/// (2). Zero when no shell is denser than the gas ahead.
+/// Radius of the shock by (2). Zero if no shell is denser than the gas ahead.
 double shockRadius(std::span<const Shell> shells, double densityAhead);
 
-/// (3).
+/// Radius of the shock by (3).
 double densestRadius(std::span<const Shell> shells);
 
 std::vector<ProfilePoint> profileOf(const GasCase& gasCase, std::span<const CaseParticle> particles);
 
-/// Errors against `exact` of all points nearer than `radius`.
+/// Stores the errors against `exact` of all points nearer than `radius`.
 void storeErrors(std::span<const ProfilePoint> points, double radius, const FlowState& units,
                  const std::function<FlowState(double place)>& exact, CaseMeasures& out);
 

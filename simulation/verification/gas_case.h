@@ -20,14 +20,15 @@ constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 /// Settings of a case.
 struct CaseSettings
 {
-    uint32_t particles = 0; ///< requested; the lattice determines the actual number; 0: the case's own number
-    double gamma = 0;       ///< [1] 0: the case's own
-    double time = 0;        ///< [s] end, 0: the case's own
+    /// requested number; the lattice determines the actual one; 0: default of the case
+    uint32_t particles = 0;
+    double gamma = 0; ///< [1] 0: default of the case
+    double time = 0;  ///< [s] end of the simulation; 0: default of the case
     GasDynamicsDef
         rules; ///< kernel, neighbors, viscosity, steps, courant, step ratio; the case sets the rest
 };
 
-/// A particle when the case looks at it.
+/// State of a particle at a sample.
 struct CaseParticle
 {
     glm::dvec3 position; ///< [m]
@@ -38,7 +39,7 @@ struct CaseParticle
     double support;      ///< [m]
 };
 
-/// A particle seen along the one direction in which the flow varies.
+/// State of a particle in the one direction in which the flow varies.
 struct ProfilePoint
 {
     double place; ///< [m] distance from the center; x in planar cases
@@ -46,19 +47,19 @@ struct ProfilePoint
     FlowState state;
 };
 
-/// A further result of a case.
+/// An additional result of a case.
 struct Measure
 {
     std::string name;
     double value = 0;
-    std::string meaning;            ///< with its unit, for people
+    std::string meaning;            ///< description with unit, for messages
     double expected = kNotMeasured; ///< the exact or published value
 };
 
-/// A bound that the case holds with the settings that it was made for.
+/// A bound on a measure. It applies to the default settings of the case.
 struct CaseLimit
 {
-    std::string name; ///< of the measure
+    std::string name; ///< name of the measure
     double value = 0;
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -79,9 +80,9 @@ struct CaseMeasures
     double l1Pressure = kNotMeasured;
     double shockRadius = kNotMeasured; ///< [m]
     double shockRadiusExact = kNotMeasured;
-    std::vector<DensityError> densityErrors; ///< of the particles that l1Density is the mean of
+    std::vector<DensityError> densityErrors; ///< errors of the particles over which l1Density averages
     std::vector<Measure> more;
-    std::vector<CaseLimit> limits; ///< those that are stated for this size and time
+    std::vector<CaseLimit> limits; ///< bounds that apply to this number of particles and end time
 };
 
 class GasCase
@@ -89,17 +90,17 @@ class GasCase
 public:
     virtual ~GasCase() = default;
 
-    /// The dynamics that the case needs; capacity is the number of particles.
+    /// Definition of the dynamics of the case; its capacity is the number of particles.
     virtual const GasDynamicsDef& dynamics() const = 0;
     virtual const std::vector<GasParticle>& particles() const = 0;
-    /// [s] ascending; the last is the end.
+    /// [s] Times of samples, ascending; the last is the end.
     virtual const std::vector<double>& sampleTimes() const = 0;
-    /// Is called at each of looks().
+    /// Called at each of sampleTimes().
     virtual void look(double /*time*/, std::span<const CaseParticle> /*particles*/) {}
     virtual ProfilePoint seen(const CaseParticle& particle) const = 0;
-    /// @param particles at the end
+    /// @param particles state at the end
     virtual CaseMeasures measure(std::span<const CaseParticle> particles) const = 0;
-    /// [1] of the energy, that may be lost or won with the case's own settings.
+    /// [1] Relative change of energy that is allowed with the default settings.
     virtual double energyTolerance() const { return 5e-3; }
 };
 

@@ -1,5 +1,5 @@
 /// @file gas_cases.h
-/// The list of cases. A new one adds its maker here and its line in gas_cases.cpp.
+/// The list of verification cases. A new case adds its maker here and a line in gas_cases.cpp.
 #pragma once
 
 #include "simulation/verification/gas_case.h"
@@ -21,16 +21,16 @@ struct GasCaseEntry
 {
     std::string_view name;
     std::string_view summary;
-    uint32_t particles; ///< when the user names no number
+    uint32_t particles; ///< number if the user does not set one
     std::unique_ptr<GasCase> (*make)(const CaseSettings& settings);
 };
 
 std::span<const GasCaseEntry> gasCases();
 
-/// Null for an unknown name.
+/// Finds a case by name; null for an unknown name.
 const GasCaseEntry* findGasCase(std::string_view name);
 
-/// The case, with its own number of particles where the settings name none.
+/// Creates a case. If the settings give no number of particles, the case's own number is used.
 std::unique_ptr<GasCase> makeGasCase(const GasCaseEntry& entry, CaseSettings settings);
 
 } // namespace fx::sim

@@ -1,6 +1,6 @@
 /// @file glass.h
-/// Particles without order: as even as a lattice, but without its planes, along which a flow would stay
-/// locked.
+/// Glass-like particle arrangement: as even as a lattice, but without lattice planes, to which a flow would
+/// stay aligned.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,10 +10,11 @@
 
 namespace fx::sim {
 
-/// A periodic box of count.x x count.y x count.z particles, in units of their mean distance: positions in
-/// [0, count). A lattice is shaken, then relaxes by its own pressure. The same for the same arguments.
+/// Creates a periodic box of count.x x count.y x count.z particles, in units of their mean distance:
+/// positions in [0, count). A lattice is perturbed and then relaxes by its own pressure. Equal arguments give
+/// equal results.
 /// @param count at least 6 along each axis
-/// @param neighbors of the relaxation, and of the flow that will use the box
+/// @param neighbors number of neighbors in the relaxation and in the flow that will use the box
 std::vector<glm::dvec3> glassBox(const glm::u32vec3& count, double neighbors);
 
 } // namespace fx::sim

@@ -8,7 +8,7 @@
 
 namespace fx::sim {
 
-/// Points in the middles of cubic cells.
+/// Points at the centers of cubic cells.
 struct Lattice
 {
     glm::dvec3 low;     ///< [m] corner
@@ -28,15 +28,14 @@ struct Lattice
     }
 };
 
-/// The whole even number, at least `least`, whose cube is nearest to `particles`. Even, so that the center of
-/// a cube is between particles and events there affect the nearest ones equally.
+/// The even integer, at least `least`, whose cube is nearest to `particles`. It is even so that the center of
+/// a cube lies between particles, and events there affect the nearest particles equally.
 uint32_t evenSide(uint32_t particles, uint32_t least);
 
 /// Rounds up to an even number.
 uint32_t evenAbove(double value);
 
-/// [1] ratio of support to spacing of a lattice at which particles have `neighbors` neighbors: 4/3 pi n H^3 =
-/// neighbors.
+/// [1] Ratio of support to spacing of a lattice at which 4/3 pi n H^3 = neighbors.
 double supportInSpacings(double neighbors);
 
 } // namespace fx::sim

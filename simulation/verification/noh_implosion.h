@@ -4,17 +4,17 @@
 ///
 /// symbol     unit    meaning
 ///   rho0      kg/m3   density at t = 0
-///   v0        m/s     speed of fall, > 0
+///   v0        m/s     inward speed, > 0
 ///   gamma     1       adiabatic exponent
 ///   r, t      m, s    distance from the center, time
 ///   S         m/s     speed of the shock
 /// @derivation
-///   Without pressure the gas keeps its speed; a shell that was at r + v0 t has shrunk to r, so ahead of the
-///   shock
+///   Without pressure the gas keeps its speed. A shell of radius r + v0 t at the start has shrunk to r, so
+///   ahead of the shock
 ///       rho = rho0 (1 + v0 t / r)^2                                                             (1)
-///   Behind it the gas rests. Mass and energy across a strong shock give
+///   Behind the shock the gas is at rest. Conservation of mass and energy across a strong shock gives
 ///       S = (gamma - 1) v0 / 2,  rho2 / rho1 = (gamma + 1) / (gamma - 1)                         (2)
-///   and (1) at r = S t is the same factor squared, so that
+///   (1) at r = S t is the square of the same factor, so
 ///       rho2 = rho0 ((gamma + 1) / (gamma - 1))^3,  p2 = (gamma - 1) rho2 v0^2 / 2              (3)
 /// @source    [NOH87] Noh, section 4, doi:10.1016/0021-9991(87)90074-X
 /// @deviation none

@@ -8,18 +8,18 @@
 ///   r_f, A_f  m, m2/sr    radius and area of face f: A = r^2, planar 1
 ///   u, E      m/s, J/kg   velocity and specific total energy of a cell
 ///   p*, u*    Pa, m/s     state at a face
-///   rho, c    kg/m3, m/s  density, speed of sound of a side of a face
+///   rho, c    kg/m3, m/s  density and speed of sound on one side of a face
 ///   d         m/s         u - u* on the left side, u* - u on the right side
 /// @derivation
-///   Mass stays in its cell; faces, momentum and energy follow
+///   The mass of a cell is constant. Faces, momentum and energy change by
 ///       dr_f/dt = u*_f                                                                          (1)
 ///       m_i du_i/dt = -(A_i + A_{i+1}) / 2 (p*_{i+1} - p*_i)                                     (2)
 ///       m_i dE_i/dt = -(A_{i+1} p*_{i+1} u*_{i+1} - A_i p*_i u*_i)                               (3)
-///   so that energy is conserved to rounding. The states at a face come from limited linear profiles in the
-///   two cells; a side that is compressed answers as behind a shock,
+///   so energy is conserved to rounding. The states at a face come from limited linear profiles in the two
+///   cells. A side that is compressed has the pressure behind a shock,
 ///       p* = p + rho d ((gamma + 1) / 4 d + sqrt(((gamma + 1) / 4 d)^2 + c^2))                   (4)
-///   and the same expression is used for d < 0, where it equals the rarefaction to second order in d. Both
-///   sides give the same p* at one u*, found by Newton's method. Time: Heun's two stages.
+///   The same expression is used for d < 0, where it equals the rarefaction to second order in d. Newton's
+///   method finds u* at which both sides give the same p*. Time integration: Heun's method with two stages.
 /// @source    [DUK85] Dukowicz, doi:10.1016/0021-9991(85)90064-6, for a face from two shocks; the rest
 /// textbook
 /// @deviation Dukowicz replaces the square root in (4) by a straight line
@@ -39,7 +39,7 @@ struct RadialFlowDef
 {
     double gamma = 1.4;
     bool spherical = true;
-    int cells = 1000;           ///< of equal width at first
+    int cells = 1000;           ///< number of cells, initially of equal width
     double length = 1;          ///< [m] from the center or wall at 0
     bool outerWall = true;      ///< false: a free surface
     double outsidePressure = 0; ///< [Pa] on the free surface
@@ -54,11 +54,11 @@ public:
     /// Steps to `time` [s].
     void advanceTo(double time);
     double time() const { return time_; }
-    /// Outside of the gas all values are zero.
+    /// State at a radius; zero outside of the gas.
     FlowState at(double radius) const;
     double radius() const { return faces_.back(); } ///< [m] of the outermost face
     double energy() const;                          ///< [J], of the whole sphere or of 1 m2
-    double thermalEnergy() const;                   ///< [J] the same without the motion
+    double thermalEnergy() const;                   ///< [J] energy without kinetic energy
 
 private:
     struct Cell
@@ -92,7 +92,7 @@ private:
     std::vector<double> masses_;
     std::vector<double> faces_;
     std::vector<Cell> cells_;
-    std::vector<double> centers_; ///< derived from faces_ and cells_, as the next two
+    std::vector<double> centers_; ///< centers_, states_ and slopes_ are derived from faces_ and cells_
     std::vector<FlowState> states_;
     std::vector<FlowState> slopes_; ///< per m
 };

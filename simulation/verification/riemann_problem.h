@@ -1,6 +1,6 @@
 /// @file riemann_problem.h
 /// @formula riemann-problem
-/// Two half spaces of ideal gas that touch at x = 0 from t = 0 on: the exact flow.
+/// Exact flow of two half spaces of ideal gas that are in contact at x = 0 from t = 0 on.
 ///
 /// symbol    unit    meaning
 ///   rho, u, p kg/m3, m/s, Pa  state; index L left, R right, K either side, * between the outer waves
@@ -9,12 +9,12 @@
 ///   A, B      m3/kg, Pa  2 / ((gamma + 1) rho_K) and (gamma - 1) / (gamma + 1) p_K
 ///   s         m/s   x / t
 /// @derivation
-///   The velocity that wave K gives to the gas between the waves, as a function of its pressure p:
+///   The velocity of the gas between the waves due to wave K, as a function of the pressure p there:
 ///       shock, p > p_K        f_K = (p - p_K) sqrt(A / (p + B))                                  (1)
 ///       rarefaction, p <= p_K f_K = 2 c_K / (gamma - 1) ((p / p_K)^((gamma - 1) / (2 gamma)) - 1)  (2)
 ///   Pressure and velocity are continuous at the contact, so p* solves
 ///       f_L(p) + f_R(p) + u_R - u_L = 0,  u* = (u_L + u_R + f_R - f_L) / 2                       (3)
-///   which is monotone in p. Behind a shock and behind a rarefaction
+///   whose left side is monotone in p. Behind a shock, then behind a rarefaction,
 ///       rho* = rho_K (p*/p_K + k) / (k p*/p_K + 1), k = (gamma - 1) / (gamma + 1)                (4)
 ///       rho* = rho_K (p*/p_K)^(1/gamma)                                                          (5)
 ///   A shock moves at
@@ -22,11 +22,10 @@
 ///   and inside a rarefaction, on the left
 ///       u = 2 / (gamma + 1) (c_L + (gamma - 1) / 2 u_L + s),  c = c_L + (gamma - 1) / 2 (u_L - u)  (7)
 /// @source    [TOR09] Toro, chapter 4, doi:10.1007/b79761
-/// @deviation p* by bisection of the logarithm, not by Newton's method: no case distinction, and it is not
-/// called
-///            in loops that matter
-/// @valid     positive densities and pressures that leave no vacuum: u_R - u_L < 2 (c_L + c_R) / (gamma - 1)
-/// @accuracy  p* to 1e-14 of itself
+/// @deviation p* is found by bisection of its logarithm instead of Newton's method, which needs no case
+///            distinction; speed does not matter here
+/// @valid     positive densities and pressures without a vacuum: u_R - u_L < 2 (c_L + c_R) / (gamma - 1)
+/// @accuracy  p* to a relative error of 1e-14
 /// @tests     tests/simulation/verification/test_riemann_problem.cpp
 #pragma once
 

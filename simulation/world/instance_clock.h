@@ -1,19 +1,19 @@
 /// @file instance_clock.h
-/// From the time of the scene to the time of an instance.
+/// Conversion between the time of the scene and the local time of an instance.
 ///
 /// @formula instance-clock
 /// Local time of an instance with its own playback rate.
 ///
 /// symbol   unit   meaning
 ///   s        tick   scene time
-///   s0, l0   tick   scene time at which the rate began to hold, and the local time then
+///   s0, l0   tick   scene time from which the present rate applies, and the local time at s0
 ///   p        1      local ticks in 2^16 ticks of the scene, >= 0
 /// @derivation
 ///   l(s) = l0 + floor(p (s - s0) / 2^16)  for s >= s0,  l0 + s - s0 before                 (1)
-///   The largest s whose l(s) is not beyond l is, for l >= l0 and p > 0,
+///   The largest s with l(s) <= l is, for l >= l0 and p > 0,
 ///       s(l) = s0 + floor(((l - l0 + 1) 2^16 - 1) / p)                                      (2)
-///   Integers: the same for any way of cutting time into steps; a rate that is a whole multiple of 2^16
-///   gives all ticks.
+///   All numbers are integers, so results do not depend on the division of time into steps. With a rate that
+///   is a multiple of 2^16, local ticks correspond exactly to scene ticks.
 /// @source    elementary
 /// @deviation none
 /// @valid     p <= 2^20; differences below 2^62
@@ -28,7 +28,7 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kNormalRate = 1u << 16; ///< local time advances like the scene's
+constexpr uint32_t kNormalRate = 1u << 16; ///< local time advances as scene time does
 constexpr uint32_t kHighestRate = 16u << 16;
 
 struct InstanceClock
@@ -45,7 +45,7 @@ struct InstanceClock
             return local + since;
         return local + base::Ticks((Wide(since) * rate) >> 16); // (1)
     }
-    /// INT64_MAX / 4 when that time never comes.
+    /// Scene time of a local time; INT64_MAX / 4 if it is never reached.
     base::Ticks toScene(base::Ticks tick) const
     {
         __extension__ using Wide = __int128;

@@ -1,13 +1,13 @@
 /// @file world.h
-/// Holds the instances that exist and steps the given ones.
+/// Holds all existing instances and steps those in a given list.
 ///
-/// Instances with equal results are simulated once: those with equal effect, seed, start and quality, equal
-/// intensity and emission, equal gravity and wind in local space, and, if they collide with the host's
-/// geometry, equal placements. Each is published at its own placement. Sharing never changes results: when
-/// one of them is changed, its state is copied first.
+/// Instances with equal results are simulated once. Results are equal if effect, seed, start, quality,
+/// intensity, emission, and gravity and wind in local space are equal. If the instances collide with the
+/// host's geometry, their placements must be equal too. Each instance is published at its own placement.
+/// Sharing never changes results: when one of the instances is changed, the state is copied first.
 ///
-/// A simulation all of whose instances are hidden is paused: it costs nothing until catchUp() takes it to the
-/// present, and changes meanwhile are applied at the time at which they were made.
+/// A simulation is paused while all of its instances are hidden. It then costs nothing until catchUp()
+/// advances it to the present. Changes made meanwhile are applied at the time at which they were made.
 ///
 /// Threads: one thread at a time (the scene thread). Work inside a step is spread over the task runner.
 #pragma once
@@ -31,17 +31,17 @@
 
 namespace fx::sim {
 
-/// How an instance enters the world.
+/// Initial values of an instance.
 struct InstanceStart
 {
-    uint64_t instance = 0; ///< identity, unique while the instance lives
+    uint64_t instance = 0; ///< identity, unique while the instance exists
     uint64_t seed = 0;
     base::Ticks startTick = 0; ///< scene time of local tick 0
     base::Placement placement;
     InstanceParameters parameters;
-    QualityLevel quality = QualityLevel::Medium; ///< for life
+    QualityLevel quality = QualityLevel::Medium; ///< never changes
     uint32_t rate = kNormalRate;                 ///< see InstanceClock, from the start on
-    /// Set when the host has changed its time; otherwise derived from the members above.
+    /// Set if the host has changed the instance's time; otherwise derived from the members above.
     std::optional<InstanceClock> clock{};
 };
 
@@ -63,14 +63,14 @@ public:
     World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
           const Environment& environment = {}, bool share = true);
 
-    /// Creates all solvers of `effect`. Strong guarantee: on an exception nothing has changed.
-    /// @param hidden begin out of sight: solvers are created when it becomes visible
+    /// Adds an instance and creates all solvers of `effect`. Strong guarantee.
+    /// @param hidden start out of sight: solvers are created when the instance becomes visible
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
     /// Removes an instance at the end of its life, and moves its solvers to the free list.
     void recycle(Slot slot);
 
-    // ---- out of sight; hidden slots are not given to step() and publish() ----
+    // ---- hidden instances; step() and publish() must not get hidden slots ----
     void hide(Slot slot);
     void show(Slot slot); ///< call after catchUp() has returned true
     bool isHidden(Slot slot) const { return instances_[slot].hidden; }
@@ -81,14 +81,14 @@ public:
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
         return simulation.pooled ? pools_.now() : simulation.simulated;
     }
-    /// True when the simulation has so many pending changes that catchUp() should apply them.
+    /// True when the simulation has many pending changes, so that catchUp() should be called to apply them.
     bool hasManyChanges(Slot slot) const;
-    /// Advances a hidden instance towards the present by `policy`, its prewarm first. Strong guarantee for
-    /// each step.
-    /// @param ioBudget [1] particle steps that may be taken; each step costs one more than its particles. The
-    ///         last step may exceed it.
-    /// @param work also limits the call, possibly in the middle of a step, which the next call continues
-    /// @return true when it is at the present, or finished
+    /// Advances a hidden instance towards the present by `policy`; a prewarm comes first. Strong guarantee
+    /// for each step.
+    /// @param ioBudget [1] allowed particle steps; each step costs one more than its particles. The last step
+    ///         may exceed the budget.
+    /// @param work also limits the call, possibly in the middle of a step; the next call continues the step
+    /// @return true when the instance is at the present, or finished
     bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters,
                  base::WorkBudget& work);
     bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters)
@@ -96,18 +96,19 @@ public:
         base::WorkBudget unlimited;
         return catchUp(slot, policy, stepTicks, ioBudget, counters, unlimited);
     }
-    /// Takes one step of any length from the state of a hidden instance to the present, or continues one that
-    /// exceeded the work budget.
+    /// Takes one step, of any length, from the state of a hidden instance to the present. Or continues such a
+    /// step that exceeded the work budget.
     void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work);
     /// Simulates the prewarm of an instance before its first step.
-    /// @return whether it is complete; otherwise the instance must be hidden, and catchUp() continues
+    /// @return whether the prewarm is complete; if not, the instance must be hidden, and catchUp() continues
+    ///         it
     bool arrive(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
     {
         return arrive(instances_[slot].simulation, now_, stepTicks, work, counters);
     }
-    /// Ends the step that catchUp() has begun and not ended.
+    /// Ends a step that catchUp() has left incomplete.
     void closeStep(Slot slot) { closeSimulation(instances_[slot].simulation); }
-    /// True while the past that an instance begins with, or is taken to by seekTo(), is not simulated yet.
+    /// True while a prewarm, or a seek of seekTo(), is incomplete.
     bool isArriving(Slot slot) const { return simulations_.at(instances_[slot].simulation).arriving; }
     /// [tick] local time that is not simulated yet.
     base::Ticks missing(Slot slot) const
@@ -116,59 +117,60 @@ public:
         return simulation.arriving ? simulation.target - simulation.reached : 0;
     }
     /// Moves the solvers of a paused simulation to the free list and keeps its state as bytes.
-    /// @param mayForget it will be caught up without a trace: particles that will be dead by then need not be
-    ///             kept
+    /// @param mayForget particles that will be dead at the time of catching up need not be kept, because the
+    ///         host skips the time in between without a difference
     /// @return scene time at which another call would free more; the largest number for never
     base::Ticks release(Slot slot, bool mayForget);
-    /// Skips time of a lagging simulation whose past has no influence: moves it to a step shortly before the
-    /// present, from which catchUp() gives the same bits.
+    /// Skips time of a lagging simulation if its past has no influence on the present. Moves it to a step
+    /// shortly before the present; from there catchUp() gives the same bits.
     void passOver(Slot slot, base::Ticks stepTicks);
-    /// Gives a hidden instance its solvers back.
+    /// Restores the solvers of a hidden instance.
     void materialize(Slot slot) { simulations_.materialize(instances_[slot].simulation); }
     /// Frees solvers that have been in the free list since before `tick`.
     void trimFreeList(base::Ticks tick) { simulations_.trimFreeList(tick); }
     size_t freeSolvers() const { return simulations_.freeSolvers(); } ///< sets of solvers in the free list
-    /// Scene time, at least the present, up to which steps do not change the visible state of the instance,
-    /// and are not taken.
+    /// Scene time, at least the present, up to which steps do not change the visible state of the instance.
+    /// These steps are not taken.
     base::Ticks restsUntil(Slot slot) const;
     uint32_t pooled() const
     {
         return pools_.members();
-    }                                             ///< instances that are computed together, see EmitterPool
-    uint32_t resting() const { return resting_; } ///< slots that the last step() let rest
-    /// false: every step is taken.
+    } ///< number of instances that pools compute, see EmitterPool
+    /// Number of slots that the last step() skipped because they rest
+    uint32_t resting() const { return resting_; }
+    /// @param allow false: every step is taken, also of resting instances
     void allowRest(bool allow) { mayRest_ = allow; }
-    /// false: emitters do not use pools, from the next step on. Results are the same.
+    /// @param allow false: emitters do not use pools from the next step on. Results are the same
     void allowPools(bool allow) { mayPool_ = allow; }
     /// Whether emitters are published as input of the GPU where possible, from the next step on; see
     /// StepContext::gpuParticles.
     void setGpuParticles(bool onGpu) { gpuParticles_ = onGpu; }
     /// Advances resting instances to the present, for saving and hashing.
     void endRests();
-    /// Sets the present time after restore(), which all instances have reached.
+    /// Sets the present time after restore(). All instances must have reached it.
     void setNow(base::Ticks now);
 
     const Environment& environment() const { return environment_; }
-    /// Replaces the geometry of the host from the next step on; null for none. Strong guarantee; needs memory
-    /// when instances at different places were simulated as one.
+    /// Replaces the geometry of the host from the next step on; null for none. Strong guarantee. Allocates
+    /// when instances at different positions share a simulation.
     void setField(std::shared_ptr<const DistanceField> field);
 
-    /// Sets the contact callback of the host from the next step on; without `meet` there are no contacts. As
-    /// setField().
+    /// Sets the contact callback of the host from the next step on; without `meet` there are no contacts.
+    /// Strong guarantee; allocates as setField() does.
     void setContact(const HostContact& contact);
     const HostContact& contact() const { return contact_; }
-    /// Answers of the host since the last call that were none.
+    /// Number of invalid results of the contact callback since the last call.
     uint64_t takeContactFaults() { return contactFaults_ == 0 ? 0 : contactFaults_.exchange(0); }
 
-    // Strong guarantee. Both functions may allocate when the instance no longer gives the results of the
-    // instances that share its simulation.
+    // Strong guarantee. The functions may allocate if the instance then differs from the instances that share
+    // its simulation.
     void setPlacement(Slot slot, const base::Placement& placement);
     void setParameters(Slot slot, const InstanceParameters& parameters);
-    /// Plays an instance at another rate from now on. As setParameters().
+    /// Changes the playback rate of an instance from now on; allocates as setParameters() does.
     void setRate(Slot slot, uint32_t rate);
-    /// Moves an instance to local time `to`, with the result of playing it from its first step in steps of
-    /// `stepTicks` under the present conditions; host events are not replayed. Strong guarantee.
-    /// @return whether it has arrived; otherwise as arrive()
+    /// Moves an instance to local time `to`. The result is that of playing it from its first step in steps of
+    /// `stepTicks` under the present conditions. Host events are not replayed. Strong guarantee.
+    /// @return whether `to` is reached; if not, see arrive()
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
                 base::WorkBudget& work);
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters)
@@ -177,39 +179,38 @@ public:
         return seekTo(slot, to, stepTicks, counters, unlimited);
     }
     base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
-    /// See InstanceClock; the present one, also while it is pending.
+    /// The present clock, see InstanceClock, including a change that is still pending.
     InstanceClock clockOf(Slot slot) const;
     /// Posts a host event to an instance. It takes effect in the next step after its state has reached the
     /// present. Strong guarantee; may allocate.
     void postEvent(Slot slot, const HostEvent& event);
-    /// True at the end of the effect's duration, when all solvers have finished, and when an instance that no
-    /// longer emits is empty.
+    /// True at the end of the effect's duration, when all solvers have finished, or when an instance that no
+    /// longer emits has no particles.
     bool finished(Slot slot, base::Ticks sceneTick) const;
     uint32_t elementCount(Slot slot) const;
-    bool hasElements(Slot slot) const; ///< whether that is not 0
+    bool hasElements(Slot slot) const; ///< whether elementCount() is not 0
     const EffectDef& effect(Slot slot) const;
-    uint32_t simulations() const { return simulations_.count(); } ///< at most one an instance
+    uint32_t simulations() const { return simulations_.count(); } ///< at most one per instance
 
     /// Steps each slot of `active` from scene time `tick` to `tick + stepTicks`, in the order of the list. A
-    /// slot whose start lies inside the step begins at its own start tick; one that starts later is left
-    /// alone.
+    /// slot whose start is inside the step begins at its start tick; a slot that starts later is not stepped.
     StepCounters step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
     /// step() in parts, with equal bits: call beginStep() once, then proceed() until it returns true. While a
-    /// step is open, changes of instances are deferred to its end, see endStep(), and only functions that
-    /// change or query an instance may be called.
+    /// step is open, changes of instances are deferred to its end, see makeChanges(). Only functions that
+    /// change or query an instance may be called meanwhile.
     void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
-    /// @param work at least one piece is executed: a sub-step of a solver, or a sub-step of a gas
-    /// @param counters receives the counts of the step when it is complete After an exception no step is
-    ///         open.
+    /// @param work at least one piece of work is done, even if it exceeds the budget: a sub-step of a solver
+    ///          or of a gas
+    /// @param counters receives the counts when the step is complete. After an exception no step is open.
     bool proceed(base::WorkBudget& work, StepCounters& counters);
     /// Whether a step or its publication is open.
     bool isStepping() const { return hand_.isOpen || publication_.isOpen; }
     bool isPublishing() const { return publication_.isOpen; }
-    /// Applies deferred changes. If an exception is thrown, the remaining ones stay deferred.
+    /// Applies deferred changes. If an exception is thrown, the remaining changes stay deferred.
     void makeChanges();
     bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
 
-    /// A step without instances: time advances to `now`.
+    /// Takes a step without instances: time advances to `now`.
     void passTime(base::Ticks now)
     {
         if (!pools_.empty())
@@ -223,13 +224,13 @@ public:
     /// publish() in parts, with equal bits: call beginPublication() once, then proceedPublication() until it
     /// returns true. Meanwhile the rules of an open step apply, and no other code may write to `snapshot`.
     void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
-    /// An exception closes the publication.
+    /// Returns true when the publication is complete. An exception closes the publication.
     bool proceedPublication(base::WorkBudget& work);
     void dropPublication() { publication_.isOpen = false; } ///< discards the written part of the snapshot
 
-    /// Hash of the states behind `slots`; the same for shared and unshared ones.
+    /// Hash of the states behind `slots`; equal for shared and separate simulations.
     uint64_t hash(std::span<const Slot> slots) const;
-    /// Writes the states behind `slots`, each once.
+    /// Writes the states behind `slots`; a shared state is written once.
     void save(std::span<const Slot> slots, StateWriter& writer) const;
 
     /// An instance to restore: the arguments of add().
@@ -238,9 +239,9 @@ public:
         std::shared_ptr<const EffectDef> effect;
         InstanceStart start;
     };
-    /// Fills an empty world with instances in the order in which save() was given them.
-    /// @param outSlots as many as `entries` After a failure, kept by the reader, the world may only be
-    ///         destroyed.
+    /// Fills an empty world with instances, in the order in which save() received them.
+    /// @param outSlots as many elements as `entries`. After a failure, which the reader records, the world
+    ///         may only be destroyed.
     void restore(std::span<const Entry> entries, StateReader& reader, std::span<Slot> outSlots);
     /// Exchanges all instances with a world of the same schema, memory and environment.
     void swap(World& other) noexcept;
@@ -254,46 +255,46 @@ private:
         InstanceStart start;
     };
 
-    /// A change of an instance while a step is open.
+    /// A change of an instance that is deferred while a step is open.
     struct Waiting
     {
         Slot slot;
-        std::optional<HostEvent> event; ///< empty: its start changes to the wanted one
+        std::optional<HostEvent> event; ///< empty: the start changes to the one in wanted_
     };
 
-    /// A step of which some is still to be done.
+    /// State of an incomplete step.
     struct StepInHand
     {
         bool isOpen = false;
         bool isPlanned = false;
         base::Ticks tick = 0;
         base::Ticks stepTicks = 0;
-        size_t place = 0; ///< in the list, of the current simulation
+        size_t place = 0; ///< index of the current simulation in the list
         std::span<const Slot> active;
-        std::span<const Slot> list;           ///< those of them that are in no pool
+        std::span<const Slot> list;           ///< slots of `active` that are in no pool
         std::vector<Slot> ownActive, ownList; ///< memory of both, reused between calls
         StepCounters counters;
-        std::optional<EventBoard> board;         ///< of the open sub-step
+        std::optional<EventBoard> board;         ///< board of the open sub-step
         std::span<const HostEvent> hostEvents{}; ///< host events of the step
     };
-    /// A publication of which some is still to be written.
+    /// State of an incomplete publication.
     struct PublicationInHand
     {
         bool isOpen = false;
         bool hasPools = false;
-        size_t place = 0; ///< in the list, of the current slot
+        size_t place = 0; ///< index of the current slot in the list
         std::span<const Slot> list;
-        std::vector<Slot> own; ///< its memory, between two calls
-        uint32_t solver = 0;   ///< of that slot
-        PublicationPlace part; ///< of that solver
+        std::vector<Slot> own; ///< memory of the list between two calls
+        uint32_t solver = 0;   ///< index of the solver in that slot
+        PublicationPlace part; ///< progress within that solver
         base::FrameSnapshot* snapshot = nullptr;
     };
-    /// A step of one simulation.
+    /// Inputs of a step of one simulation.
     struct SimulationStep
     {
         base::Ticks tick; ///< scene time
         base::Ticks stepTicks;
-        SpawnBatch* spawnBatch = nullptr; ///< null unless it is closed before the simulation is read
+        SpawnBatch* spawnBatch = nullptr; ///< set only if it is closed before the simulation is read
         std::optional<EventBoard>* board = nullptr; ///< null: the simulation has its own, see linkedPartOf()
     };
     struct LocalSpan
@@ -302,12 +303,12 @@ private:
         base::Ticks end;
     };
 
-    /// Data that is rebuilt only when the list or the pools have changed.
+    /// Data that is rebuilt only when the list of slots or the pools have changed.
     struct Plan
     {
         std::vector<Slot> active; ///< the list
         std::vector<Slot> others; ///< instances that are in no pool
-        uint64_t revision = 0;    ///< of the pools
+        uint64_t revision = 0;    ///< revision of the pools
 
         bool holds(std::span<const Slot> list, uint64_t now) const
         {
@@ -327,7 +328,7 @@ private:
     void keepStep();
     void dropStep();
     void changeAfterStep(Slot slot, const InstanceStart& start);
-    /// Its start including changes that are deferred to the end of the open step.
+    /// The start of an instance, including changes that are deferred to the end of the open step.
     const InstanceStart& wantedOf(Slot slot) const
     {
         const Instance& instance = instances_[slot];
@@ -390,25 +391,25 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
-    SpawnBatch spawnBatch_; ///< of the open step or publication; empty otherwise
-    EmitterPools pools_;    ///< before the simulations, whose solvers are in them
+    SpawnBatch spawnBatch_; ///< batch of the open step or publication; empty otherwise
+    EmitterPools pools_;    ///< declared before the simulations, because their solvers are in the pools
     SimulationPool simulations_;
     std::vector<Instance> instances_;
     std::vector<Slot> free_;
     Plan stepPlan_;
     StepInHand hand_;
     PublicationInHand publication_;
-    StepCounters closed_;                  ///< work of steps that had to be ended, not counted yet
-    std::vector<Waiting> waiting_;         ///< in the order of the calls
-    std::vector<InstanceStart> wanted_;    ///< from the end of the open step on
+    StepCounters closed_;                  ///< work of steps that were ended early, not counted yet
+    std::vector<Waiting> waiting_;         ///< deferred changes, in the order of the calls
+    std::vector<InstanceStart> wanted_;    ///< starts that apply from the end of the open step on
     std::vector<Slot> leaving_;            ///< removed instances
     std::vector<SimulationIndex> joining_; ///< simulations that may join a pool after the step
     std::vector<SimulationIndex> left_;    ///< simulations that left their pool in a step
     Plan publishPlan_;
-    uint64_t placed_ = 0; ///< of publishPlan_: see moves_
-    uint64_t moves_ = 1;  ///< goes up when an instance whose simulation is in a pool has been moved
-    std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< snapshots hold some of them
-    std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
+    uint64_t placed_ = 0; ///< value of moves_ for publishPlan_
+    uint64_t moves_ = 1;  ///< incremented when an instance whose simulation is in a pool is moved
+    std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< rosters, some of which snapshots hold
+    std::shared_ptr<base::GroupRoster> roster_;                  ///< roster of the last publication
     std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()
     uint64_t stepNumber_ = 0;
     uint64_t boards_ = 0; ///< number of EventBoards that have been created

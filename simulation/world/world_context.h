@@ -1,5 +1,5 @@
 /// @file world_context.h
-/// Step contexts of the solvers of a world. For the parts of World that step.
+/// Step contexts of the solvers of a world, for those parts of World that step.
 #pragma once
 
 #include "simulation/solver/placed_contact.h"
@@ -9,7 +9,7 @@
 
 namespace fx::sim {
 
-/// Calls body(context, simulation) with everything but the time filled in.
+/// Calls body(context, simulation). All members of the context except the time are set.
 template <class F>
 void World::withContext(SimulationIndex index, StepCounters& counters, F&& body)
 {

@@ -14,16 +14,16 @@
 
 namespace fx::test {
 
-/// Memory that counts, and that runs out when it is told to. Hooks are called by several threads at once.
+/// An allocator that counts, and that can be set to fail. Several threads may call its hooks at once.
 class HostAllocator
 {
 public:
     FxAllocator hooks() { return {this, &allocate, &release}; }
 
-    /// The `n`-th allocation from now, 1 for the next, fails and all after it; 0 for never.
+    /// Lets the `n`-th allocation from now (1: the next) and all later ones fail; 0: none fails.
     void failFrom(uint64_t n) { remaining_ = n; }
     bool hasFailed() const { return failed_; }
-    int64_t blocks() const { return blocks_; } ///< taken and not given back
+    int64_t blocks() const { return blocks_; } ///< allocated and not released
     int64_t bytes() const { return bytes_; }   ///< [byte]
 
 private:
@@ -41,9 +41,9 @@ private:
 
 constexpr double kFrame = 1.0 / 60.0; ///< [s]
 
-/// 60 particles a second that live 1 s, for ever; falls under gravity.
+/// A preset of 60 particles a second, without end. They live 1 s and fall under gravity.
 std::string fountainPreset();
-/// One burst of `count` particles that live `seconds`.
+/// A preset of one burst of `count` particles that live `seconds`.
 std::string burstPreset(int count, double seconds);
 
 #if FXSDK_WITH_SPH
@@ -53,12 +53,12 @@ constexpr const char* kLargeEffect = "library:explosion"; ///< of the library, w
 constexpr bool kHasGas = false;
 constexpr const char* kLargeEffect = "library:burning-debris";
 #endif
-/// In a test about gases; a build without them has nothing to test.
+/// Skips a test about gases if the build has no gases.
 #define FX_NEEDS_GAS()                                                                                       \
     if (!fx::test::kHasGas)                                                                                  \
     GTEST_SKIP() << "this build has no gases (FXSDK_WITH_SPH)"
 
-/// A gas (where there are gases), a burst and a fountain: little work, but everything that has a state.
+/// A preset of a gas (if the build has gases), a burst and a fountain: little work, but every kind of state.
 std::string smallBlastPreset();
 
 FxPresetId loadText(FxContext* context, const std::string& text);

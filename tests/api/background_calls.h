@@ -1,5 +1,5 @@
 /// @file background_calls.h
-/// Threads that make every call of the C API that any thread may make, while others update and draw.
+/// Threads that make every call that the C API allows on any thread, while other threads update and draw.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -11,7 +11,7 @@
 
 namespace fx::test {
 
-/// Threads run until stop() or the end of the object; each is one more for the same scenes and contexts.
+/// Each function starts a thread, which runs until stop() or the destruction of this object.
 class BackgroundCalls
 {
 public:
@@ -20,9 +20,10 @@ public:
     BackgroundCalls(const BackgroundCalls&) = delete;
     BackgroundCalls& operator=(const BackgroundCalls&) = delete;
 
-    /// Acquires one snapshot after another, reads all of them and expects that none changes while it is held.
+    /// Acquires one snapshot after another, reads it completely, and expects that it does not change while it
+    /// is held.
     void readSnapshots(FxScene* scene);
-    /// Loads, asks about and unloads presets with images and meshes, and is refused a broken one.
+    /// Loads, queries and unloads presets with images and meshes, and expects an error for a broken preset.
     void loadPresets(FxContext* context);
     void readMemoryStatistics(FxContext* context);
     void stop();

@@ -1,6 +1,6 @@
 /// @file bounds_trial.h
-/// One random preset, played to some moment, moved about and looked at from somewhere: which pixels it
-/// changes, and how far they are from where it was said to be.
+/// Plays one random preset to a random time, moves it, and renders it from a random position. Measures which
+/// pixels change and how far they are outside of the published bounds.
 #pragma once
 
 #include "tests/api/published_boxes.h"
@@ -16,7 +16,7 @@
 
 namespace fx::test {
 
-/// Looks at the world along -z of its own axes.
+/// A camera that looks along its local -z axis.
 struct TrialCamera
 {
     glm::dvec3 origin;
@@ -24,29 +24,30 @@ struct TrialCamera
     bool isParallel;
 };
 
-/// A ball in the world that nothing was to leave.
+/// A ball in world space that no particle should leave.
 struct TrialBall
 {
     glm::dvec3 center; ///< [m] world
     double radius;     ///< [m]
 };
 
-/// What became of a trial.
+/// Result of a trial.
 struct TrialResult
 {
     RandomPreset preset;
-    int drawn = 0;                                   ///< pixels that changed
-    std::array<double, size_t(Without::Count)> by{}; ///< [pixel] of the farthest one from those bounds
-    double slack = 0;                                ///< [pixel] by which it may be
-    bool isCut = false;                              ///< the bounds reach behind the near plane
+    int drawn = 0; ///< number of changed pixels
+    /// [pixel] distance of the farthest changed pixel from the bounds
+    std::array<double, size_t(Without::Count)> by{};
+    double slack = 0;      ///< [pixel] allowed distance
+    bool isCut = false;    ///< the bounds reach behind the near plane
     double tightness = 0;  ///< [1] linear size of the bounds on the picture over that of what was drawn; 0:
                            ///< cannot be told
-    double reach = 0;      ///< [m] as the instance says
+    double reach = 0;      ///< [m] reach that the instance reports
     double beyond = 0;     ///< [m] of the ray of the farthest pixel from the ball of that radius, less slack
     double room = 0;       ///< [1] that radius over the distance of the bounds' farthest corner
-    uint32_t onGpu = 0;    ///< rows that the GPU computed
-    uint32_t thinned = 0;  ///< rows that the level of detail left out
-    uint32_t pictures = 0; ///< effects that were drawn as pictures of themselves
+    uint32_t onGpu = 0;    ///< number of rows that the GPU computed
+    uint32_t thinned = 0;  ///< number of rows that the level of detail left out
+    uint32_t pictures = 0; ///< number of effects drawn as impostors
 };
 
 class BoundsTrialTest : public ViewApiTest
@@ -54,8 +55,8 @@ class BoundsTrialTest : public ViewApiTest
 protected:
     BoundsTrialTest();
 
-    /// @param isSharp a sharpPreset() that is moved in the last step and drawn as it is, from the side and
-    /// large
+    /// @param isSharp uses sharpPreset(), moved in the last step and drawn at full detail, large and from the
+    ///          side
     TrialResult tryOne(uint64_t seed, bool isSharp = false);
     /// [m] of the farthest pixel of the last trial from the reach that another preset would have in its
     /// place, as TrialResult::beyond.

@@ -1,8 +1,8 @@
 /// @file gl_ledger.h
-/// Stands between a context and OpenGL and keeps a list of what exists: textures by format, buffers by label,
-/// programs by name, framebuffers by number.
+/// Intercepts the OpenGL calls of a context and records the existing objects: textures by format, buffers by
+/// label, programs by name, and the number of framebuffers.
 ///
-/// Threads: one; one ledger at a time.
+/// Threads: one thread, and only one ledger at a time.
 #pragma once
 
 #include "rendering/platform/gl_context.h"
@@ -41,7 +41,7 @@ public:
             ++counts[label];
         return counts;
     }
-    const std::set<std::string>& programs() const { return programs_; } ///< ever made
+    const std::set<std::string>& programs() const { return programs_; } ///< all that were ever created
     size_t framebuffers() const { return framebuffers_.size(); }        ///< alive
 
 private:

@@ -1,6 +1,6 @@
 /// @file host_target_fixture.h
-/// The burning scene of ViewApiTest drawn into textures of the host's choice, each compared with the picture
-/// that an RGBA32F texture with the same light in it gets.
+/// Draws the burning scene of ViewApiTest into textures of various formats. Each result is compared with that
+/// of an RGBA32F texture of the same light.
 #pragma once
 
 #include "tests/api/host_textures.h"
@@ -11,7 +11,7 @@
 
 namespace fx::test {
 
-/// How a format stores light, for what may be expected of a picture in it.
+/// Encoding of light in a texture format, for the expected accuracy of pictures.
 struct ColorFormat
 {
     GLenum format;
@@ -24,14 +24,14 @@ struct ColorFormat
         Float,
         Srgb,
     } kind;
-    double step;      ///< Unorm, Srgb: one code; Float: relative distance of neighbors
-    double alphaStep; ///< the same of alpha; 0: has none
+    double step;      ///< Unorm, Srgb: one code; Float: relative distance of neighboring values
+    double alphaStep; ///< step of alpha; 0: there is no alpha
 };
 
 struct Outcome
 {
     FxResult result;
-    std::string words; ///< of a refusal
+    std::string words; ///< error message
 };
 
 double srgbDecoded(double code);
@@ -42,20 +42,20 @@ class HostTargetTest : public ViewApiTest
 protected:
     HostTargetTest();
 
-    /// Nothing but media over the picture, blended into it where it lies; otherwise glare and shimmer as
-    /// well, which make a picture of their own that is written back.
+    /// @param inPlace true: only media, which are blended into the picture; false: also glare and shimmer,
+    /// which need a copy of the picture that is written back
     void useSettings(bool inPlace, bool toneMap = false);
     Outcome render(const FxFrameDef& def);
 
-    /// The middle of the picture covers all of [0, 1], its corner is not reached by media.
+    /// A picture whose middle covers all of [0, 1]. Media do not reach its corner.
     std::vector<float> gradient() const;
     void write(GLuint texture, const std::vector<float>& rgba);
     std::vector<float> read(GLuint texture); ///< RGBA as stored
-    /// What `stored` codes mean.
+    /// Converts stored codes to light.
     static std::vector<float> lightOf(const ColorFormat& format, std::vector<float> stored);
-    /// The picture of the frame in RGBA32F over `light`.
+    /// Result of the frame in RGBA32F over `light`.
     std::vector<float> reference(FxFrameDef def, const std::vector<float>& light);
-    /// Compares what is stored with the reference picture.
+    /// Compares the stored values with the reference picture. @return a message; empty if they agree
     std::string faultOf(const ColorFormat& format, const std::vector<float>& stored,
                         const std::vector<float>& expected) const;
     /// Far on the left, a wall through the flames on the right.

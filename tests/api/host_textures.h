@@ -1,5 +1,5 @@
 /// @file host_textures.h
-/// Textures and framebuffers as hosts make them: of any target, format, count of samples and state.
+/// Textures and framebuffers of a host, with any target, format, number of samples and state.
 #pragma once
 
 #include "rendering/platform/gl_context.h"
@@ -11,7 +11,7 @@
 
 namespace fx::test {
 
-/// What hosts call that the library does not.
+/// GL functions that hosts call and the library does not.
 struct HostGl
 {
     explicit HostGl(const render::GlLoader& loader);
@@ -64,7 +64,7 @@ struct HostGl
 #undef FX_HOST_GL_MEMBER
 };
 
-/// Makes textures and framebuffers and deletes them in the end.
+/// Creates textures and framebuffers and deletes them in its destructor.
 class HostTextures
 {
 public:
@@ -73,12 +73,12 @@ public:
     HostTextures(const HostTextures&) = delete;
     HostTextures& operator=(const HostTextures&) = delete;
 
-    /// Immutable; of `layers` layers, cubes have six faces; of four samples where the target has samples.
+    /// Immutable texture with `layers` layers; cubes have six faces, multisample targets four samples.
     GLuint make(GLenum target, GLenum format, int width, int height, int levels = 1, int layers = 2);
     GLuint make2D(GLenum format, int size) { return make(GL_TEXTURE_2D, format, size, size); }
-    /// A 2-D view of a level of a layer.
+    /// A 2-D view of one level of one layer.
     GLuint makeView(GLuint of, GLenum format, GLuint level, GLuint layer);
-    /// By glTexImage2D, without mipmaps, with the default filters; without an image where the size is 0.
+    /// By glTexImage2D, without mipmaps, with the default filters; without an image if the size is 0.
     GLuint makeMutable(GLenum format, int size);
     /// A framebuffer with one color attachment, the whole texture.
     GLuint makeFramebuffer(GLuint color);

@@ -1,6 +1,6 @@
 /// @file host_threads.h
-/// A host's own threads behind FxContextDef::parallelFor. They are compiled with the test, so that the thread
-/// sanitizer knows every order that they make, and only these.
+/// A host's own threads for FxContextDef::parallelFor. They are compiled with the test, so that the thread
+/// sanitizer sees all of their synchronization.
 #pragma once
 
 #include "fxsdk/fx_context.h"
@@ -14,12 +14,12 @@
 
 namespace fx::test {
 
-/// Loops of any number of callers at once. A caller takes ranges of its own loop, too. Ranges have the least
-/// length that is allowed, and no range waits for another one of its loop.
+/// Runs loops of any number of simultaneous callers. A caller also takes ranges of its own loop. Ranges have
+/// the minimum allowed length, and no range waits for another range of its loop.
 class HostThreads
 {
 public:
-    explicit HostThreads(uint32_t helpers); ///< threads beside those that call
+    explicit HostThreads(uint32_t helpers); ///< @param helpers threads besides the callers
     ~HostThreads();
     HostThreads(const HostThreads&) = delete;
     HostThreads& operator=(const HostThreads&) = delete;

@@ -7,7 +7,7 @@
 
 namespace fx::test {
 
-/// Names of the library's presets that this build can load: without gases, those without gas.
+/// Names of the library's presets that this build can load; without gases: of the presets without gas.
 std::vector<std::string> libraryNames();
 
 } // namespace fx::test

@@ -1,14 +1,14 @@
 /// @file measured_new.h
-/// Measures what the whole program takes from the runtime's memory.
+/// Measures the memory that the whole program allocates by operator new.
 #pragma once
 
 #include <cstddef>
 
 namespace fx::test {
 
-/// Begins anew: what is taken now is 0.
+/// Restarts the measurement at 0.
 void resetMeasuredNew();
-size_t largestNew(); ///< [byte] largest block since then
-size_t highestNew(); ///< [byte] most that was taken at a time since then, on top of what there was
+size_t largestNew(); ///< [byte] largest block since the restart
+size_t highestNew(); ///< [byte] largest simultaneous total since the restart, beyond what existed then
 
 } // namespace fx::test

@@ -1,5 +1,5 @@
 /// @file memory_sweep.h
-/// A host that refuses memory: the first time it is asked, the second time, and so on.
+/// A host whose allocator fails at the first request, then at the second, and so on.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -13,14 +13,14 @@
 
 namespace fx::test {
 
-/// Memory that refuses one request, or that one and all after it.
+/// An allocator in which one request fails, or that request and all later ones.
 class ScarceMemory
 {
 public:
     FxAllocator hooks() { return {this, &allocate, &release}; }
 
-    /// @param n      the request from now that is refused, 1 for the next; 0 for none
-    /// @param isGone all after it are refused as well
+    /// @param n      number of the failing request from now, 1 for the next; 0 for none
+    /// @param isGone true: all later requests fail as well
     void refuse(uint64_t n, bool isGone)
     {
         requests_ = 0;
@@ -29,7 +29,7 @@ public:
         hasRefused_ = false;
     }
     bool hasRefused() const { return hasRefused_; }
-    int64_t blocks() const { return blocks_; } ///< taken and not given back
+    int64_t blocks() const { return blocks_; } ///< allocated and not released
 
 private:
     static void* allocate(void* user, size_t size, size_t alignment)
@@ -57,18 +57,20 @@ private:
     std::atomic<bool> hasRefused_{false};
 };
 
-/// The request after `n` that a sweep refuses. With the environment variable FXSDK_EVERY_ALLOCATION each is
-/// refused; without it all of the first 32, and from then on one of every sixteenth part.
+/// Number of the next failing request of a sweep after `n`. With the environment variable
+/// FXSDK_EVERY_ALLOCATION every request fails in turn. Without it the first 32 do, then steps grow by a
+/// sixteenth of `n`.
 inline uint64_t nextRefused(uint64_t n)
 {
     static const bool everyOne = std::getenv("FXSDK_EVERY_ALLOCATION") != nullptr;
     return everyOne ? n + 1 : n + 1 + n / 32 * 2;
 }
 
-/// Calls `action` with one request for memory refused after the other, each both for once and with all that
-/// follow, until it asks for no more. A call that fails says so with FX_ERROR_OUT_OF_MEMORY, and
-/// `isAsBefore` then holds; a refusal that does no harm is allowed. Nothing leaks: what stays after a failure
-/// is room that is kept for the next try, so that failures at the same place soon add nothing.
+/// Repeats `action` with a failing request, one request after another, until it succeeds without reaching it.
+/// Each request fails once alone and once with all later ones. A call that fails must return
+/// FX_ERROR_OUT_OF_MEMORY, and then `isAsBefore` must hold; calls may also succeed in spite of the failing
+/// request. There must be no leak: memory kept after a failure is reused by the next try, so repeated
+/// failures at the same request soon add nothing.
 /// @return number of failures
 template <class Action, class IsAsBefore>
 uint64_t refuseEach(ScarceMemory& memory, Action&& action, IsAsBefore&& isAsBefore)

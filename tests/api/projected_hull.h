@@ -1,6 +1,5 @@
 /// @file projected_hull.h
-/// What a camera can see of a convex body: its part before the near plane, as a convex polygon of the
-/// picture.
+/// The visible part of a convex body, in front of the near plane, as a convex polygon in the picture.
 #pragma once
 
 #include <glm/common.hpp>
@@ -19,7 +18,7 @@ namespace fx::test {
 class ProjectedHull
 {
 public:
-    /// @param corners    [m] in eye coordinates, of which the body is the convex hull
+    /// @param corners    [m] points in eye coordinates, whose convex hull is the body
     /// @param projection eye to clip
     /// @param nearPlane  [m]
     ProjectedHull(const std::vector<glm::dvec3>& corners, const glm::dmat4& projection, double nearPlane,
@@ -42,10 +41,10 @@ public:
     }
 
     bool empty() const { return polygon_.empty(); }
-    /// [pixel] corners of the rectangle around it, which must not be empty.
+    /// [pixel] Corners of the bounding rectangle; the polygon must not be empty.
     glm::dvec2 low() const { return extreme(-1.0); }
     glm::dvec2 high() const { return extreme(1.0); }
-    /// [pixel] from a point of the picture; 0 inside, infinite when nothing is to be seen.
+    /// [pixel] Distance of a point from the polygon; 0 inside, infinite if the polygon is empty.
     double distance(glm::dvec2 point) const
     {
         double nearest = std::numeric_limits<double>::infinity();

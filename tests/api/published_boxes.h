@@ -1,6 +1,5 @@
 /// @file published_boxes.h
-/// Where snapshots say that something is: the bounds of their groups, and boxes that a writer would have
-/// given who has forgotten something.
+/// The published bounds of the groups of snapshots, and deliberately incomplete bounds for comparison.
 #pragma once
 
 #include "fxsdk/fx_snapshot.h"
@@ -13,19 +12,19 @@
 
 namespace fx::test {
 
-/// What is left out of the bounds.
+/// The part that is omitted from the bounds.
 enum class Without
 {
     Nothing,  ///< the bounds as they are published
-    Rows,     ///< nothing, but found anew, row by row: no larger than what is published
-    Tenth,    ///< of their size
+    Rows,     ///< nothing; computed again row by row, never larger than the published bounds
+    Tenth,    ///< a tenth of their size
     Size,     ///< radii, corners and widths
-    Stretch,  ///< by which sprites are longer for their speed
-    Shutter,  ///< for which media are drawn out
-    Births,   ///< on the way from where they happened since the older snapshot
-    Children, ///< emitters that others cause births in
+    Stretch,  ///< the stretching of sprites by their speed
+    Shutter,  ///< the stretching of media by the open shutter
+    Births,   ///< the path from births since the older snapshot
+    Children, ///< emitters whose births other emitters cause
     Trails,
-    OlderPlace, ///< where the instance was before its last move
+    OlderPlace, ///< the placement of the instance before its last move
     Count
 };
 const char* nameOf(Without what);
@@ -43,10 +42,10 @@ struct PublishedBox
     Place place, other; ///< of its own step and of the other
 };
 
-/// Corners in the world of all boxes; of boxes that move, at moments between both steps as well.
+/// Corners of all boxes in the world; for moving boxes also at times between both steps.
 std::vector<glm::dvec3> cornersOf(const std::vector<PublishedBox>& boxes);
 
-/// One snapshot of a scene, held while it lives.
+/// One snapshot of a scene, held during the lifetime of this object.
 class PublishedBoxes
 {
 public:

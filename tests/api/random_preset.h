@@ -1,5 +1,5 @@
 /// @file random_preset.h
-/// Random presets: any shape, force and appearance, within bounds that a camera can see.
+/// Random presets with any shape, force and appearance, within the view of a camera.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 
 namespace fx::test {
 
-/// Numbers that are the same everywhere.
+/// Random numbers that are the same on every machine.
 class Dice
 {
 public:
     explicit Dice(uint64_t seed);
     double between(double low, double high) { return low + (high - low) * unit(); }
-    /// Spread evenly over orders of magnitude.
+    /// Uniform in the logarithm.
     double magnitude(double low, double high);
-    bool one(int in) { return next() % uint64_t(in) == 0; } ///< true one time in so many
+    bool one(int in) { return next() % uint64_t(in) == 0; } ///< true with the probability 1 / in
     size_t below(size_t count) { return size_t(next() % count); }
 
 private:
@@ -33,14 +33,14 @@ struct RandomPreset
 
 /// A preset with an emitter or a chain of them, with fragments or with gas. It names the assets below and
 /// "library:debris-chunk.obj".
-/// @param gpu whether emitters may ask for the GPU  @param gas whether there may be gas
+/// @param gpu whether emitters may prefer the GPU  @param gas whether there may be gas
 RandomPreset randomPreset(uint64_t seed, bool gpu, bool gas);
 
-/// The same of one emitter of few small solid particles that are fast in one direction, so that it can be
-/// seen where they end.
+/// A random preset with one emitter of few small solid particles, which are fast in one direction, so that
+/// their extent is clearly visible.
 RandomPreset sharpPreset(uint64_t seed);
 
-/// "lump.obj", "cloud.fxgrid" and "wind.fxgrid": a mesh and a density to be born in, and moving air.
+/// The assets "lump.obj", "cloud.fxgrid" and "wind.fxgrid": a mesh and a density for births, and moving air.
 std::string lumpObj();
 std::string cloudGrid();
 std::string windGrid();

@@ -1,7 +1,6 @@
 /// @file scene_script.h
-/// The calls of a host on one scene, the same in every run: instances come, go, move, jump in time and out of
-/// sight, and states are saved and restored. What the scene comes to must not depend on what other threads
-/// do.
+/// Calls of a host on one scene, the same in every run: instances are created, destroyed, moved, hidden and
+/// taken to other times, and states are saved and restored. The result must not depend on other threads.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -17,13 +16,13 @@ class SceneScript
 {
 public:
     /// Creates a scene that belongs to the calling thread, with its first instances.
-    /// @param number scripts of different numbers do different things
+    /// @param number selects one of several scripts
     SceneScript(FxContext* context, uint32_t number);
 
     FxScene* scene() const { return scene_; }
     void play(int frames);
-    uint64_t stateHash() const;      ///< of what is to be seen
-    uint64_t simulationHash() const; ///< of all that decides what later steps give
+    uint64_t stateHash() const;      ///< of the visible state
+    uint64_t simulationHash() const; ///< of everything that later steps depend on
 
 private:
     static constexpr size_t kMaxInstances = 10;

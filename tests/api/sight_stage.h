@@ -1,5 +1,5 @@
 /// @file sight_stage.h
-/// Scenes of effects whose states are easy to compare, and cameras to look at them.
+/// Scenes of effects whose states are easy to compare, and cameras for them.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -18,17 +18,17 @@ namespace fx::test {
 
 constexpr base::Ticks kStep = base::kTicksPerSecond / 60;
 
-/// What a toy solver can do.
+/// Properties of a toy solver.
 struct ToyKind
 {
     bool seeks = false;         ///< its state is a pure function of time and intensity
-    uint32_t elements = 4;      ///< that it counts as
-    base::Ticks restsUntil = 0; ///< local time before which it has nothing and does nothing
+    uint32_t elements = 4;      ///< number of elements that it reports
+    base::Ticks restsUntil = 0; ///< local time before which it has no elements
     base::Ticks endsAt = INT64_MAX;
-    int* created = nullptr; ///< counts solvers made
+    int* created = nullptr; ///< counter of created solvers
 };
 
-/// A number that every step changes: a sum over time when it seeks, a chain of hashes otherwise.
+/// A solver whose state is a number: a sum over time if it seeks, otherwise a chain of hashes over steps.
 class ToySolver final : public sim::Solver, public sim::SeekableSolver
 {
 public:
@@ -96,7 +96,7 @@ struct ToyDef final : sim::SolverDef
 
 using Effect = std::shared_ptr<sim::EffectDef>;
 
-/// An effect that is equal to no other one.
+/// An effect that differs from every other effect.
 inline Effect emptyEffect()
 {
     static uint64_t made = 0;
@@ -112,8 +112,8 @@ inline Effect toyEffect(const ToyKind& kind)
     return effect;
 }
 
-/// Real particles: 60 a second that live half of one.
-/// @param curls their motion is integrated
+/// An emitter of 60 particles a second that live half a second.
+/// @param curls true: their motion is integrated
 inline Effect fountainEffect(bool curls = false, float longestLife = 0.5f)
 {
     auto emitter = std::make_unique<sim::EmitterDef>();
@@ -132,7 +132,8 @@ inline Effect fountainEffect(bool curls = false, float longestLife = 0.5f)
     return effect;
 }
 
-/// A camera in the origin that looks horizontally, 0 along -Z, with a view of 60 degrees.
+/// A camera at the origin that looks horizontally, with a field of view of 60 degrees. @param radians 0:
+/// along -Z
 inline activation::Frustum lookAt(double radians, activation::Frustum::Limits limits = {})
 {
     const glm::mat4 view = glm::rotate(glm::mat4(1.0f), float(radians), glm::vec3(0, 1, 0));

@@ -1,6 +1,5 @@
 /// @file technique_rows.h
-/// What there is in a scene because of one technique and nothing else. A technique that is added gets a row
-/// here.
+/// The objects in a frame that exist because of one technique only. A new technique needs a row here.
 #pragma once
 
 #include "tests/api/gl_ledger.h"
@@ -14,14 +13,14 @@ namespace fx::test {
 struct TechniqueRow
 {
     std::string name;
-    std::string members;             ///< of a preset that calls for it; empty: a setting of the view does
-    std::string standsOn;            ///< another technique that it draws with; empty: none
-    std::vector<std::string> passes; ///< of a frame right after a step
+    std::string members;             ///< preset members that use it; empty: a setting of the view enables it
+    std::string standsOn;            ///< another technique that it requires for drawing; empty: none
+    std::vector<std::string> passes; ///< passes of a frame right after a step
     std::set<std::string> programs;
     GlLedger::Counts textures, buffers;
-    /// Of those above, what no row has but those that stand on this one.
+    /// Those of the above that occur only in this row and in rows that require it.
     std::set<std::string> ownPasses, ownPrograms;
-    bool meetsMesh = false; ///< its effect collides with the host's geometry, which is there with it
+    bool meetsMesh = false; ///< its effect collides with the host's geometry, which is then set
 };
 
 /// An emitter of 60 particles a second about the origin, with more members of its own.
@@ -113,7 +112,7 @@ inline TechniqueRow lightsRow() ///< a list for the host: nothing is drawn
             {}};
 }
 
-/// Geometry of the host that effects collide with: steps ask it, and nothing is drawn of it.
+/// Geometry of the host that effects collide with. Steps sample it; it is not drawn.
 inline TechniqueRow sceneMeshRow()
 {
     TechniqueRow row{"scene mesh",

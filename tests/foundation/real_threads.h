@@ -8,8 +8,8 @@
 
 namespace fx::test {
 
-/// While it lives, loops on TBB run on as many threads as they are asked to, up to `most`. Without it on no
-/// more than the machine has processors: then 16 workers of two processors would be 2.
+/// During its lifetime, TBB loops run on up to `most` threads, as requested. Without it TBB uses at most as
+/// many threads as the machine has processors; 16 workers on two processors would be 2 threads.
 class RealThreads
 {
 public:

@@ -2,9 +2,9 @@
 /// Plays bytes as a recording of calls of the C API: three contexts with scenes, instances, snapshots and
 /// views, whose callbacks make further calls of the recording.
 ///
-/// Each call takes 32 bytes: two choose the function, the others its objects and arguments, valid and invalid
-/// ones alike; zeros mean what hosts do most. Arguments whose cost is documented and without bound (steps of
-/// one update, cells of a mesh) stay small.
+/// Each call takes 32 bytes. Two of them choose the function, the others its objects and arguments, valid and
+/// invalid ones; zeros select typical values. Arguments with a documented unbounded cost (steps of one
+/// update, cells of a mesh) are kept small.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -16,7 +16,7 @@
 
 namespace fx::fuzz {
 
-/// What views draw into; made once for all inputs. Nothing without GL.
+/// Targets into which views draw; created once for all inputs. Empty without GL.
 struct GlHost
 {
     FxGlLoader loader{};
@@ -51,7 +51,7 @@ public:
     CallsPlayer(const CallsPlayer&) = delete;
     CallsPlayer& operator=(const CallsPlayer&) = delete;
 
-    /// All calls, then destroys what is left and checks that no memory is held.
+    /// Makes all calls, then destroys the remaining objects and checks that no memory is held.
     void play();
 
 private:
@@ -65,7 +65,7 @@ private:
     void forget(const void* memory, size_t size);
     void destroyAll(PlayedContext& played);
 
-    /// Mostly the first.
+    /// A random context; the first one is the most frequent.
     PlayedContext& anyContext() { return contexts_[input_.one(4) ? 1 + input_.below(2) : 0]; }
     PlayedScene& sceneOf(PlayedContext& played) { return played.scenes[input_.one(4) ? 1 : 0]; }
     FxView*& viewOf(PlayedContext& played) { return played.views[input_.one(4) ? 1 : 0]; }
@@ -125,7 +125,7 @@ private:
     std::array<PlayedContext, 3> contexts_;
     int depth_ = 0;          ///< of calls within callbacks
     uint32_t calls_ = 0;     ///< made so far
-    uint32_t intruders_ = 0; ///< callbacks that will still make a call
+    uint32_t intruders_ = 0; ///< number of callbacks that may still make a call
 };
 
 } // namespace fx::fuzz

@@ -16,15 +16,15 @@ namespace fx::fuzz {
 /// particles.
 std::span<const std::string_view> smallPresets();
 
-/// Ends the process when `result` is no documented code, reports a defect of the library, or has no message.
+/// Ends the process if `result` is not a documented code, is FX_ERROR_INTERNAL, or has no message.
 FxResult checked(FxResult result);
 
 class FuzzHost
 {
 public:
-    /// What a callback does before it does its work; may be empty.
+    /// Called by a callback before its own work; may be empty.
     std::function<void()> intrude;
-    /// Told before memory is released.
+    /// Called before memory is released.
     std::function<void(const void* memory, size_t size)> releasing;
     bool reversesLoops = false;      ///< whether the parts of a loop run from the last to the first
     uint32_t failAfter = UINT32_MAX; ///< allocations that succeed before all others fail
@@ -33,7 +33,7 @@ public:
     FuzzHost(const FuzzHost&) = delete;
     FuzzHost& operator=(const FuzzHost&) = delete;
 
-    /// Everything but GL comes from this host. It must outlive the context.
+    /// A definition with all hooks of this host except GL. The host must outlive the context.
     FxContextDef contextDef();
     size_t blocks() const { return blocks_.size(); } ///< taken and not given back
 

@@ -18,7 +18,7 @@
 
 namespace fx::fuzz {
 
-/// Runs one input. Defined by each target. Aborts when a promise of the product is broken.
+/// Runs one input. Defined by each target. Aborts if a documented property is violated.
 void runInput(std::span<const uint8_t> input);
 
 /// Inputs that reach deep into the code. Defined by each target; the same in every run.
@@ -55,7 +55,7 @@ public:
     uint8_t byte() { return value<uint8_t>(); }
     uint32_t below(uint32_t count) { return byte() % count; } ///< @param count 1..256
     bool one(uint32_t in) { return below(in) == in - 1; }     ///< true for one of `in` bytes, never for 0
-    /// The next `count` bytes apart, so that a change of them moves nothing behind them.
+    /// Splits off the next `count` bytes, so that changing them does not shift the bytes behind them.
     InputReader part(size_t count)
     {
         const InputReader result(left_.first(std::min(count, left_.size())));

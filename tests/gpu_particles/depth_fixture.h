@@ -1,5 +1,5 @@
 /// @file depth_fixture.h
-/// Particles of steppedText() under a camera that sees planes, and how exact their contacts can be.
+/// Particles of steppedText() under a camera that sees planes, and error bounds of their contacts.
 #pragma once
 
 #include "gpu_fixture.h"
@@ -20,9 +20,9 @@ namespace column = base::particle_column;
 
 inline constexpr int kWidth = 160, kHeight = 120;
 inline constexpr float kAspect = float(kWidth) / float(kHeight);
-inline constexpr double kFastest = 9.0; ///< [m/s] of particles of steppedText() when they land
+inline constexpr double kFastest = 9.0; ///< [m/s] largest landing speed of particles of steppedText()
 
-/// A camera above the emitter of steppedText(), from which all that it throws is seen.
+/// A camera above the emitter of steppedText(), which sees all of its particles.
 inline const render::CameraPose kAbove{{1.5, 8.0, 9.0}, {0.3, 0.0, 0.6}};
 
 struct CameraCase
@@ -104,7 +104,7 @@ protected:
         depthCamera_ = camera;
         states_ = makeStates();
     }
-    /// [m] Largest difference of places; rows that live on one side only are counted.
+    /// [m] Largest difference of positions. Rows that are alive on one side only are counted.
     double worstOf(const Rows& cpu, const Rows& gpu, size_t& outLiving, size_t& outLonely)
     {
         double worst = 0.0;
@@ -126,7 +126,7 @@ protected:
     {
         return device_->limits().renderer.find("llvmpipe") != std::string::npos ? 0.0 : 1e-4;
     }
-    /// What has touched nothing, or moves as on the CPU.
+    /// Expects equal motion on both sides, for particles without contacts.
     void expectSame(const Rows& cpu, const Rows& gpu)
     {
         size_t living = 0, lonely = 0;

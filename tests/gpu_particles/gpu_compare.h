@@ -1,5 +1,5 @@
 /// @file gpu_compare.h
-/// Rows that the GPU has computed against those of the CPU.
+/// Compares rows that the GPU has computed with those of the CPU.
 #pragma once
 
 #include "gpu_fixture.h"
@@ -11,7 +11,8 @@ namespace fx::test {
 
 namespace column = base::particle_column;
 
-inline constexpr float kBound = 4e-6f; ///< of the way, see docs/howto/gpu-particles.md
+/// Relative to the length of the path, see docs/howto/gpu-particles.md
+inline constexpr float kBound = 4e-6f;
 
 /// Largest distance of a living particle from the origin.
 inline float farthest(const Rows& rows)
@@ -36,7 +37,7 @@ inline void expectInside(const base::Bounds& seen, const base::Bounds& possible)
     EXPECT_LT(size, 40.0f * glm::length(seen.max - seen.min) + 1.0f) << "bounds of no use";
 }
 
-/// Living rows that are not equal in everything, bit for bit.
+/// Number of living rows that are not bit-equal.
 inline size_t countDifferent(const Rows& cpu, const Rows& gpu)
 {
     size_t different = 0;
@@ -50,7 +51,7 @@ inline size_t countDifferent(const Rows& cpu, const Rows& gpu)
     return different;
 }
 
-/// @return living ones
+/// Compares the rows. @return number of living rows
 inline size_t compare(const Rows& cpu, const Rows& gpu)
 {
     size_t living = 0, wrong = 0;

@@ -1,5 +1,5 @@
 /// @file gpu_fixture.h
-/// The same effect twice, once with its emitters on the CPU and once on the GPU, and a view to compute with.
+/// The same effect on the CPU and on the GPU, and a view for the computation.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -18,7 +18,7 @@
 
 namespace fx::test {
 
-/// Text of a library preset whose emitters all ask for `compute`.
+/// Text of a library preset in which all emitters have the member `compute`.
 std::string libraryText(const std::string& name, const char* compute);
 std::vector<std::string> libraryNames();
 
@@ -34,7 +34,7 @@ public:
     void seekTo(double seconds);
     const base::FrameSnapshot& publish();
     const base::FrameSnapshot& publishedLast() const { return *snapshot_; }
-    /// What publish() returned before.
+    /// The snapshot before the last one.
     const base::FrameSnapshot* older() const { return older_.get(); }
     sim::World& world() { return world_; }
     sim::Slot slot() const { return slot_; }
@@ -69,18 +69,18 @@ protected:
     void TearDown() override;
 
     std::shared_ptr<const sim::EffectDef> load(const std::string& text);
-    /// What the GPU makes of a group of the kind "gpuParticle".
+    /// Rows that the GPU computes from a group of the kind "gpuParticle".
     Rows computed(const base::SnapshotGroup& group) { return computed(group, *states_); }
     Rows computed(const base::SnapshotGroup& group, render::GpuStates& states);
     std::unique_ptr<render::GpuStates> makeStates()
     {
         return std::make_unique<render::GpuStates>(*device_, std::pmr::get_default_resource());
     }
-    /// The picture of two steps, half way between them.
+    /// The picture in the middle between two steps.
     Picture draw(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
     base::Status drawInto(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
 
-    /// What has been seen, in the graph that is being made.
+    /// The depth of setDepth(), imported into the graph of this frame.
     render::GpuDepth seenDepth();
 
     base::AssetTable assets_{std::pmr::get_default_resource()};

@@ -1,5 +1,5 @@
 /// @file seen_planes.h
-/// Depth textures of planes, as a rasterizer would have written them, and how exact they are.
+/// Depth textures of planes, as a rasterizer writes them, and their resolution.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -17,12 +17,13 @@
 
 namespace fx::test {
 
-/// World points p with dot(normal, p) = offset; seen from the side that the normal points to.
+/// World points p with dot(normal, p) = offset. The plane is visible from the side to which the normal
+/// points.
 struct SeenPlane
 {
     glm::dvec3 normal; ///< unit
     double offset;     ///< [m]
-    /// Where it is there; empty: everywhere.
+    /// Whether the plane exists at a position; empty: everywhere.
     std::function<bool(const glm::dvec3& place)> isThere = {};
 };
 
@@ -32,7 +33,7 @@ struct PixelRay
     glm::dvec3 from, way;
 };
 
-/// Through the camera's matrices alone, so that it shares nothing with what is tested.
+/// Computed from the camera's matrices only, independent of the tested code.
 inline PixelRay rayOf(const render::CameraView& camera, int width, int height, double x, double y)
 {
     const glm::dmat4 back = glm::inverse(glm::dmat4(camera.projection) * glm::dmat4(camera.view));
@@ -48,7 +49,7 @@ inline PixelRay rayOf(const render::CameraView& camera, int width, int height, d
     return {near, farther - near};
 }
 
-/// What is stored for a world place.
+/// Depth value that is stored for a world position.
 inline double storedDepth(const render::CameraView& camera, const glm::dvec3& place)
 {
     const glm::dvec4 clip =
@@ -57,7 +58,7 @@ inline double storedDepth(const render::CameraView& camera, const glm::dvec3& pl
     return camera.zeroToOne ? n : 0.5 * (n + 1.0);
 }
 
-/// The nearest plane in each pixel, row by row from the texture's first.
+/// Depth of the nearest plane in each pixel, row by row from the first row of the texture.
 inline std::vector<float> depthOf(const render::CameraView& camera, int width, int height,
                                   const std::vector<SeenPlane>& planes)
 {
@@ -80,7 +81,7 @@ inline std::vector<float> depthOf(const render::CameraView& camera, int width, i
     return stored;
 }
 
-/// How exact a texture is at a distance along the axis.
+/// Resolution of a depth texture at a distance along the axis.
 struct DepthResolution
 {
     double texture; ///< [m] between two neighboring values, and what floats make of them

@@ -1,6 +1,6 @@
 /// @file member_probe.h
-/// Checks, for each member that a schema names, that the reader reads it and that the documented default is
-/// the real one.
+/// Checks for each member of a schema that the reader reads it, and that the documented default is the real
+/// one.
 #pragma once
 
 #include "fxsdk/presets/preset_loader.h"
@@ -16,7 +16,7 @@ namespace fx::test {
 
 using Json = nlohmann::json;
 
-/// Everything that a solver's definition holds, as numbers.
+/// All values of a solver's definition, as numbers.
 using Fields = std::vector<double>;
 using FieldsOf = std::function<Fields(const sim::SolverDef&)>;
 
@@ -32,7 +32,7 @@ inline Fields load(const std::string& member, const Json& element, const FieldsO
     return fieldsOf(*loaded->effect->solvers.at(0));
 }
 
-/// A value that the schema allows and that is not the default.
+/// A value that the schema allows and that differs from the default.
 inline Json otherValue(const Json& member)
 {
     if (member.contains("enum"))
@@ -51,7 +51,7 @@ inline Json otherValue(const Json& member)
     return other;
 }
 
-/// Tests each plain member of `object` (a schema); `place` puts a value for it into an element.
+/// Tests each plain member of `object` (a schema). `place` inserts a value for the member into an element.
 inline void probeMembers(const std::string& presetMember, const Json& object, const Json& element,
                          const std::string& where, const FieldsOf& fieldsOf)
 {

@@ -1,5 +1,6 @@
 /// @file module_probe.h
-/// What the modules of an emitter do, as numbers: two emitters whose modules differ give different ones.
+/// Behavior of an emitter's modules as numbers, so that emitters with different modules give different
+/// numbers.
 #pragma once
 
 #include "simulation/emitters/emitter_def.h"
@@ -11,7 +12,7 @@
 
 namespace fx::test {
 
-/// Places and directions of a few births.
+/// Adds positions and directions of a few births.
 inline void addBirths(Fields& fields, const sim::ShapeOp* births)
 {
     if (!births)
@@ -30,7 +31,7 @@ inline void addBirths(Fields& fields, const sim::ShapeOp* births)
         fields.insert(fields.end(), column, column + kCount);
 }
 
-/// Sums, places and flags after each module ran on a cloud of particles.
+/// Adds sums, positions and flags after each module has processed a cloud of particles.
 inline void addModules(Fields& fields, const std::vector<std::shared_ptr<const sim::TileOp>>& modules)
 {
     constexpr uint32_t kRows = 64;

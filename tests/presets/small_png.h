@@ -1,5 +1,5 @@
 /// @file small_png.h
-/// A picture as small as can be.
+/// A very small PNG picture.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 /// @file temp_folder.h
-/// A folder for one test, gone afterwards.
+/// A folder for one test, which is removed afterwards.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// @file scripted_load.h
-/// Frames whose times are written down beforehand: a load that jumps, noise, spikes, results that come late.
-/// No clock is asked, so that every run is the same.
+/// Frames with predefined times: a load that jumps, noise, spikes, late results. No clock is read, so that
+/// every run is the same.
 #pragma once
 
 #include "foundation/random/philox.h"
@@ -17,17 +17,17 @@ constexpr double kBudget = 4.0;         ///< [ms]
 constexpr double kFrameTime = 1.0 / 60; ///< [s]
 constexpr int kFrames = 6000;
 
-/// Six techniques alike, each with six settings of 0 to 2.2 ms at normal load.
+/// Six equal techniques, each with six levels of 0 to 2.2 ms at normal load.
 std::vector<ScalabilityLevels> sixTechniques();
 /// Frames in which the load differs from the frame before.
 std::vector<int> loadChanges();
 
-/// What one run came to.
+/// Result of one run.
 struct Outcome
 {
     int over = 0;          ///< frames above the budget
     int switches = 0;      ///< frames that changed a choice
-    int worstRecovery = 0; ///< frames from a jump of the load to the first that its load fits for good
+    int worstRecovery = 0; ///< frames from a jump of the load until frames stay within the budget
     int returns = 0;  ///< a technique went back within a second to where it was, without a jump of the load
     int flickers = 0; ///< A, B, A, B within a second, jumps or not
     double meanError = 0; ///< [1] summed over techniques
@@ -44,9 +44,9 @@ struct Script
 };
 
 Outcome playController(const Script& script);
-/// The same frames with the quality of the start.
+/// Plays the same frames with the initial quality.
 Outcome playFixed(const Script& script);
-/// The same frames with one step up or down for all, by the time of the frame.
+/// Plays the same frames; all techniques go one level up or down by the time of the frame.
 Outcome playNaive(const Script& script);
 
 } // namespace fx::quality::test

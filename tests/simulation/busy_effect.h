@@ -1,5 +1,5 @@
 /// @file busy_effect.h
-/// An effect that uses every part of the simulation, for tests of what must hold for all of them.
+/// An effect that uses every part of the simulation, for tests of general properties.
 #pragma once
 
 #include "simulation/gas/gas_def.h"

@@ -1,5 +1,5 @@
 /// @file gas_cloud.h
-/// Fireballs for the tests of the gas solver, and what one looks like as a whole.
+/// Fireballs for the tests of the gas solver, and averages over a fireball.
 #pragma once
 
 #include "simulation/combustion/materials.h"
@@ -24,7 +24,7 @@ inline std::unique_ptr<sim::GasDef> fireball(uint32_t particles = 200)
     return def;
 }
 
-/// Nothing but pressure and viscosity.
+/// A gas with pressure and viscosity only.
 inline std::unique_ptr<sim::GasDef> pureGas(uint32_t particles)
 {
     auto def = fireball(particles);
@@ -33,7 +33,7 @@ inline std::unique_ptr<sim::GasDef> pureGas(uint32_t particles)
     return def;
 }
 
-/// What the gas looks like as a whole.
+/// Averages over the gas.
 struct CloudShape
 {
     explicit CloudShape(const base::SnapshotGroup& group)

@@ -53,7 +53,7 @@ public:
             step();
     }
 
-    /// What is to be seen now.
+    /// The visible state at present.
     const base::FrameSnapshot& look()
     {
         snapshot_.begin(now_, 1);

@@ -1,5 +1,5 @@
 /// @file temporary_folder.h
-/// A folder of its own for one test, removed afterwards.
+/// A separate folder for one test, which is removed afterwards.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    /// How many files and folders it holds, hidden ones included.
+    /// Number of files and folders in it, including hidden ones.
     size_t entries() const
     {
         using Iterator = std::filesystem::directory_iterator;

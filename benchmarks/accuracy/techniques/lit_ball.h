@@ -1,5 +1,5 @@
 /// @file lit_ball.h
-/// A homogeneous ball in parallel light: where the light leaves it.
+/// A homogeneous ball in parallel light: distribution of the light that leaves it.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_technique.h"
@@ -8,8 +8,8 @@
 
 namespace fx::cli {
 
-/// Settings are optical diameters and substances. The errors are the standard errors of the shares of the
-/// light that leave through the sunward and through the far half of the surface; `work` has the shares.
+/// Settings are optical diameters and substances. Errors are the standard errors of the shares of light that
+/// leave through the half facing the sun and through the opposite half; `work` contains the shares.
 std::unique_ptr<AccuracyTechnique> makeLitBallAccuracy();
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file path_scenes.h
-/// Media in which fx accuracy path compares estimators.
+/// Media for the comparison of estimators by fx accuracy path.
 #pragma once
 
 #include "rendering/reference/path/blob_path_medium.h"
@@ -13,21 +13,21 @@
 
 namespace fx::cli {
 
-/// Blobs of one size in a ball of radius 1 m around the origin, in the sun and under a gray sky.
+/// Blobs of one size in a ball of radius 1 m around the origin, lit by the sun and a gray sky.
 struct PathSceneParameters
 {
     uint32_t blobs;
     double radius;       ///< [m]
-    double opticalDepth; ///< [1] through the middle
+    double opticalDepth; ///< [1] through the center
     double albedo;       ///< [1]
     double anisotropy;   ///< [1]
-    bool isHot;          ///< every fifth blob is small, near the middle, and glows; no sun
+    bool isHot;          ///< true: every fifth blob is small, near the center and glowing; there is no sun
     int width, height;   ///< [pixel]
-    uint32_t samples;    ///< of pixels with which estimators are compared
+    uint32_t samples;    ///< per pixel, for the comparison of estimators
     uint32_t mostSamples, referenceSamples;
 };
 
-/// @return nothing for an unknown name
+/// Parameters of a scene by name. @return nothing for an unknown name
 std::optional<PathSceneParameters> pathSceneParameters(const std::string& name);
 
 /// A scene and the rays of its picture.

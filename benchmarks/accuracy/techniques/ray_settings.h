@@ -9,7 +9,8 @@
 
 namespace fx::cli {
 
-/// One for each of render::comparedSchemes(), the published scheme first; tiers as the product promises them.
+/// One setting for each of render::comparedSchemes(), the published scheme first, with the tiers of the
+/// product.
 std::vector<AccuracySetting> schemeSettings(const nlohmann::json& parameters);
 
 nlohmann::json toJson(const render::RayWork& work);

@@ -1,5 +1,5 @@
 /// @file machine_peak.h
-/// Measured peak performance of the machine, to which kernels are compared.
+/// Measured peak performance of the machine, for comparison with kernels.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@ namespace fx::cli {
 
 struct MachinePeak
 {
-    double floatFlops;  ///< [1/s] multiplications and additions of floats, not fused, of one thread
+    double floatFlops;  ///< [1/s] multiplications and additions of floats, not fused, by one thread
     double doubleFlops; ///< [1/s]
-    double nearBytes;   ///< [B/s] read by one thread from 1 MiB that it has just read
-    double farBytes;    ///< [B/s] from 256 MiB
+    double nearBytes;   ///< [B/s] repeated reading of 1 MiB by one thread
+    double farBytes;    ///< [B/s] reading of 256 MiB by one thread
 };
 
-/// With the widest instruction set that is allowed now (foundation/simd/instruction_set.h); the best of
-/// several runs, about half a second.
+/// Uses the widest instruction set that is allowed now (foundation/simd/instruction_set.h). Returns the best
+/// of several runs, which take about half a second.
 MachinePeak measureMachinePeak();
 
 } // namespace fx::cli

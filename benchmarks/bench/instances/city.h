@@ -1,5 +1,6 @@
 /// @file city.h
-/// fx bench city: ten thousand effects of which a camera sees fifty, against a scene that has only those.
+/// fx bench city: ten thousand effects, of which a camera sees fifty, compared with a scene of only these
+/// fifty.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,10 @@ struct BenchCityOptions
 {
     uint32_t instances = 10'000;
     uint32_t frames = 240;
-    double turn = 0;    ///< [degree] a frame; above 0: how long updates take while the camera turns so fast
+    /// [degree] rotation of the camera per frame; above 0: update times during the rotation are measured
+    double turn = 0;
     bool gl = false;    ///< draw each frame as well
-    bool check = false; ///< compare with a city that hides nothing, instead of measuring time
+    bool check = false; ///< compare with a city without culling, instead of measuring time
     bool json = false;
 };
 
@@ -26,7 +28,7 @@ struct CityPlace
     uint32_t number;
 };
 
-/// A square grid about the camera, which is alone within 30 m.
+/// A square grid around the camera; no effect is within 30 m of the camera.
 std::vector<CityPlace> cityPlaces(uint32_t count);
 
 /// One of twelve fountains with different costs.
@@ -37,7 +39,7 @@ std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
 /// @return exit code: 0, or 1 if any of them differs
 int checkCity(const BenchCityOptions& options);
 
-/// Times, replays and memory while the camera turns by `options.turn` a frame. @return exit code
+/// Measures times, replays and memory while the camera rotates by `options.turn` per frame. @return exit code
 int turnCity(const BenchCityOptions& options);
 
 } // namespace fx::cli

@@ -1,8 +1,8 @@
 /// @file flight_pop.h
-/// Visibility of changes of the level of detail in a flight. Because the picture changes with the camera
-/// anyway, each frame is drawn twice from the same camera, with the levels of the previous frame and with its
-/// own; the difference is the pop. Both are measured by blocks of 8 x 8 pixels, in display values, x / (1 +
-/// x), so that smoke counts beside a flame.
+/// Visibility of changes of the level of detail (popping) in a flight. The picture changes with the camera
+/// anyway. Therefore each frame is drawn twice from the same camera, with the levels of the previous frame
+/// and with its own. The difference of both is the pop. Changes are measured in blocks of 8 x 8 pixels, in
+/// display values x / (1 + x), so that smoke has weight beside a flame.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,22 @@ namespace fx::cli {
 constexpr int kPopBlock = 8; ///< [pixel]
 
 /// Largest change of a color value in each block, row by row, in display values, [0, 1].
-/// @param now, before  RGBA of `width` x `height` pixels, values >= 0
+/// @param now, before RGBA of `width` x `height` pixels, values >= 0
 std::vector<float> blockChanges(std::span<const float> now, std::span<const float> before, int width,
                                 int height);
 
-/// Gathers the frames of one flight.
+/// Collects the frames of one flight.
 class FlightPop
 {
 public:
     /// Adds one frame; blocks without change are ignored.
-    /// @param pops blockChanges() between the pictures with the previous and with its own levels
-    /// @param motion blockChanges() from the previous frame in the flight without a level of detail
+    /// @param pops blockChanges() between the pictures with the previous levels and with the frame's own
+    ///          levels
+    /// @param motion blockChanges() from the previous frame in the flight without levels of detail
     void add(std::span<const float> pops, std::span<const float> motion);
 
-    double largest() const;       ///< [1] pop of all blocks and frames
-    double p99() const;           ///< [1] one block in a hundred has more
+    double largest() const;       ///< [1] largest pop of all blocks and frames
+    double p99() const;           ///< [1] 99th percentile of pops
     double motionLargest() const; ///< [1]
     double motionP99() const;     ///< [1]
 

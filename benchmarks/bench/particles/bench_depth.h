@@ -1,5 +1,5 @@
 /// @file bench_depth.h
-/// Depth texture for the collisions of fx bench particles --gpu in its second measurement.
+/// Depth texture for the collisions of the second measurement of fx bench particles --gpu.
 #pragma once
 
 #include "rendering/gl/gl_texture.h"
@@ -7,18 +7,18 @@
 
 namespace fx::cli {
 
-/// A slope that rises beside the emitter and that a camera sees from 13 m, 1280 x 720.
+/// A slope beside the emitter, seen by a camera at a distance of 13 m, 1280 x 720.
 class BenchDepth
 {
 public:
     static base::Result<BenchDepth> create(render::GlDevice& device);
 
-    /// Valid while this lives.
+    /// Adds the texture to a graph. The result is valid during the lifetime of this object.
     render::GpuDepth in(render::FrameGraph& graph) const;
 
 private:
     render::CameraView camera_;
-    render::GlTexture distance_; ///< as SceneDistancePass writes it
+    render::GlTexture distance_; ///< in the format of SceneDistancePass
 };
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file bench_stage.h
-/// A world that is stepped and published as a scene does it, with the time each frame took.
+/// A world that is stepped and published as in a scene, with the times of its frames.
 #pragma once
 
 #include "foundation/memory/host_memory.h"
@@ -13,21 +13,21 @@
 
 namespace fx::cli {
 
-/// Steps of 1/60 s into a ring of snapshots.
+/// Takes steps of 1/60 s and publishes them into a ring of snapshots.
 class BenchStage
 {
 public:
     explicit BenchStage(uint32_t threads);
 
     void add(std::shared_ptr<const sim::EffectDef> effect, uint64_t seed);
-    /// Publishes emitters that prefer the GPU as its input. Called before the first step.
+    /// Publishes emitters that prefer the GPU as input of the GPU. Called before the first step.
     void computeOnGpu() { world_.setGpuParticles(true); }
-    /// The newest snapshot, to be released.
+    /// The newest snapshot; the caller releases it.
     base::SnapshotPair last() { return ring_.acquire(); }
     void release(const base::SnapshotPair& pair) { ring_.release(pair); }
-    /// Steps and publishes without a look at the clock.
+    /// Steps and publishes without timing.
     void play(uint32_t steps);
-    /// The same for one timed frame: its time is added to times(), its published data to hash().
+    /// Steps and publishes one timed frame. Adds its time to times() and its published data to hash().
     void playTimed();
 
     const std::vector<double>& times() const { return times_; }         ///< [s] of the timed frames
@@ -54,11 +54,11 @@ private:
     uint64_t hash_ = 0;
 };
 
-/// [GB/s] read and written by copies of one half of so many bytes to the other, with the threads of `tasks`,
-/// repeatedly, so that small sets stay in a cache. Larger sets are represented by 256 MiB.
+/// [GB/s] Bandwidth, read and written, of repeated copies of one half of `bytes` to the other, with the
+/// threads of `tasks`. Small sizes stay in a cache; sizes above 256 MiB are measured with 256 MiB.
 double copyGigabytes(base::TaskRunner& tasks, double bytes);
 
-/// The value below which the share `part` of `times` lies.
+/// Quantile: the value below which the share `part` of `times` lies.
 double quantile(std::vector<double> times, double part);
 
 } // namespace fx::cli

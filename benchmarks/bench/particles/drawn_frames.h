@@ -1,6 +1,5 @@
 /// @file drawn_frames.h
-/// Plays frames of a scene with a view and times their parts: the same for every measurement that draws
-/// particles.
+/// Plays frames of a scene with a view and times their parts. Shared by all measurements that draw particles.
 #pragma once
 
 #include "benchmarks/scenes/bench_scene.h"
@@ -15,30 +14,31 @@ struct FramePlan
 {
     double (*now)() = nullptr; ///< [s] one of clocks.h
     uint32_t warmSteps = 0;    ///< updates without drawing, before the first frame
-    uint32_t warmFrames = 0;   ///< drawn and not timed: they fill pools
-    uint32_t frames = 0;       ///< drawn and timed
-    bool isCleared = false;    ///< the picture is black before each frame; otherwise frames add up
+    uint32_t warmFrames = 0;   ///< frames drawn without timing, to fill pools
+    uint32_t frames = 0;       ///< frames drawn and timed
+    /// True: the picture is black before each frame; false: frames are drawn over each other
+    bool isCleared = false;
 };
 
-/// One element a timed frame. A snapshot goes to the GPU once, so each step is drawn twice: the first drawing
-/// is that of a host, and its additional time over the second is the upload.
+/// One element per timed frame. A snapshot is uploaded to the GPU once, so each step is drawn twice. The
+/// first drawing is that of a host; its additional time over the second is the time of the upload.
 struct FrameTimes
 {
-    std::vector<double> update;        ///< [s] of the scene
+    std::vector<double> update;        ///< [s] update of the scene
     std::vector<double> upload;        ///< [s] first drawing minus second, at least 0
     std::vector<double> submit;        ///< [s] second drawing
     std::vector<double> finish;        ///< [s] from the end of the first drawing until the GPU has finished
     std::vector<double> calls;         ///< [s] update and first drawing
     std::vector<double> whole;         ///< [s] update, first drawing and finish
-    std::vector<double> uploadedBytes; ///< [byte] by the first drawing
-    FxViewStatistics view{};           ///< of the last first drawing
+    std::vector<double> uploadedBytes; ///< [byte] uploaded by the first drawing
+    FxViewStatistics view{};           ///< of the last frame's first drawing
 };
 
-/// @param outTimes replaced; on failure the times so far
+/// @param outTimes is replaced; on failure it contains the times measured so far
 /// @return the first error of the scene; Interrupted after a signal
 base::Status playFrames(BenchScene& scene, const FramePlan& plan, FrameTimes& outTimes);
 
-/// [ms] the median of `seconds`.
+/// [ms] Median of `seconds`.
 double medianMilliseconds(const std::vector<double>& seconds);
 
 } // namespace fx::cli

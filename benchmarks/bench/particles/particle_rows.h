@@ -7,25 +7,25 @@
 
 namespace fx::cli {
 
-/// Plays and times `steps` frames of a stage whose instances all show `effect`.
-/// @param row receives everything but name, variant and count, which measureVariants() sets
+/// Plays and times `steps` frames of a stage, all instances of which show `effect`.
+/// @param row receives everything except name, variant and count, which measureVariants() sets
 /// @return Interrupted after a signal
 base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& effect, BenchRow& row);
 
-/// One variant of fx bench particles, computed on the CPU.
+/// Measures one variant of fx bench particles on the CPU.
 base::Result<BenchRow> benchParticles(const BenchSettings& settings, std::string_view variant);
 std::span<const std::string_view> particleVariants();
 
-/// The same, computed on the GPU if supported.
+/// Measures one variant of fx bench particles on the GPU if possible.
 base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_view variant);
 
-/// Particles of one effect of a variant of fx bench many-small.
+/// Number of particles of one effect of a variant of fx bench many-small.
 inline uint32_t manySmallParticles(std::string_view variant)
 {
     return variant == "many" ? 10 : 1000;
 }
 
-/// fx bench many-small with a view that draws.
+/// Measures fx bench many-small with a view that draws.
 base::Result<BenchRow> benchManyDrawn(const BenchSettings& settings, std::string_view variant);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file particles_plot.h
-/// fx bench --plot: how many particles a frame affords on this machine.
+/// fx bench --plot: the number of particles that this machine can simulate in a frame.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace fx::cli {
 
-/// Measures `fx bench particles` for a thousand to ten million particles, and draws the time of a step
-/// against their number.
+/// Runs `fx bench particles` for a thousand to ten million particles, and plots the time of a step against
+/// their number.
 /// @param file SVG to be written
 /// @param most largest number of particles, at least a thousand
 /// @return exit code

@@ -1,5 +1,5 @@
 /// @file dazzle_pictures.h
-/// Common code of the rows about glare: pictures of one channel, the glare, and a naive implementation.
+/// Common code of the cases about glare: pictures of one channel, the glare, and a naive implementation.
 #pragma once
 
 #include "benchmarks/stability/rows/ray_sweeps.h"
@@ -9,9 +9,9 @@
 
 namespace fx::cli {
 
-inline constexpr double kQuanta = 16777216.0; ///< of white
+inline constexpr double kQuanta = 16777216.0; ///< number of quanta of the value white
 
-/// One channel; 5 % of the pixels are above white.
+/// A picture of one channel; 5 % of the pixels are above white.
 inline std::vector<float> randomPicture(size_t pixels, uint64_t seed)
 {
     SweepRandom random(seed);
@@ -39,7 +39,7 @@ inline std::vector<float> dazzled(const std::vector<float>& values, int width,
     return red;
 }
 
-/// Naive implementation: sums in T, one share for all, no guards.
+/// Naive implementation: sums in T, one share for all pixels, no safeguards.
 template <class T>
 std::vector<T> plain(const std::vector<float>& values)
 {

@@ -1,6 +1,6 @@
 /// @file ray_sweeps.h
-/// Rays through blobs for the rows about the ray integral. Numbers are such that float holds them exactly, so
-/// that every precision integrates the same blobs.
+/// Rays through blobs for the cases about the ray integral. All numbers are exact in float, so that every
+/// precision integrates the same blobs.
 #pragma once
 
 #include "foundation/random/philox.h"
@@ -17,7 +17,7 @@ namespace fx::cli {
 
 inline constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Numbers in [0, 1) by counting.
+/// Random numbers in [0, 1) from a counter.
 class SweepRandom
 {
 public:
@@ -32,7 +32,7 @@ private:
 
 using SweepBlobs = std::vector<render::RayBlob<double>>;
 
-/// [1] chord by chord, for kernels of degree 2
+/// [1] Optical depth, summed over chords, for kernels of degree 2.
 inline double depthOf(const SweepBlobs& blobs)
 {
     double sum = 0;
@@ -43,7 +43,7 @@ inline double depthOf(const SweepBlobs& blobs)
     return sum;
 }
 
-/// Overlapping blobs of the given optical depth together. @param isFurnace all emit 1
+/// Overlapping blobs with the given total optical depth. @param isFurnace all emit 1
 inline SweepBlobs sweepBlobs(uint32_t count, double depth, uint64_t seed, bool isFurnace)
 {
     SweepRandom random(seed);
@@ -101,13 +101,13 @@ render::RayLight<T> lightOf(const render::IntegralSettings& settings, const Swee
     return render::RayIntegrator<T>(settings).integrate(blobsIn<T>(blobs), window);
 }
 
-/// |got / wanted - 1|; 0 for two zeros.
+/// |got / wanted - 1|; 0 if both are zero.
 inline double relativeError(double got, double wanted)
 {
     return got == wanted ? 0.0 : std::fabs(got / wanted - 1.0);
 }
 
-/// How many of radiance, optical depth and transmittance differ in a bit.
+/// Number of values among radiance, optical depth and transmittance that differ in any bit.
 template <class T>
 double differingNumbers(const render::RayLight<T>& a, const render::RayLight<T>& b)
 {
@@ -119,8 +119,8 @@ double differingNumbers(const render::RayLight<T>& a, const render::RayLight<T>&
     return count;
 }
 
-/// Naive implementation: coefficients about the ray's origin in float, added where blobs begin and subtracted
-/// where they end. Red only. @param origin [m] is added to all places
+/// Naive implementation: float coefficients about the ray's origin, added where blobs begin and subtracted
+/// where they end. Red only. @param origin [m] is added to all positions
 double incrementalLight(const SweepBlobs& blobs, double origin);
 
 } // namespace fx::cli

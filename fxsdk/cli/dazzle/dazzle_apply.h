@@ -1,5 +1,5 @@
 /// @file dazzle_apply.h
-/// The glare of a saturated sensor on a picture that was read from a file.
+/// Applies the glare of a saturated sensor to a picture read from a file.
 #pragma once
 
 #include "fxsdk/cli/dazzle/dazzle_image.h"
@@ -12,21 +12,22 @@ namespace fx::cli {
 enum class DazzleAlgorithm
 {
     Exact, ///< integer sums over the full range, as the GPU computes them
-    Paper8 ///< 256 levels between 0 and white, formula dazzle-levels
+    Paper8 ///< 256 levels between 0 and white, see formula dazzle-levels
 };
 
 /// Results for reports.
 struct DazzleOutcome
 {
-    double overflow[3] = {}; ///< [1] mean per pixel in units of white; red, green, blue
-    uint32_t replaced = 0;   ///< values that were not finite, negative or too large
+    double overflow[3] = {}; ///< [1] mean overflow per pixel in units of white; red, green, blue
+    uint32_t replaced = 0;   ///< number of replaced values: not finite, negative or too large
 };
 
 /// Parses "A,B,C" as the parameters of the sensor law.
-/// @return InvalidArgument naming the allowed form, also when more light would give less glare
+/// @return InvalidArgument when the text is malformed (the message names the form) or when the law would
+/// give less glare for more light
 base::Status readSensor(const std::string& text, render::DazzleSettings& ioSettings);
 
-/// Changes the channels R, G, B, or Y of a gray picture, and no others.
+/// Changes only the channels R, G and B, or Y of a gray picture.
 /// @return InvalidArgument when the picture has none of these channels
 base::Result<DazzleOutcome> applyDazzle(DazzleImage& ioImage, DazzleAlgorithm algorithm,
                                         const render::DazzleSettings& settings);

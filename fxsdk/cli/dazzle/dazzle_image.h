@@ -1,5 +1,5 @@
 /// @file dazzle_image.h
-/// Any flat OpenEXR picture as planes of floats, read with limits that are checked before memory is taken.
+/// Reads any flat OpenEXR picture as planes of floats. Limits are checked before memory is allocated.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -12,7 +12,7 @@ namespace fx::cli {
 struct DazzlePlane
 {
     std::string name;          ///< "R", "fire.G", "depth.Z"
-    bool isHalf = false;       ///< in the file
+    bool isHalf = false;       ///< true if the file stores half floats
     std::vector<float> values; ///< rows from the top
 };
 
@@ -21,13 +21,15 @@ struct DazzleImage
     int width = 0;
     int height = 0;
     std::vector<DazzlePlane> planes;
-    std::vector<std::string> leftOut; ///< channels of whole numbers, which are no light
-    float whiteLuminance = 0;         ///< [cd/m2] of the value 1; 0 when the file does not state it
+    std::vector<std::string> leftOut; ///< names of integer channels, which are not light and are skipped
+    float whiteLuminance = 0;         ///< [cd/m2] luminance of the value 1; 0 if the file does not state it
 };
 
-/// The first part of the file, scan lines or tiles, its data window alone. At most 16384 pixels a side, 2^25
-/// in all, 256 channels, 2^29 values, and 10,000 bytes of picture for one of the file.
-/// @return Io, Parse (also deep or subsampled pixels), TooLarge, OutOfMemory, naming the file
+/// Reads the first part of the file, stored as scan lines or tiles, within its data window. Limits: 16384
+/// pixels a side, 2^25 pixels, 256 channels, 2^29 values, and 10,000 bytes of picture for each byte of the
+/// file.
+/// @return Io, Parse (also for deep or subsampled pixels), TooLarge, OutOfMemory; the message names the
+///         file
 base::Result<DazzleImage> readDazzleImage(const std::string& path);
 
 } // namespace fx::cli

@@ -1,6 +1,7 @@
 /// @file exr_header.h
-/// Checks the attributes in the headers of an OpenEXR file before the OpenEXR library reads them: the library
-/// allocates as many bytes as an attribute says it has, up to 2 GiB.
+/// Checks the attributes in the headers of an OpenEXR file before the OpenEXR library reads them. The
+/// library allocates the size that an attribute states, up to 2 GiB, without comparing it to the size of
+/// the file.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -10,13 +11,13 @@
 
 namespace fx::cli {
 
-constexpr uint64_t kMaxHeaderBytes = uint64_t(4) << 20; ///< of all parts
+constexpr uint64_t kMaxHeaderBytes = uint64_t(4) << 20; ///< [byte] limit for the headers of all parts
 
-/// Whether every attribute ends within the file and has the length that its type requires. A file that is not
-/// an OpenEXR file is left to the library.
-/// @param beginning of the file, kMaxHeaderBytes or all of it
-/// @param fileBytes [byte] of the whole file
-/// @return Parse naming the attribute; TooLarge for longer headers
+/// Checks that every attribute ends within the file and has the length that its type requires. Ok for a
+/// file that is not an OpenEXR file: the library reports that error.
+/// @param beginning the first kMaxHeaderBytes of the file, or the whole file if it is shorter
+/// @param fileBytes [byte] size of the whole file
+/// @return Parse naming the attribute; TooLarge for headers longer than kMaxHeaderBytes
 base::Status checkExrAttributes(std::string_view beginning, uint64_t fileBytes);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file grid_import.h
-/// Grids of numbers from the files of other programs.
+/// Imports grids of numbers from files of other programs.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -9,15 +9,16 @@
 
 namespace fx::cli {
 
-/// Points of a regular grid as lines `x,y,z,value` or `x,y,z,vx,vy,vz` [m], in any order, each place once;
-/// also separated by blanks, semicolons or tabs. A first line without numbers is skipped, as are empty lines
-/// and those that begin with '#'.
+/// Reads the points of a regular grid as lines `x,y,z,value` or `x,y,z,vx,vy,vz`, with x, y, z in [m]. The
+/// lines may have any order, but each point occurs once. Spaces, semicolons or tabs also separate numbers.
+/// A first line without numbers is skipped, as are empty lines and lines that begin with '#'.
 /// @return Parse with the line, TooLarge
 base::Result<sim::FieldGrid> gridFromCsv(std::string_view text);
 
-/// binary32 numbers, little endian, channels fastest, then x, y, z.
-/// @param shape nodes, channels, low and cell are those of the result
-/// @return Parse when the number of bytes differs, TooLarge
+/// Reads little-endian binary32 numbers. The channels of a node are consecutive; then x varies fastest,
+/// then y, then z.
+/// @param shape gives nodes, channels, low and cell of the result
+/// @return Parse when the number of bytes does not fit `shape`, TooLarge
 base::Result<sim::FieldGrid> gridFromRaw(std::string_view bytes, const sim::FieldGrid& shape);
 
 } // namespace fx::cli

@@ -12,12 +12,12 @@ struct Check
 {
     std::string name;
     bool ok = true;
-    bool required = false; ///< fx render cannot work without it
-    std::string detail;    ///< the finding
-    std::string remedy;    ///< the remedy when it is not ok
+    bool required = false; ///< true if fx render cannot work without it
+    std::string detail;    ///< what was found
+    std::string remedy;    ///< what to do when `ok` is false
 };
 
-/// The EGL devices that the system offers, by name of their driver or device file; needs no context.
+/// Lists the EGL devices of the system, by the name of their driver or device file. Needs no context.
 std::vector<std::string> eglDevices();
 
 } // namespace fx::cli

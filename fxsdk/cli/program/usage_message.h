@@ -11,7 +11,7 @@ class Error;
 
 namespace fx::cli {
 
-/// The parser's message, and for each argument that no command takes the nearest subcommand or option.
+/// The parser's message. For each unknown argument, the nearest subcommand or option is suggested.
 std::string usageMessage(const CLI::App* app, const CLI::Error& error);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file blob_list_render.h
-/// fx render --renderer gl of a list of blobs: PNG, EXR, a sequence or a video.
+/// Implements fx render --renderer gl for a list of blobs: PNG, EXR, a sequence or a video.
 #pragma once
 
 #include "fxsdk/cli/render/render_options.h"
@@ -8,7 +8,7 @@
 namespace fx::cli {
 
 /// Renders all frames of `plan`.
-/// @param lights of --lights, null for none
+/// @param lights scene of --lights; null without the option
 /// @return an exit code; messages went to standard error
 int runBlobList(const RenderArguments& arguments, const RenderPlan& plan,
                 const scene_file::SceneFile* lights);

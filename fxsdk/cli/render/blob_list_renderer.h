@@ -1,7 +1,7 @@
 /// @file blob_list_renderer.h
-/// Draws a list of blobs by OpenGL, as a view draws the snapshot of a scene, over nothing.
+/// Draws a list of blobs by OpenGL over an empty background, in the same way as a view draws a snapshot.
 ///
-/// Threads: the thread that made it, which is its GL thread.
+/// Threads: only the thread that created it, which is its GL thread.
 #pragma once
 
 #include "fxsdk/cli/render/snapshot_renderer.h"
@@ -21,12 +21,12 @@ public:
                                                                   int width, int height);
     ~BlobListRenderer();
 
-    /// Draws another list from the next picture on.
+    /// Replaces the list of blobs, from the next picture on.
     void show(std::span<const render::MediumBlob> blobs);
-    /// The renderer, for settings, pictures and statistics.
+    /// The renderer: gives access to settings, pictures and statistics.
     SnapshotRenderer& pictures();
 
-    /// @param time [s] of the picture, which only the camera depends on
+    /// @param time [s] time of the picture; only the camera depends on it
     base::Status render(const render::ReferenceCamera& camera, double time);
 
 private:

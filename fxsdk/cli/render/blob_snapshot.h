@@ -10,10 +10,10 @@
 
 namespace fx::cli {
 
-/// The opposite of render::mediumOf(): one group for each instance, anisotropy and layer, without procedural
-/// detail, relative to the middle of all blobs. Numbers become floats.
+/// Inverse of render::mediumOf(). Creates one group for each combination of instance, anisotropy and layer,
+/// without procedural detail. Positions are relative to the center of all blobs. Numbers become floats.
 /// @param schema has the kind "blob" and must outlive the snapshot
-/// @param sequence above that of every snapshot that the same view has drawn
+/// @param sequence must exceed that of every snapshot that the same view has drawn
 base::FrameSnapshot snapshotOfBlobs(std::span<const render::MediumBlob> blobs,
                                     const base::SnapshotSchema& schema, uint64_t sequence);
 

@@ -1,5 +1,5 @@
 /// @file camera_choice.h
-/// The camera that options name in place of the scene's.
+/// The camera that command-line options set instead of the scene's camera.
 #pragma once
 
 #include "fxsdk/cli/render/reference_options.h"
@@ -9,16 +9,16 @@
 
 namespace fx::cli {
 
-/// The camera chosen by --view or --camera, or none.
+/// The camera chosen by --view or --camera, or none of them.
 class CameraChoice
 {
 public:
-    /// @param plan with the camera of --view
-    /// @return the error of the file of --camera
+    /// @param plan holds the camera of --view
+    /// @return the error of reading the file of --camera
     static base::Result<CameraChoice> create(const ReferenceArguments& arguments, const ReferencePlan& plan);
 
     bool isNone() const { return !fixed_ && !path_; }
-    /// @param time [s]  @param otherwise if no option names a camera
+    /// @param time [s]  @param otherwise camera that is returned if no option sets one
     render::ReferenceCamera at(double time, const render::ReferenceCamera& otherwise = {}) const;
 
 private:

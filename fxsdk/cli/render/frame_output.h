@@ -1,5 +1,5 @@
 /// @file frame_output.h
-/// Writes rendered frames to files: PNG, EXR or a video. Incomplete files are never left behind.
+/// Writes rendered frames to PNG or EXR files or to a video. Incomplete files are removed.
 #pragma once
 
 #include "fxsdk/cli/render/frame_renderer.h"
@@ -13,12 +13,12 @@ class FrameOutput
 {
 public:
     /// Checks the folder and the ffmpeg program before rendering begins.
-    /// @param exposureEv100 of the view, written to EXR files
+    /// @param exposureEv100 exposure of the view, which EXR files state
     static base::Result<std::unique_ptr<FrameOutput>> create(const RenderPlan& plan, float exposureEv100);
     virtual ~FrameOutput() = default;
 
     virtual base::Status write(int64_t number, const FrameLayers& layers) = 0;
-    /// After the last frame. Without it a video is not put in place.
+    /// Called after the last frame. A video file appears only after this call.
     virtual base::Status finish() { return {}; }
 };
 

@@ -1,7 +1,7 @@
 /// @file frame_renderer.h
-/// Draws moments of a scene without a window: the opaque stage first, then the effects over it.
+/// Renders moments of a scene without a window: first the opaque stage, then the effects over it.
 ///
-/// Threads: the thread that made it, which is its GL thread.
+/// Threads: only the thread that created it, which is its GL thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -25,11 +25,11 @@ struct FrameRendererOptions
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     render::ViewSettings settings;
-    EffectSceneOptions scene;  ///< its `gl` is filled in
-    double frameSeconds = 0.0; ///< [s] that the first frame counts motion over
+    EffectSceneOptions scene;  ///< the renderer sets the member `gl`
+    double frameSeconds = 0.0; ///< [s] time over which the motion output of the first frame is computed
 };
 
-/// The pictures of one frame; those besides `color` only with settings.layerOutputs.
+/// The pictures of one frame. All but `color` require settings.layerOutputs.
 struct FrameLayers
 {
     Picture color;                ///< RGBA, display-referred with settings.toneMap, otherwise linear
@@ -40,7 +40,7 @@ struct FrameLayers
     /// Pictures that settings.outputs requests; a picture that is not requested has no pixels.
     struct Outputs
     {
-        Picture instance;     ///< 1 channel: number in the scene, from 1; 0: none
+        Picture instance;     ///< 1 channel: number of the instance in the scene, from 1; 0: none
         Picture motion;       ///< 2 channels [pixel]
         Picture firstDepth;   ///< 1 channel [m]
         Picture meanDepth;    ///< 1 channel [m]
@@ -55,7 +55,7 @@ struct FrameCounters
     FxViewStatistics view;
     std::vector<std::string> passes;
     double millisecondsSimulate = 0;
-    double millisecondsRender = 0; ///< stage and effects, until the GPU has finished
+    double millisecondsRender = 0; ///< time of stage and effects, until the GPU has finished
 };
 
 class FrameRenderer
@@ -68,7 +68,7 @@ public:
     FrameRenderer(const FrameRenderer&) = delete;
     FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-    /// Simulates up to `tick` and draws that moment. Ticks must not decrease from call to call.
+    /// Simulates up to `tick` and draws that moment. `tick` must not decrease from call to call.
     base::Status render(base::Ticks tick);
     /// Copies the frame's pictures from the GPU.
     base::Result<FrameLayers> read();
@@ -102,8 +102,8 @@ private:
     std::unique_ptr<render::StageRenderer> stage_;
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
-    bool staysOnGpu_ = false;   ///< all particles are computed on the GPU as long as no reader requests rows
-    base::Ticks lastTick_ = -1; ///< of the previous frame; -1 before the first one
+    bool staysOnGpu_ = false;   ///< particles are computed on the GPU, unless snapshots are read
+    base::Ticks lastTick_ = -1; ///< tick of the previous frame; -1 before the first one
     Picture background_;
     FrameCounters counters_;
 };

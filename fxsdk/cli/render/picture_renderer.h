@@ -1,5 +1,5 @@
 /// @file picture_renderer.h
-/// The renderers that need no GPU, as fx render sees them: tiles, a journal, channels of an EXR file.
+/// Common interface of the CPU renderers for fx render: tiles, a journal, channels of an EXR file.
 #pragma once
 
 #include "fxsdk/cli/render/reference_options.h"
@@ -16,13 +16,13 @@
 
 namespace fx::cli {
 
-/// One picture at a time. The functions are those of ReferenceRenderer and PathRenderer.
+/// Renders one picture at a time. The functions are those of ReferenceRenderer and PathRenderer.
 class PictureRenderer
 {
 public:
     virtual ~PictureRenderer() = default;
 
-    /// @param exposure [m2/cd] written value per luminance
+    /// @param exposure [m2/cd] written value per unit of luminance
     virtual base::Status build(const render::ReferenceScene& scene, double exposure,
                                base::TaskRunner& tasks) = 0;
     virtual uint64_t key() const = 0;
@@ -31,12 +31,12 @@ public:
     virtual base::Status render(render::TileJournal* journal, const render::RenderCallbacks& callbacks) = 0;
     /// @param outPixels owns the pixels that the channels of `io` point to
     virtual void addChannels(render::ExrImage& io, std::vector<std::vector<float>>& outPixels) const = 0;
-    /// @param seconds that render() took
+    /// @param seconds duration of render()
     virtual void addStatistics(nlohmann::json& io, double seconds) const = 0;
-    virtual uint64_t nonFinite() const = 0; ///< values or paths that gave no number
+    virtual uint64_t nonFinite() const = 0; ///< number of values or paths whose result was not finite
 };
 
-/// @param past of --outputs motion; null: there are no channels of --outputs
+/// @param past data for --outputs motion; null: the channels of --outputs are not written
 std::unique_ptr<PictureRenderer> makeReferencePicture(const ReferenceArguments& arguments,
                                                       const ReferencePlan& plan, int width, int height,
                                                       const render::ReferencePast* past = nullptr);

@@ -16,47 +16,48 @@ class App;
 
 namespace fx::cli {
 
-/// As written on the command line.
+/// Arguments as they are written on the command line.
 struct ReferenceArguments
 {
     std::string integrator = "gauss-5";
     std::string precision = "double";
     std::string source = "per-blob";
     std::string scattering = "centers";
-    std::string detail = "auto"; ///< of fields: on, off, or as the composition of the scene draws it
-    std::string view;            ///< "ex,ey,ez,tx,ty,tz,fov": replaces the camera
-    std::string camera;          ///< a scene file whose camera is used
-    int skyRings = 3;            ///< 4 skyRings^2 directions of the sky with --scattering single
+    /// detail of fields: on, off, or auto as the composition of the scene draws it
+    std::string detail = "auto";
+    std::string view;   ///< "ex,ey,ez,tx,ty,tz,fov": replaces the camera
+    std::string camera; ///< a scene file whose camera is used
+    int skyRings = 3;   ///< rings of the sky: 4 skyRings^2 directions with --scattering single
     int samples = 1;
-    std::optional<uint32_t> paths;   ///< of a pixel; empty: 64, or as many as `error` requires
-    std::optional<double> error;     ///< [1] standard error of written values
-    std::optional<uint32_t> bounces; ///< none: any number
+    std::optional<uint32_t> paths;   ///< paths per pixel; empty: 64, or as many as `error` requires
+    std::optional<double> error;     ///< [1] standard error wanted for written values
+    std::optional<uint32_t> bounces; ///< largest number of scattering events; empty: no limit
     double sunAngle = 0.53;          ///< [degree] diameter of the sun
-    uint32_t threads = 0;            ///< 0: all
+    uint32_t threads = 0;            ///< number of threads; 0: all hardware threads
     bool resume = false;
 };
 
-/// Checked and understood.
+/// Settings that the arguments give after checking.
 struct ReferencePlan
 {
     render::IntegralSettings integral;
     bool isSingle = false;
     render::ScatteringMode scattering = render::ScatteringMode::Centers;
-    std::optional<render::ReferenceCamera> camera; ///< of --view
+    std::optional<render::ReferenceCamera> camera; ///< camera of --view
 };
 
 void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments);
 void addPathOptions(CLI::App& command, ReferenceArguments& arguments);
 
-/// @return InvalidArgument, which is a usage error
+/// Converts and checks the arguments. @return InvalidArgument, which is a usage error
 base::Result<ReferencePlan> planReference(const ReferenceArguments& arguments);
 
-/// Whether a picture, with its copy for the file and the file itself, fits into the machine.
-/// @param memory [byte] of the machine; 0 for unknown
+/// Checks that a picture, its copy for the file and the file itself fit into the memory of the machine.
+/// @param memory [byte] memory of the machine; 0 if unknown
 /// @return OutOfMemory with the bytes needed and the largest size that fits
 base::Status checkPictureMemory(int width, int height, uint64_t memory);
 
-/// Understands "ex,ey,ez,tx,ty,tz,fov_y_degrees": eye and target [m], different.
+/// Parses "ex,ey,ez,tx,ty,tz,fov_y_degrees": eye and target [m], which must differ, and field of view.
 base::Result<render::ReferenceCamera> parseView(const std::string& text);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file reference_scene.h
-/// Frames of a scene file or a list of blobs as the reference renderer takes them.
+/// Converts frames of a scene file or a list of blobs to the input of the reference renderer.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -14,10 +14,10 @@ namespace fx::cli {
 struct ReferenceFrame
 {
     render::ReferenceScene scene;
-    uint32_t nonFinite = 0; ///< blobs left out because a number was not finite
+    uint32_t nonFinite = 0; ///< number of blobs left out because a value was not finite
 };
 
-/// A scene file whose effects run without GL.
+/// Runs the effects of a scene file without GL.
 class ReferenceSceneSource
 {
 public:
@@ -25,7 +25,7 @@ public:
     static base::Result<std::unique_ptr<ReferenceSceneSource>> create(const scene_file::SceneFile& file,
                                                                       const EffectSceneOptions& options);
 
-    /// The effects at `tick`, which must not decrease from call to call, seen by the camera of the file.
+    /// The effects at `tick`, with the camera of the file. `tick` must not decrease from call to call.
     base::Result<ReferenceFrame> frameAt(base::Ticks tick);
 
 private:
@@ -35,7 +35,7 @@ private:
     std::unique_ptr<EffectScene> effects_;
 };
 
-/// The camera of a path at a time [s], in double.
+/// The camera of a path at a time [s], in double precision.
 render::ReferenceCamera cameraOf(const scene_file::CameraPath& path, double time);
 
 } // namespace fx::cli

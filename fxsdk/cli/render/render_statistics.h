@@ -1,5 +1,5 @@
 /// @file render_statistics.h
-/// One JSON object a frame, for --stats and --json.
+/// Builds one JSON object per frame, for --stats and --json.
 #pragma once
 
 #include "fxsdk/cli/render/frame_renderer.h"
@@ -8,7 +8,8 @@
 
 namespace fx::cli {
 
-/// Statistics of a frame. Times are in milliseconds; `allocations` are those of the library during the frame.
+/// Statistics of a frame. Times are in milliseconds; `allocations` counts allocations of the library during
+/// the frame.
 nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool withOverdraw);
 
 } // namespace fx::cli

@@ -1,7 +1,7 @@
 /// @file snapshot_renderer.h
-/// Draws snapshots by OpenGL, as a view draws those of a scene, over nothing.
+/// Draws snapshots by OpenGL over an empty background, in the same way as a view draws those of a scene.
 ///
-/// Threads: the thread that made it, which is its GL thread.
+/// Threads: only the thread that created it, which is its GL thread.
 #pragma once
 
 #include "fxsdk/cli/render/frame_renderer.h"
@@ -14,24 +14,24 @@ namespace fx::cli {
 class SnapshotRenderer
 {
 public:
-    /// @param schema of the snapshots; must outlive the renderer
+    /// @param schema schema of the snapshots; must outlive the renderer
     /// @param width, height [pixel]
     static base::Result<std::unique_ptr<SnapshotRenderer>>
     create(const base::SnapshotSchema& schema, const render::ViewSettings& settings, int width, int height);
     ~SnapshotRenderer();
 
-    /// Of the next picture.
+    /// Settings of the next picture.
     render::ViewSettings& settings();
 
-    /// @param time [s] of the picture, for effects with a history
+    /// @param time [s] time of the picture, for passes with a history
     base::Status render(const SceneMoment& moment, const render::ReferenceCamera& camera, double time);
-    /// Copies the pictures from the GPU; those besides `color` only with settings.layerOutputs. Instances are
-    /// called as in the snapshots, if that is below 2^24.
+    /// Copies the pictures from the GPU. All but `color` require settings.layerOutputs. Instances have the
+    /// ids of the snapshots if those are below 2^24.
     FrameLayers read();
 
     const render::FrameStatistics& statistics() const;
-    bool fillsPlanes() const;          ///< whether the last frame has filled planes of light slices
-    double millisecondsRender() const; ///< of the last frame, until the GPU has finished
+    bool fillsPlanes() const;          ///< whether the last frame filled planes of light slices
+    double millisecondsRender() const; ///< time of the last frame, until the GPU has finished
     const std::string& rendererName() const;
 
 private:
@@ -40,7 +40,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// The camera as views take it, relative to its eye. The near plane is at a distance of one millimetre.
+/// Converts the camera to that of a view, relative to its eye. The near plane is at a distance of 1 mm.
 render::CameraView viewOf(const render::ReferenceCamera& camera, double aspect);
 
 } // namespace fx::cli

@@ -1,5 +1,6 @@
 /// @file tiled_render.h
-/// fx render --renderer reference and path: scenes, presets and lists of blobs to EXR files, without a GPU.
+/// Implements fx render --renderer reference and path: renders scenes, presets and lists of blobs to EXR
+/// files without a GPU.
 #pragma once
 
 #include "fxsdk/cli/render/render_options.h"
@@ -14,8 +15,8 @@ namespace fx::cli {
 bool isBlobList(const std::string& input);
 
 /// Renders all frames of `plan`.
-/// @param loadScene gives the scene with the lights of --lights; not called for a list of blobs
-/// @param lights of --lights, null for none; must outlive the call
+/// @param loadScene returns the scene with the lights of --lights; not called for a list of blobs
+/// @param lights    scene of --lights, null without the option; must outlive the call
 /// @return an exit code; messages went to standard error
 int runTiled(const RenderArguments& arguments, const RenderPlan& plan, const scene_file::SceneFile* lights,
              const std::function<base::Result<scene_file::SceneFile>()>& loadScene);

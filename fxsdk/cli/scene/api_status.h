@@ -1,5 +1,5 @@
 /// @file api_status.h
-/// Results of the C API as statuses.
+/// Converts results of the C API to statuses.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -7,7 +7,7 @@
 
 namespace fx::cli {
 
-/// The result of a call together with the message it left. Codes are the same numbers on both sides.
+/// Converts the result of a call and its error message to a status. Equal codes have equal numbers.
 inline base::Status toStatus(FxResult result)
 {
     if (result == FX_OK)

@@ -1,5 +1,5 @@
 /// @file compute_override.h
-/// Loads presets of a scene with a different member "compute".
+/// Loads the presets of a scene with a replaced member "compute".
 #pragma once
 
 #include "foundation/result/status.h"
@@ -10,11 +10,11 @@
 
 namespace fx::cli {
 
-/// Why the GPU cannot compute all particles of a scene; empty when it can.
+/// Reason why the GPU cannot compute all particles of a scene; empty when it can.
 std::string gpuObstacleOf(const scene_file::SceneFile& scene);
 
-/// A context's asset hook that hands out presets whose "compute" members have been replaced. It must outlive
-/// the context. Threads: that of the context's loading calls.
+/// An asset hook of a context that replaces the members "compute" of presets. It must outlive the context.
+/// Threads: those that call loading functions of the context.
 class ComputeOverride
 {
 public:
@@ -30,8 +30,8 @@ private:
     static void close(void* user, const void* data, size_t size);
 
     std::string compute_;
-    std::string text_;   ///< of the preset being loaded
-    std::string folder_; ///< of its files, with the slash
+    std::string text_;   ///< text of the preset that is being loaded
+    std::string folder_; ///< folder of the preset's files, ending with '/'
 };
 
 } // namespace fx::cli

@@ -1,6 +1,6 @@
 /// @file default_stage.h
-/// A stage for a preset that comes without a scene: plain ground, afternoon light, a camera that sees the
-/// effect.
+/// Default scene for a preset without a scene file: plain ground, afternoon light, and a camera that sees
+/// the effect.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -13,14 +13,14 @@
 
 namespace fx::cli {
 
-/// A scene with one instance of the preset at the origin, or as described by its member "preview".
+/// A scene with one instance of the preset at the origin, or as the preset's member "preview" describes.
 /// @param input      a file *.fx.json, or library:NAME
 /// @param outPreview receives the preset's preview; may be null
 base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input,
                                                   scene_file::Preview* outPreview = nullptr);
 
-/// Simulates the effect and places the camera so that the picture holds it at all moments between the start
-/// and `until`. Does nothing without elements.
+/// Simulates the effect and places the camera so that the effect is in the picture at all moments between
+/// the start and `until`. Does nothing if there are no elements at these moments.
 /// @param aspect width of the picture over its height
 base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const EffectSceneOptions& options,
                          double aspect = 16.0 / 9.0);

@@ -1,5 +1,5 @@
 /// @file effect_framing.h
-/// Where a camera has to stand to see an effect at several moments.
+/// Computes a camera position from which an effect is visible at several moments.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -12,20 +12,20 @@
 
 namespace fx::cli {
 
-/// Bounding spheres that a picture should contain, with their weights, for each moment. At each moment all
-/// but a few percent of the weight is inside of the picture, so that single sparks do not decide.
+/// Collects weighted bounding spheres for each moment. At each moment the picture contains all but a few
+/// percent of the weight, so that single sparks do not determine the camera.
 class EffectFraming
 {
 public:
-    /// Begins the next moment: spheres that are added after this call belong to it.
+    /// Begins the next moment. Spheres added after this call belong to it.
     void nextMoment() { moments_.emplace_back(); }
-    /// All media of the snapshot.
+    /// Adds all media of the snapshot.
     void add(const base::FrameSnapshot& snapshot);
-    /// @param places center and radius [m] of sprites and meshes
+    /// Adds sprites and meshes. @param places center and radius [m] of each
     void add(const std::vector<glm::vec4>& places);
     bool isEmpty() const;
 
-    /// Places the camera so that all moments are in view, at the camera's own field of view.
+    /// Places the camera so that all moments are in view. The field of view of the camera is not changed.
     /// @param aspect width of the picture over its height
     void place(scene_file::CameraPath& camera, double aspect) const;
 
@@ -33,7 +33,7 @@ private:
     struct Ball
     {
         glm::dvec3 center; ///< [m]
-        double radius;     ///< [m] up to which it is seen
+        double radius;     ///< [m] radius up to which the sphere is visible
         double weight;     ///< > 0
     };
     struct Span

@@ -1,7 +1,7 @@
 /// @file effect_scene.h
-/// The effects of a scene file, running behind the C API as they would in any host.
+/// Runs the effects of a scene file through the C API, as a host does.
 ///
-/// Threads: the thread that made it.
+/// Threads: only the thread that created it.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -26,15 +26,15 @@ struct EffectSceneOptions
     FxGlLoader gl{nullptr, nullptr}; ///< none: simulation only
     int stepsPerSecond = 60;
     uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of the simulation
-    std::optional<uint64_t> seed;          ///< instance k gets seed + k instead of the file's
-    std::string compute = {}; ///< "cpu", "gpu" or "auto" instead of the emitters' own; empty: their own
+    std::optional<uint64_t> seed;          ///< instance k gets seed + k; empty: the seed of the file
+    std::string compute = {}; ///< "cpu", "gpu" or "auto" for all emitters; empty: as each emitter states
 };
 
-/// The time that a view shows: a point between two steps.
+/// The moment that a view shows: a time between two steps.
 struct SceneMoment
 {
     base::SnapshotPair snapshots; ///< older is null before the second step
-    double interpolation = 0;     ///< 0 shows the older, 1 would show the newer
+    double interpolation = 0;     ///< 0: the older snapshot, 1: the newer
 };
 
 class EffectScene
@@ -46,22 +46,23 @@ public:
     EffectScene(const EffectScene&) = delete;
     EffectScene& operator=(const EffectScene&) = delete;
 
-    /// Steps until a view shows exactly the time `tick`, which must not precede the last one. A view shows a
-    /// state between the last two steps, so the clock is one step ahead of the picture.
+    /// Steps until a view shows exactly the time `tick`, which must not precede that of the last call. A
+    /// view interpolates between the last two steps, so the clock is one step ahead of the picture.
     /// @return Interrupted when the user asked to stop
     base::Status showMoment(base::Ticks tick);
 
-    /// Copies the last step into a snapshot for renderers. Valid until the next call.
+    /// Copies the last step into a snapshot for renderers. The snapshot is valid until the next call.
     base::Result<const base::FrameSnapshot*> snapshot();
 
-    /// Copies the last two steps, which a view would interpolate now. Valid until the next call of this
-    /// function or of snapshot().
+    /// Copies the last two steps, between which a view interpolates. The copy is valid until the next call
+    /// of this function or of snapshot().
     base::Result<SceneMoment> moment();
 
     /// Center and radius [m] of every sprite and mesh of the last step, in the world.
     base::Result<std::vector<glm::vec4>> places();
 
-    /// Number of an instance in the scene file, from 1, by FxInstanceId::bits; 0: it is none of them.
+    /// Number of an instance in the scene file, from 1. @param instance FxInstanceId::bits @return 0 if
+    /// unknown
     uint32_t numberOf(uint64_t instance) const;
 
     base::Result<FxSceneStatistics> statistics() const;
@@ -85,8 +86,8 @@ private:
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
     base::SnapshotSchema schema_;
-    std::unique_ptr<base::FrameSnapshot> copy_;  ///< of the last step
-    std::unique_ptr<base::FrameSnapshot> older_; ///< of the step before
+    std::unique_ptr<base::FrameSnapshot> copy_;  ///< copy of the last step
+    std::unique_ptr<base::FrameSnapshot> older_; ///< copy of the step before
 };
 
 } // namespace fx::cli

@@ -1,11 +1,11 @@
 /// @file field_cache.h
-/// Fields of distances that lie beside the meshes they were made from, so that a scene starts at once.
+/// Caches distance fields in files beside their meshes, so that a scene starts without computing them.
 ///
-/// A file holds the field of one mesh, at one place and size, with one size of cells, in the byte order of
-/// the machine. A file is verified before use: it names a hash of the mesh, which determines its size, and
-/// another hash covers its values. An invalid file is ignored and replaced; where that fails, as in a
-/// read-only folder, the field is computed each time, without a message. Threads: any. Programs that write
-/// one file at once each put a whole file in place.
+/// A file holds the field of one mesh, with one position and scale and one cell size, in the byte order of
+/// the machine. A file is verified before use: it contains a hash of the mesh, which also determines the
+/// size of the file, and a hash of its values. An invalid file is ignored and replaced. If it cannot be
+/// replaced, as in a read-only folder, the field is computed each time, without a message. Threads: any.
+/// When several programs write one file at once, each replaces the whole file atomically.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -21,7 +21,8 @@ namespace fx::cli {
 std::filesystem::path fieldFileOf(const std::filesystem::path& meshFile, const sim::TriangleMesh& mesh,
                                   float cellSize);
 
-/// Reads the field of a mesh from `file`, or builds it and writes the file. Throws std::bad_alloc.
+/// Reads the field of a mesh from `file`. If that fails, builds it and writes the file. Throws
+/// std::bad_alloc.
 /// @param file see fieldFileOf(); empty: the field is built and not written
 /// @return the error of sim::DistanceField::build()
 base::Result<std::shared_ptr<const sim::DistanceField>> fieldOf(const sim::TriangleMesh& mesh, float cellSize,

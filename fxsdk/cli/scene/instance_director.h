@@ -1,8 +1,8 @@
 /// @file instance_director.h
-/// Moves, triggers and changes running instances as described in the scene file, before each step.
+/// Moves, triggers and changes instances before each step, as the scene file describes.
 ///
-/// The state of a step depends only on its number, not on the frames or seeks that lead to it. Threads: the
-/// scene thread.
+/// The state after a step depends only on the number of the step, not on the frames or seeks that lead to
+/// it. Threads: the scene thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -17,17 +17,17 @@ namespace fx::cli {
 class InstanceDirector
 {
 public:
-    /// Instances without a play are left alone.
+    /// Adds an instance. Instances without a play are not changed.
     void add(const scene_file::SceneInstance& instance, FxInstanceId id);
 
     /// Called before each step of the scene. An event takes place in the step whose beginning is nearest to
-    /// its time; if the instance has not started then, in the second step of the instance. At the end of the
-    /// step the instance has the placement of its keys for that time.
+    /// its time. If the instance has not started by then, the event takes place in the second step of the
+    /// instance. At the end of the step, the placement of the instance is that of its keys at that time.
     /// @param from, to begin and end of the step
     base::Status beforeStep(FxScene* scene, base::Ticks from, base::Ticks to);
 
 private:
-    /// One instance, and how much of its play has happened.
+    /// One instance, and the number of its events that have been played.
     struct Role
     {
         scene_file::SceneInstance instance;
@@ -36,7 +36,7 @@ private:
         size_t switches = 0;
         size_t triggers = 0;
         size_t jumps = 0;
-        base::Placement place; ///< last one set in the scene
+        base::Placement place; ///< placement that was last set in the scene
     };
 
     static base::Status play(FxScene* scene, Role& role, base::Ticks due, base::Ticks to);

@@ -1,5 +1,5 @@
 /// @file picture.h
-/// Pixels on their way from the GPU to a file.
+/// A picture in memory between reading from the GPU and writing to a file.
 #pragma once
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 /// @file preview_ground.h
-/// Open country for previews of presets: dry soil with patches of several sizes, and wooded hills far
-/// away. The ground is even, so that effects meet it as they meet their own.
+/// Ground for previews of presets: dry soil with patches of several sizes, and wooded hills far away. The
+/// ground is flat, like the ground plane that effects collide with.
 #pragma once
 
 #include "rendering/stage/stage_renderer.h"
 
 namespace fx::cli {
 
-/// Adds the ground, y = 0 around the origin up to the horizon, and hills that hide where it ends.
+/// Adds the ground, y = 0 around the origin up to the horizon, and hills that hide its far edge.
 /// The mean albedo near the origin is (0.22, 0.2, 0.17).
 void addPreviewGround(render::StageMesh& mesh);
 

@@ -1,5 +1,5 @@
 /// @file view_settings.h
-/// A scene's settings in the terms of the C API.
+/// Converts settings of a scene file to structs of the C API.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -11,7 +11,7 @@ namespace fx::cli {
 FxViewSettings toApi(const render::ViewSettings& settings);
 FxLight toApi(const render::SceneLight& light);
 
-/// A light of a scene in the terms of views.
+/// Converts a light of a scene to a light of views.
 render::HostLight toHostLight(const render::SceneLight& light);
 
 } // namespace fx::cli

@@ -1,6 +1,6 @@
 /// @file atomic_file.h
-/// Atomic replacement of files: written under a temporary name in the same folder, flushed to the disk, then
-/// renamed.
+/// Atomic replacement of files. A file is written under a temporary name in the same folder, flushed to the
+/// disk, and then renamed.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -12,12 +12,12 @@
 
 namespace fx::cli {
 
-/// A temporary name in the folder of `target` that no other process uses. It keeps the suffix, by which
-/// programs recognize the format.
+/// A temporary name in the folder of `target` that no other process uses. It keeps the suffix, because
+/// programs recognize the format by it.
 std::filesystem::path temporaryNameFor(const std::filesystem::path& target);
 
-/// A file that appears under its name only at commit(), after any number of writes. Without commit() nothing
-/// remains. A target that exists and is not a regular file (a pipe, /dev/null) is written directly.
+/// A file that appears under its name only at commit(). Without commit() the temporary file is removed. A
+/// target that exists and is not a regular file (a pipe, /dev/null) is written directly.
 class AtomicFile
 {
 public:
@@ -29,8 +29,8 @@ public:
     /// @return Io naming the file and the system's reason
     base::Status open();
     base::Status write(std::string_view bytes);
-    /// @param durable waits until the bytes are on the disk, so that after a crash of the machine either the
-    ///         old or the new file exists; otherwise neither may be complete
+    /// @param durable waits until the bytes are on the disk. Then, after a crash of the machine, either the
+    ///                old or the new file exists; without it the file may be incomplete
     base::Status commit(bool durable = true);
 
 private:
@@ -38,15 +38,15 @@ private:
 
     std::filesystem::path target_;
     std::filesystem::path temporary_; ///< empty when the target is written directly
-    EndsWithProgram entered_;         ///< the temporary file
+    EndsWithProgram entered_;         ///< registration of the temporary file
     int descriptor_ = -1;
 };
 
-/// Checks a target before long work.
+/// Checks a target before a long computation.
 /// @return Io when `target` is a folder or its folder does not exist
 base::Status checkTarget(const std::filesystem::path& target);
 
-/// open, write, commit.
+/// Calls open(), write() and commit() of an AtomicFile.
 base::Status writeFileAtomically(const std::filesystem::path& target, std::string_view bytes);
 
 } // namespace fx::cli

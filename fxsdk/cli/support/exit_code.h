@@ -9,9 +9,9 @@ namespace fx::cli {
 enum ExitCode : int
 {
     kSuccess = 0,
-    kFailed = 1,        ///< the work could not be done, or a checked file has errors
-    kUsage = 2,         ///< the command line makes no sense
-    kInterrupted = 130, ///< the user stopped it (128 + SIGINT)
+    kFailed = 1,        ///< the command failed, or a checked file has errors
+    kUsage = 2,         ///< the command line is invalid
+    kInterrupted = 130, ///< the user interrupted the command (128 + SIGINT)
 };
 
 /// 0 for success, 130 when interrupted, otherwise 1.

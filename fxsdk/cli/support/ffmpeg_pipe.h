@@ -1,6 +1,6 @@
 /// @file ffmpeg_pipe.h
-/// Videos through the ffmpeg program, when it is installed: frames go down a pipe, the file appears when it
-/// is complete.
+/// Writes videos through the ffmpeg program, if it is installed. Frames are sent through a pipe. The video
+/// file appears when it is complete.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -24,13 +24,13 @@ public:
     FfmpegPipe(const FfmpegPipe&) = delete;
     FfmpegPipe& operator=(const FfmpegPipe&) = delete;
 
-    /// @param width, height [pixel] of every frame; odd sizes are padded by a pixel, because the codec
-    ///         requires even ones
+    /// @param width, height [pixel] size of every frame; odd sizes are padded by a pixel, because the codec
+    ///                      requires even ones
     /// @param framesPerSecond > 0
     /// @return NotFound when ffmpeg is not installed (the message explains how to install it), Io
     base::Status start(const std::filesystem::path& target, int width, int height, double framesPerSecond);
 
-    /// One frame: width * height * 3 bytes, sRGB, rows from the top.
+    /// Writes one frame: width * height * 3 bytes, sRGB, rows from the top.
     base::Status write(std::span<const uint8_t> rgb);
 
     /// Waits for ffmpeg and renames the file to its final name.
@@ -43,7 +43,7 @@ private:
     std::filesystem::path temporary_;
     pid_t process_ = -1;
     EndsWithProgram enteredFile_, enteredProcess_;
-    int input_ = -1; ///< our end of the pipe
+    int input_ = -1; ///< file descriptor of the writing end of the pipe
 };
 
 } // namespace fx::cli

@@ -1,7 +1,8 @@
 /// @file interrupt.h
-/// Ctrl-C (SIGINT) and SIGTERM as a flag that long work checks between steps and frames, so that it can clean
-/// up. If the flag is not checked in time, or a second signal arrives, the program is terminated at once with
-/// the same exit code, after removing registered temporary files and killing registered child processes.
+/// Handles Ctrl-C (SIGINT) and SIGTERM. A signal sets a flag; long work checks the flag between steps and
+/// frames and then cleans up. If the flag is not checked in time, or if a second signal arrives, the
+/// program is terminated at once with the same exit code. Before that, registered temporary files are
+/// removed and registered child processes are killed.
 ///
 /// Threads: installInterruptHandler() once from main; all other functions from any thread.
 #pragma once
@@ -14,21 +15,21 @@
 
 namespace fx::cli {
 
-/// [s] that a program has from a request to stop to its next look at interruptRequested().
+/// [s] time limit between a request to stop and the next call of interruptRequested().
 constexpr unsigned kSecondsToStop = 8;
 
-/// Catches SIGINT and SIGTERM, and ignores SIGPIPE so that a reader that goes away is an error of write().
-/// Takes SIGALRM for itself.
+/// Catches SIGINT and SIGTERM. Ignores SIGPIPE, so that a closed pipe is an error of write(). Uses SIGALRM
+/// for the time limit.
 void installInterruptHandler(unsigned secondsToStop = kSecondsToStop);
 
-/// Whether the user has requested a stop. The caller ends at its next safe point.
+/// True when the user has requested a stop. The caller then ends at its next safe point.
 bool interruptRequested();
 
 /// The status of an interruption.
 base::Status interruptedStatus();
 
-/// Registers, during its lifetime, a file to remove or a process to kill if the program is terminated. At
-/// most 32 at a time; further ones are ignored.
+/// Registers a file or a process for its own lifetime: if the program is terminated, the file is removed or
+/// the process killed. At most 32 are registered at a time; further ones are ignored.
 class EndsWithProgram
 {
 public:

@@ -1,5 +1,5 @@
 /// @file json_line.h
-/// The output of --json: one object a line on standard output, each with the version and the machine.
+/// The output of --json: one object per line on standard output, each with the version and the machine.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -15,7 +15,7 @@ nlohmann::json withMachine(nlohmann::json object, const Machine& machine);
 /// Prints `object` and a line break. Bytes that are not UTF-8 are replaced.
 void printJsonLine(const nlohmann::json& object);
 
-/// Flushes standard output. @return Io when a part could not be written, such as on a full disk
+/// Flushes standard output. @return Io when a part could not be written, for example because a disk is full
 base::Status finishStandardOutput();
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file named_choice.h
-/// Options whose value is one of a few names.
+/// Command-line options whose value is one of several names.
 #pragma once
 
 #include "foundation/result/nearest_name.h"
@@ -13,7 +13,7 @@
 
 namespace fx::cli {
 
-/// Accepts one of `names`; the message about another value lists them and suggests the nearest.
+/// Accepts one of `names`. The message for any other value lists the names and suggests the nearest.
 inline CLI::Validator oneOf(std::vector<std::string> names)
 {
     const std::string list = "{" + CLI::detail::join(names, ",") + "}";

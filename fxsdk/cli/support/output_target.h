@@ -1,5 +1,5 @@
 /// @file output_target.h
-/// The kind of output that the argument of `-o` names: a still, a numbered sequence, or a video.
+/// The kind of output that the argument of `-o` requests: a still, a numbered sequence, or a video.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -21,18 +21,18 @@ struct OutputTarget
 {
     OutputKind kind = OutputKind::Png;
     std::filesystem::path path;
-    size_t numberAt = std::string::npos; ///< where "%0Nd" begins in the file name; npos for a single file
-    size_t numberLength = 0;             ///< [character] of that place holder
-    int digits = 0;                      ///< least number of digits
+    size_t numberAt = std::string::npos; ///< position of "%0Nd" in the file name; npos for a single file
+    size_t numberLength = 0;             ///< [character] length of that placeholder
+    int digits = 0;                      ///< minimum number of digits
 
     bool isSequence() const { return numberAt != std::string::npos; }
     bool isStill() const { return kind != OutputKind::Mp4 && !isSequence(); }
-    /// The file of one frame; `path` itself for a single file.
+    /// The file of one frame; `path` itself if there is a single file.
     std::filesystem::path frame(int64_t number) const;
 };
 
-/// Parses NAME.png, NAME.exr, NAME.mp4 and NAME with one placeholder %d, %4d or %04d. "%%" is refused.
-/// @return InvalidArgument naming the allowed forms
+/// Parses NAME.png, NAME.exr and NAME.mp4, where NAME may contain one placeholder %d, %4d or %04d.
+/// @return InvalidArgument naming the allowed forms, also for "%%"
 base::Result<OutputTarget> parseOutputTarget(const std::string& text);
 
 } // namespace fx::cli

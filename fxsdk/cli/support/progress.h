@@ -1,5 +1,5 @@
 /// @file progress.h
-/// A progress bar with the time left, on standard error and only when that is a terminal.
+/// A progress bar with the remaining time on standard error, if standard error is a terminal.
 #pragma once
 
 #include <chrono>
@@ -10,15 +10,15 @@ namespace fx::cli {
 
 /// The bar's text: "frame 12/60 [#####     ] 20 % 8 s left". A pure function, so that it can be tested.
 /// @param done parts finished, 0..total
-/// @param elapsedSeconds since the start; the time left assumes that parts take equally long
+/// @param elapsedSeconds [s] since the start; the remaining time assumes that all parts take equally long
 std::string progressText(const std::string& what, uint64_t done, uint64_t total, double elapsedSeconds);
 
 class Progress
 {
 public:
-    /// @param enabled false keeps silent even on a terminal
+    /// @param enabled false: nothing is printed, even on a terminal
     Progress(std::string what, uint64_t total, bool enabled);
-    ~Progress(); ///< clears the line
+    ~Progress(); ///< erases the line
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 

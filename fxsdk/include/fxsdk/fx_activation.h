@@ -3,18 +3,21 @@
 /// only the instances that a camera sees.
 ///
 /// Without cameras (fxScene_SetFocus) every instance is in sight. With cameras, an instance whose bounds no
-/// camera sees is hidden: it is not stepped, not shown, and costs nothing. When it comes into sight again, it
-/// catches up as its preset's member "offscreen" specifies:
-///   analytic       is computed for the present directly, with the bits of an effect never hidden
-///   replay         takes the missing steps, at most FxSceneDef::catchUpSteps an update: the same bits; an
-///                  absence longer than FxSceneDef::maxCatchUpTicks is left out instead, and counted
-///   coarse         is stepped while hidden, four steps of the scene in one: other bits
-///   skip           the missing time is left out: particles age, or are gone, but have not moved
-///   authoritative  is never hidden
-/// Without the member, gases are authoritative; other effects are analytic if all their solvers can jump, and
-/// replayed otherwise. An effect of unknown extent is never hidden because of its position; the preset's
-/// member "bound" states the extent. Threads: [scene thread] for all functions. Ownership: the library copies
-/// all arguments.
+/// camera sees is hidden: it is not stepped, not shown, and costs nothing. When it comes into sight again,
+/// it catches up as its preset's member "offscreen" specifies:
+///   analytic       The present state is computed directly. It has the bits of an effect that was never
+///                  hidden.
+///   replay         The missing steps are taken, at most FxSceneDef::catchUpSteps per update. The result
+///                  has the bits of an effect that was never hidden. An absence longer than
+///                  FxSceneDef::maxCatchUpTicks is not replayed; its time is skipped and counted.
+///   coarse         While hidden, the effect takes one step for four steps of the scene. The bits differ.
+///   skip           The missing time is left out. Particles age or die, but do not move.
+///   authoritative  The effect is never hidden.
+/// Without the member, gases are authoritative. Other effects are analytic if all their solvers can jump to
+/// any time, and replayed otherwise. An effect of unknown extent is never hidden because of its position;
+/// the preset's member "bound" states the extent.
+///
+/// Threads: [scene thread] for all functions. Ownership: the library copies all arguments.
 #ifndef FXSDK_FX_ACTIVATION_H
 #define FXSDK_FX_ACTIVATION_H
 
@@ -39,15 +42,15 @@ typedef struct FxFocus
     /// World minus origin to eye, column-major; rigid; default identity.
     float view[16];
 
-    /// Eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1 and 0) or orthographic
-    /// (0 and 1); required.
+    /// Eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1 and 0) or
+    /// orthographic (0 and 1); required.
     float projection[16];
 
     /// [m] largest distance from the eye at which instances are seen; 0 (default): no limit.
     double maxDistance;
 
-    /// [m] 0..1e6, the frustum is widened by this on all sides, for effects that cast light or shadow into
-    /// it, and for cameras that turn quickly; default 2.
+    /// [m] 0..1e6, the frustum is widened by this distance on all sides; default 2. This keeps effects that
+    /// cast light or shadow into the frustum, and allows for cameras that turn quickly.
     float margin;
 
     /// [pixel] 0..65536, instances with a smaller radius on the picture are hidden; default 0.
@@ -90,9 +93,10 @@ static inline FxActivationHints fxDefaultActivationHints(void)
     return hints;
 }
 
-/// Limits for all instances in sight together. When a limit is exceeded, the instances with the smallest size
-/// times priority are hidden. Active instances count a quarter more (hysteresis). Authoritative instances and
-/// the most significant instance are never hidden. Fill with fxDefaultBudget().
+/// Limits for all instances in sight together. When a limit is exceeded, the instances with the smallest
+/// product of size on the picture and priority are hidden. For active instances, the product is increased by
+/// a quarter (hysteresis). Authoritative instances and the most significant instance are never hidden. Fill
+/// with fxDefaultBudget().
 typedef struct FxBudget
 {
     /// Set by fxDefaultBudget(); do not touch.
@@ -104,8 +108,8 @@ typedef struct FxBudget
     /// [ms] 0..1e6, estimated time of a step; 0 (default): no limit.
     float milliseconds;
 
-    /// [ns] 0..1e9, time per particle and step, for the estimate; 0 (default): measured, so that the set of
-    /// hidden instances differs from run to run.
+    /// [ns] 0..1e9, time per particle and step, for the estimate. 0 (default): the time is measured; then
+    /// the set of hidden instances differs from run to run.
     float nanosecondsPerParticle;
 
     /// [byte] memory of particles, estimated from the presets' capacities; 0 (default): no limit.
@@ -152,46 +156,46 @@ typedef struct FxInstanceActivity
     uint32_t state;      ///< FxInstanceState
     uint32_t reason;     ///< FxActivityReason
     uint32_t policy;     ///< FX_CATCH_UP_...
-    uint32_t particles;  ///< in its solvers
+    uint32_t particles;  ///< number of particles in its solvers
     float significance;  ///< [pixel] on the picture of the best camera, times priority
     float milliseconds;  ///< [ms] estimated time of a step
     float reach;         ///< [m] largest distance of particles from its position; infinite when unknown
     int64_t lagTicks;    ///< [tick] time that is not simulated yet
 } FxInstanceActivity;
 
-/// Counters of the last fxScene_Update(); all but the estimate are exact. Fill structSize with sizeof before
-/// the call.
+/// Counters of the last fxScene_Update(); all but the estimate are exact. Fill structSize with sizeof
+/// before the call.
 typedef struct FxFrameStats
 {
-    uint32_t structSize;    ///< set by the caller
-    uint32_t instances;     ///< existing
-    uint32_t dormant;       ///< waiting for their start
-    uint32_t active;        ///< stepped and shown
-    uint32_t finished;      ///< ended and not yet destroyed
-    uint32_t waking;        ///< catching up
-    uint32_t resting;       ///< without particles, and without births before a known time
-    uint32_t hidden;        ///< out of sight, those beyond the budget among them
-    uint32_t beyondBudget;  ///< in sight, but hidden by the budget
-    uint32_t wentOut;       ///< became hidden
-    uint32_t cameBack;      ///< reached the present again
-    uint32_t judged;        ///< bounds tested against cameras, of instances or of groups of hidden ones
-    uint32_t simulations;   ///< existing
-    uint32_t particles;     ///< alive in active instances
-    uint64_t particleSteps; ///< particles advanced, catching up apart
-    uint64_t subSteps;      ///< sub-steps of gases
-    uint64_t neighborPairs; ///< pairs of gas particles that interacted
-    uint64_t born;          ///< particles born
-    uint64_t dropped;       ///< births refused because a capacity was full
-    uint64_t clamped;       ///< values limited
+    uint32_t structSize;   ///< set by the caller
+    uint32_t instances;    ///< existing
+    uint32_t dormant;      ///< waiting for their start
+    uint32_t active;       ///< stepped and shown
+    uint32_t finished;     ///< ended and not yet destroyed
+    uint32_t waking;       ///< catching up
+    uint32_t resting;      ///< without particles, and without births before a known time
+    uint32_t hidden;       ///< out of sight, or in sight and beyond the budget
+    uint32_t beyondBudget; ///< in sight, but hidden by the budget
+    uint32_t wentOut;      ///< became hidden
+    uint32_t cameBack;     ///< reached the present again
+    uint32_t judged; ///< bounds of instances, or of groups of hidden ones, that were tested against cameras
+    uint32_t simulations;          ///< existing
+    uint32_t particles;            ///< alive in active instances
+    uint64_t particleSteps;        ///< particles advanced, without those of catching up
+    uint64_t subSteps;             ///< sub-steps of gases
+    uint64_t neighborPairs;        ///< pairs of gas particles that interacted
+    uint64_t born;                 ///< particles born
+    uint64_t dropped;              ///< births refused because a capacity was full
+    uint64_t clamped;              ///< values limited
     uint64_t catchUpParticleSteps; ///< particles advanced while catching up
     int64_t catchUpTicks;          ///< [tick] time caught up, the sum over instances
-    int64_t debtTicks;             ///< [tick] time that gases skipped
+    int64_t debtTicks;             ///< [tick] simulated time that gases left out to limit their work
     uint64_t allocations;          ///< from the context's allocator
     double estimatedMilliseconds;  ///< [ms] of a step of all active instances
     double nanosecondsPerParticle; ///< [ns] of a step, given or measured; used by the estimate
 } FxFrameStats;
 
-/// Sets the cameras of a scene, from the next update on. They only decide which instances are in sight.
+/// Sets the cameras of a scene, from the next update on. Cameras only decide which instances are in sight.
 /// [scene thread]
 /// @param foci  `count` cameras one after the other; may be null when count is 0: everything is in sight
 /// @param count 0..64

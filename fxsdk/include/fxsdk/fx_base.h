@@ -14,8 +14,8 @@
 ///               members are zero.
 ///   Thread tags [any] any thread; [scene thread] the thread of the scene; [GL thread] the thread on which
 ///               the context's OpenGL context is current. Another thread gets FX_ERROR_WRONG_THREAD.
-///   Callbacks   run inside the call that needs them. A call of the same object from a callback gets
-///               FX_ERROR_RE_ENTRANT.
+///   Callbacks   run inside the API call that needs their result. If a callback calls the same object, that
+///               call fails with FX_ERROR_RE_ENTRANT.
 #ifndef FXSDK_FX_BASE_H
 #define FXSDK_FX_BASE_H
 
@@ -37,7 +37,7 @@
 /// The three numbers in one: major * 65536 + minor * 256 + patch.
 #define FX_VERSION (FX_VERSION_MAJOR * 65536 + FX_VERSION_MINOR * 256 + FX_VERSION_PATCH)
 
-/// Ticks of scene time in a second: divides by 24, 25, 30, 48, 60, 90, 120, 144 and 240 without remainder.
+/// Ticks of scene time in a second. The number is divisible by 24, 25, 30, 48, 60, 90, 120, 144 and 240.
 #define FX_TICKS_PER_SECOND INT64_C(705600000)
 
 /// Initializer that sets every member of a struct to zero, in C and in C++.
@@ -66,7 +66,7 @@ typedef enum FxResult
     FX_ERROR_TOO_LARGE = -7,        ///< an input exceeds its documented size limit and was not read
     FX_ERROR_PARSE = -8,            ///< a text is not well formed
     FX_ERROR_SCHEMA = -9,           ///< a preset is well-formed JSON but violates its schema
-    FX_ERROR_VERSION = -10,         ///< a struct, preset or header of a version that this library cannot take
+    FX_ERROR_VERSION = -10,         ///< the version of a struct, preset or header is not supported
     FX_ERROR_GL_UNSUPPORTED = -11,  ///< the GL context lacks a version or function that is required
     FX_ERROR_GL_FAILED = -12,       ///< GL refused a shader, a framebuffer or an allocation
     FX_ERROR_NO_GL = -13,           ///< the context was created without GL, so it cannot draw
@@ -78,8 +78,8 @@ typedef enum FxResult
     FX_RESULT_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxResult;
 
-/// Names one preset of one context. All-zero means "none". Functions detect a stale id and never use another
-/// object in its place.
+/// Names one preset of one context. All-zero means "none". Functions detect a stale id and never use
+/// another object in its place.
 typedef struct FxPresetId
 {
     uint64_t bits; ///< opaque; differs from run to run
@@ -107,7 +107,7 @@ typedef struct FxView FxView;
 /// Version of the library that is loaded, in the form of FX_VERSION. [any]
 FX_API uint32_t fxGetVersion(void);
 
-/// The identifier of a result, such as "invalid-argument"; "unknown" for a number that is no result. [any]
+/// The name of a result, such as "invalid-argument"; "unknown" for a number that is not a result. [any]
 /// @return a constant string, never null
 FX_API const char* fxResultName(FxResult result);
 

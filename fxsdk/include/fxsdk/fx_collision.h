@@ -19,8 +19,8 @@ typedef struct FxCollisionMesh
     /// Set by fxDefaultCollisionMesh(); do not touch.
     uint32_t structSize;
 
-    /// [m] cell size of the grid that represents the mesh, 1e-3..1e3; smaller details are lost. Default 0:
-    /// the smallest size with which four million cells suffice.
+    /// [m] 1e-3..1e3, cell size of the grid that represents the mesh; smaller details are lost. 0
+    /// (default): the smallest size for which the grid has at most four million cells.
     float cellSize;
 
     /// [m] world position that positions are relative to, each within +-1e9; default 0.
@@ -54,12 +54,13 @@ static inline FxCollisionMesh fxDefaultCollisionMesh(void)
 /// Threads: called by several threads at once, those of the context's tasks and the scene thread, while
 /// fxScene_Update() or fxScene_SeekInstance() runs. It may not call functions of this scene: they fail with
 /// FX_ERROR_RE_ENTRANT on the scene thread and with FX_ERROR_WRONG_THREAD on others, and change nothing.
-/// Equal arguments must give equal results during a whole API call, and always if bits are to be equal on
-/// every machine. When hidden instances are replayed, the callback receives paths of the past.
+/// Within one API call, equal arguments must give equal results. If results are to be bit-equal on every
+/// machine, this must hold always. When hidden instances are replayed, the callback receives past paths.
 /// @param user FxContactHook::user
 /// @param from, to [m] world, a straight path of at most one step
 /// @param outShare  [1] 0..1, share of the path before the contact
-/// @param outNormal surface normal at the contact in world space, of any length above 0, opposed to the path
+/// @param outNormal surface normal at the contact in world space, of any length above 0, facing against the
+///                  path
 /// @return 0 when the path is free, then the outputs are ignored; otherwise 1
 typedef int (*FxContactFunction)(void* user, const double from[3], const double to[3], float* outShare,
                                  float outNormal[3]);
@@ -83,27 +84,29 @@ static inline FxContactHook fxDefaultContactHook(void)
 }
 
 /// Replaces the geometry that gases, fragments and bouncing particles collide with, from the next step on.
-/// Closed surfaces are solid. Behind open surfaces two cells are solid; the front is the side on which
-/// vertices run counter-clockwise. Walls thinner than a cell are thickened, so that no particle tunnels
-/// through. This call converts the mesh to a signed distance field on the threads of the context. That takes
-/// seconds for a large mesh, 4 bytes per cell (at most 64 MiB) and, during the call, 300 bytes per triangle.
-/// Steps then cost a few samples per particle and allocate nothing. With geometry, colliding instances share
-/// a simulation only at equal placements. A saved state contains a hash of the mesh, not the mesh. [scene
-/// thread]
+/// Closed surfaces are solid. Behind an open surface, a layer two cells thick is solid; the front is the
+/// side from which vertices run counter-clockwise. Walls thinner than a cell are thickened, so that no
+/// particle tunnels through.
+///
+/// This call converts the mesh to a signed distance field on the threads of the context. That takes seconds
+/// for a large mesh, 4 bytes per cell (at most 64 MiB) and, during the call, 300 bytes per triangle. Steps
+/// then cost a few samples per particle and allocate nothing. With geometry, colliding instances share a
+/// simulation only at equal placements. A saved state contains a hash of the mesh, not the mesh itself.
+/// [scene thread]
 /// @param mesh not kept; null: no geometry
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite or out of range; an index beyond the vertices;
-///         no triangle with an area), FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (more than 2^24 cells:
-///         the message says how many), FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A
-///         failure leaves the scene as it was.
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite or out of range; an index beyond the
+///         vertices; no triangle with an area), FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (more than
+///         2^24 cells: the message says how many), FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT. A failure leaves the scene as it was.
 FX_API FxResult fxScene_SetCollisionMesh(FxScene* scene, const FxCollisionMesh* mesh);
 
 /// Sets the contact callback from the next step on. It is called for presets with an obstacle of the shape
 /// "hook". Saved states do not contain it: set it before restoring one. [scene thread]
-/// @param hook null removes the callback. The function must be callable until another is set or the scene is
-///             destroyed
+/// @param hook null removes the callback. The function must be callable until another is set or the scene
+///             is destroyed
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or without a function), FX_ERROR_VERSION (structSize),
-///         FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure leaves the scene as
-///         it was.
+///         FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure leaves the scene
+///         as it was.
 FX_API FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook);
 
 #ifdef __cplusplus

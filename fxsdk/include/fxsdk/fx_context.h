@@ -1,6 +1,6 @@
 /// @file fx_context.h
-/// A context holds the host's hooks, the loaded presets and the GPU programs. Include this to start and stop
-/// fxsdk.
+/// A context holds the host's hooks, the loaded presets and the GPU programs. Include this to start and
+/// stop fxsdk.
 ///
 /// Threads: a context may be used from any thread unless a function says otherwise. A function that uses
 /// OpenGL is called on the GL thread: the thread that created the context, until fxContext_AdoptGlThread()
@@ -15,8 +15,8 @@
 extern "C" {
 #endif
 
-/// Memory functions of the host. Set both or none; without them the C++ runtime allocates. Called from
-/// several threads at once when a preset is loaded on one thread while a scene advances on another.
+/// Memory functions of the host. Set both or none; without them the C++ runtime allocates. They are called
+/// from several threads at once when one thread loads a preset while another advances a scene.
 typedef struct FxAllocator
 {
     /// Passed back unchanged.
@@ -26,11 +26,11 @@ typedef struct FxAllocator
     /// @return memory, or null when it is exhausted
     void* (*allocate)(void* user, size_t size, size_t alignment);
 
-    /// @param memory not null; size and alignment are those of its allocation
+    /// @param memory not null @param size, alignment the values that allocated it
     void (*release)(void* user, void* memory, size_t size, size_t alignment);
 } FxAllocator;
 
-/// The part [begin, end) of a parallel loop. May run on any thread of the host.
+/// Processes the indices [begin, end) of a parallel loop. May run on any thread of the host.
 typedef void (*FxLoopBody)(void* argument, uint32_t begin, uint32_t end);
 
 /// The host's parallel loop; null means the library's own threads.
@@ -40,8 +40,8 @@ typedef struct FxParallelFor
     void* user;
 
     /// Must call body so that every index in [0, count) is covered exactly once, by ranges of at least
-    /// minBatch indices (the last may be shorter), and return when all of these calls have returned. Results
-    /// depend neither on how the range is divided nor on the number of threads.
+    /// minBatch indices (the last may be shorter), and return when all of these calls have returned.
+    /// Results depend neither on how the range is divided nor on the number of threads.
     void (*run)(void* user, uint32_t count, uint32_t minBatch, FxLoopBody body, void* argument);
 } FxParallelFor;
 
@@ -70,12 +70,13 @@ typedef struct FxGlLoader
     /// Passed back unchanged.
     void* user;
 
-    /// @param name such as "glCreateTextures" @return the function's address, or null when it does not exist
+    /// @param name such as "glCreateTextures" @return the function's address, or null when it does not
+    ///          exist
     void* (*getProcAddress)(void* user, const char* name);
 } FxGlLoader;
 
-/// Finds preset files for hosts with an archive of their own; null means the file system. It is called before
-/// the file system for every relative name without ".." that is passed to fxLoadPresetFile().
+/// Finds preset files for hosts with an archive of their own; null means the file system. It is called
+/// before the file system for every relative name without ".." that is passed to fxLoadPresetFile().
 typedef struct FxAssetHook
 {
     /// Passed back unchanged.
@@ -121,8 +122,8 @@ typedef struct FxContextDef
     /// Default: the file system.
     FxAssetHook assets;
 
-    /// Maximum number of threads without parallelFor, 0..256, limited to the hardware threads of the machine;
-    /// 0 (default): all hardware threads.
+    /// Maximum number of threads without parallelFor, 0..256, limited to the hardware threads of the
+    /// machine; 0 (default): all hardware threads.
     uint32_t workers;
 
     /// FxContextFlag, added up; default 0.
@@ -149,17 +150,17 @@ typedef struct FxMemoryStats
     uint64_t allocationCount; ///< allocations since the context was created
 } FxMemoryStats;
 
-/// Creates a context. [any; with GL: on the thread where the OpenGL 4.5 context is current, which becomes the
-/// context's GL thread]
+/// Creates a context. [any; with GL: on the thread where the OpenGL 4.5 context is current, which becomes
+/// the context's GL thread]
 /// @param outContext receives the context; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (header of another major number),
 ///         FX_ERROR_GL_UNSUPPORTED (the message names the version or function), FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext);
 
 /// Destroys a context with all objects in it; its pointers and ids are invalid afterwards. Null is allowed
-/// and does nothing. No other call on an object of the context may be in progress. Callbacks during the call,
-/// such as FxAllocator::release, must not use objects of the context; the context refuses such calls. [GL
-/// thread when it has GL, else any]
+/// and does nothing. No other call on an object of the context may be in progress. Callbacks during the
+/// call, such as FxAllocator::release, must not use objects of the context; the context refuses such calls.
+/// [GL thread when it has GL, else any]
 /// @return FX_OK, FX_ERROR_WRONG_THREAD or FX_ERROR_RE_ENTRANT (nothing was destroyed)
 FX_API FxResult fxDestroyContext(FxContext* context);
 

@@ -1,5 +1,5 @@
 /// @file fx_preset.h
-/// A preset is an effect as its author described it (*.fx.json), ready to be placed any number of times.
+/// A preset is the description of an effect (*.fx.json). It can be instantiated any number of times.
 ///
 /// Threads: presets may be loaded and unloaded from any thread; loads of one context are serialized.
 /// Ownership: the context owns its presets. Instances keep the data of their preset when it is unloaded.
@@ -24,7 +24,7 @@ typedef struct FxPresetInfo
     /// [tick] lifetime of the effect; 0: the effect ends when its last particle has died.
     int64_t durationTicks;
 
-    /// Maximum number of particles that are alive at once in one instance.
+    /// Maximum number of simultaneously alive particles of one instance.
     uint64_t capacity;
 
     /// UTF-8, zero-terminated; longer names are cut.
@@ -37,13 +37,13 @@ typedef struct FxPresetInfo
     /// Work units of the most expensive step of 1/60 s, see FxSceneDef::workBudget.
     uint64_t stepWork;
 
-    /// Work units of the prewarm.
+    /// Work units of the prewarm, see FxSceneDef::workBudget.
     uint64_t startWork;
 } FxPresetInfo;
 
 /// Loads a preset from a file of at most 4 MiB. Warnings go to the log. [any]
-/// @param path      UTF-8; a relative one without ".." is passed to the context's asset hook before the file
-///             system
+/// @param path      UTF-8; a relative path without ".." is passed to the context's asset hook before the
+///                  file system is searched
 /// @param outPreset receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NOT_FOUND, FX_ERROR_IO, FX_ERROR_TOO_LARGE,
 ///         FX_ERROR_PARSE, FX_ERROR_SCHEMA, FX_ERROR_VERSION (messages name file, line and JSON pointer),
@@ -60,13 +60,13 @@ FX_API FxResult fxLoadPresetFile(FxContext* context, const char* path, FxPresetI
 FX_API FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, const char* displayName,
                                  FxPresetId* outPreset);
 
-/// Loads a preset of the library that is built in. [any]
+/// Loads a preset of the built-in library. [any]
 /// @param name      such as "explosion" or "library:explosion"
 /// @param outPreset receives the id; untouched on failure
 /// @return as fxLoadPresetFile; FX_ERROR_NOT_FOUND when the library has no such preset
 FX_API FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* outPreset);
 
-/// Unloads a preset; the id is stale afterwards, existing instances continue. [any]
+/// Unloads a preset. Its id is stale afterwards; existing instances continue. [any]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxUnloadPreset(FxContext* context, FxPresetId preset);
 

@@ -68,8 +68,8 @@ typedef struct FxSceneDef
     /// See fx_activation.h.
     uint32_t disableCulling;
 
-    /// 1: the state never depends on cameras: only instances that can be caught up bit for bit are hidden,
-    /// and absences of any length are replayed; default 0.
+    /// 1: the state never depends on cameras. Only instances that can be caught up bit for bit are hidden,
+    /// and absences of any length are replayed. Default 0.
     uint32_t lockStep;
 
     /// [tick] 0..3600 s, time out of sight after which an instance's memory is released; default 5 s.
@@ -85,7 +85,7 @@ typedef struct FxSceneDef
     uint32_t reserved;
 
     /// Work units that one update may spend, 0 for no limit; default 10,000,000, about 100 ms of one core.
-    /// Work beyond it is done by the next updates, in the same steps with the same results. See
+    /// The next updates do the remaining work, in the same steps and with the same results. See
     /// fxScene_Update.
     uint64_t workBudget;
 } FxSceneDef;

@@ -387,7 +387,7 @@ typedef struct FxLayerTextures
     uint32_t reserved;
 } FxLayerTextures;
 
-/// Outputs of the last frame: GL names; 0 where settings.outputs did not ask for it, or nothing was drawn.
+/// Outputs of the last frame: GL names; 0 if settings.outputs does not include them, or nothing was drawn.
 /// Fill structSize with sizeof before the call. The textures belong to the view and are valid until its next
 /// fxView_Render(). Texels are arranged as in the target. Distances are measured from the eye along the ray
 /// through the center of the pixel. Meshes and other opaque particles are included, surfaces of the host are

@@ -148,10 +148,9 @@ FX_API FxResult fxView_PrepareLights(FxView* view, const FxFrameDef* frame);
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetMediaShadow(FxView* view, uint32_t kind, uint32_t index, FxMediaShadow* ioShadow);
 
-/// GLSL 4.20 with the struct FxMediaShadow and the function
-/// `vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)`, the share of a light that
-/// media let through to a place p [m] relative to the frame's origin. For shaders of the host; it has no
-/// #version. [any]
+/// GLSL 4.20 source for shaders of the host, without #version. It contains the struct FxMediaShadow and the
+/// function `vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)`. The function returns
+/// the share of a light that media transmit to a position p [m], relative to the frame's origin. [any]
 /// @return a constant string
 FX_API const char* fxGetMediaShadowGlsl(void);
 
@@ -169,8 +168,8 @@ FX_API FxResult fxView_GetEffectLightCount(FxView* view, uint32_t* outCount);
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetEffectLight(FxView* view, uint32_t index, FxLight* ioLight);
 
-/// Reads the number of lights that light media in the frame that was prepared or rendered last: sun, host's,
-/// effects', and the sky where it has planes. [GL thread]
+/// Reads the number of lights that light media in the frame that was prepared or rendered last. These are the
+/// sun, the lights of the host and of the effects, and the sky if it has planes. [GL thread]
 /// @param outCount receives the number, at most 14; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetLightCostCount(FxView* view, uint32_t* outCount);

@@ -1,5 +1,5 @@
 /// @file birth_count.h
-/// How many particles the emitters of a preset are to be expected to give birth to.
+/// Expected numbers of births of the emitters of a preset.
 #pragma once
 
 #include "simulation/emitters/emitter_def.h"
@@ -9,10 +9,10 @@
 
 namespace fx::preset {
 
-/// Births of an emitter's own within any `seconds`, at most.
+/// Maximum number of births within any interval of `seconds`, without births by events.
 double ownBirths(const sim::Emission& emission, double seconds);
 
-/// How often the event happens in a particle's life; at a collision, once.
+/// Expected number of events of a rule in the life of a particle; a collision counts once.
 double timesOf(const sim::EventRule& rule, const base::Range& lifetime);
 
 /// Expected births in the emitters of one preset, including births by events. Births of an emitter within a
@@ -33,19 +33,19 @@ private:
         const sim::EventRule* rule;
     };
 
-    /// Number of the emitter's longest life in `lives_`.
+    /// Index in `lives_` of the longest lifetime of the emitter.
     size_t lifeOf(size_t index) const;
     /// Births of emitter number `index` within a time span of lifetime number `life`, with unlimited
     /// capacity.
     double wanted(size_t life, size_t index);
-    /// The same, limited by the capacity.
+    /// As wanted(), limited by the capacity.
     double within(size_t life, size_t index);
     double causedBy(size_t cause, const sim::EventRule& rule, size_t life);
 
     const std::vector<const sim::EmitterDef*>& emitters_;
-    std::vector<std::vector<Cause>> causes_;   ///< of births in each emitter
-    std::vector<double> lives_;                ///< [s] longest ones of all emitters, ascending, each once
-    std::vector<std::optional<double>> known_; ///< of within(), by emitter and life
+    std::vector<std::vector<Cause>> causes_; ///< causes of births, by emitter
+    std::vector<double> lives_; ///< [s] longest lifetimes of all emitters, ascending, without duplicates
+    std::vector<std::optional<double>> known_; ///< cached results of within(), by emitter and lifetime
 };
 
 } // namespace fx::preset

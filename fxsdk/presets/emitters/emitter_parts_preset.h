@@ -13,11 +13,12 @@
 
 namespace fx::preset {
 
-/// shape, position, size, ...: EmitterDef::shape and related members, or EmitterDef::births for other shapes.
+/// Reads shape, position, size and so on into EmitterDef::shape and related members, or into
+/// EmitterDef::births for other shapes.
 void readEmitterShape(const PresetValue& element, sim::EmitterDef& emitter);
-/// rate, bursts, ...
+/// Reads rate, bursts and related members.
 void readEmitterEmission(const PresetValue& emission, sim::Emission& out);
-/// forces and collisions; modules in the order gusts, drag, vortices, attractors, fields, surfaces,
+/// Reads forces and collisions. Modules are in the order gusts, drag, vortices, attractors, fields, surfaces,
 /// obstacles.
 void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter);
 /// appearance
@@ -27,9 +28,9 @@ void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out);
 /// light
 void readEmitterLight(const PresetValue& element, sim::LightDef& out);
 
-/// Reads the events of all emitters of the preset `root`, which `effect` holds as its first solvers, and puts
-/// the solvers in order. Adds findings for names that no emitter has, for circles, and for emitters in which
-/// nothing would ever be born.
+/// Reads the events of all emitters of the preset `root` and sorts the solvers so that causes precede their
+/// effects. The emitters are the first solvers of `effect`. Adds findings for unknown names of emitters, for
+/// cycles, and for emitters without any births.
 void linkEmitterEvents(const PresetValue& root, sim::EffectDef& effect);
 
 // Lint warnings: members that are valid and have no effect, or cost more than expected.
@@ -37,19 +38,19 @@ void lintForces(const PresetValue& element, bool hasGround);
 void lintShape(const PresetValue& element);
 void lintAppearance(const PresetValue& element, const sim::EmitterDef& emitter);
 
-/// Warns of emitters whose particles, including births by events, exceed the capacity, and of memory above 1
-/// GiB.
+/// Warns if the particles of an emitter, including births by events, exceed its capacity, and if memory
+/// exceeds 1 GiB.
 void lintCapacity(const PresetValue& root, const sim::EffectDef& effect);
 
 /// Warns that collisions with the depth texture of a view (shape "depth") have no effect when the CPU
-/// computes the emitter, with the reason for the CPU.
+/// computes the emitter. The warning states why the CPU computes it.
 /// @param root the preset; the first solvers of `effect` are its emitters, linked by their events
 void warnOfDepthOnCpu(const PresetValue& root, const sim::EffectDef& effect);
 
-// Assets that members name; null after a finding.
+// Read an asset that the member names. They return null after adding a finding.
 std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const char* member,
                                                uint32_t channels);
-/// Distances to the mesh of `file`, in cells of `cellSize`.
+/// Reads the distance field of the mesh `file` with cells of size `cellSize`.
 std::shared_ptr<const sim::DistanceField> readMeshField(const PresetValue& value);
 
 } // namespace fx::preset

@@ -12,17 +12,17 @@ namespace fx::preset {
 
 std::string_view emitterSchema();
 
-/// Adds the emitter that `element` describes to `effect`. Adds findings, and no invalid emitter, for faults
-/// that the schema cannot exclude.
+/// Adds the emitter that `element` describes to `effect`. For faults that the schema cannot exclude, findings
+/// are added instead of an emitter.
 void buildEmitter(const PresetValue& element, sim::EffectDef& effect);
 
-/// Links emitters by their events; warns of collisions with the depth of a view that the CPU cannot compute.
+/// Links emitters by their events. Warns of collisions with the depth texture that the CPU cannot compute.
 void linkEmitters(const PresetValue& root, sim::EffectDef& effect);
 
 /// Warns of members without effect and of capacities that are too small.
 void lintEmitters(const PresetValue& root, const sim::EffectDef& effect);
 
-/// Counts births, those that events cause included.
+/// Estimates births, including those caused by events.
 void estimateEmitters(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
 
 inline constexpr const base::KindDesc* kEmitterKinds[] = {&base::kBlobKind,     &base::kMaterialKind,

@@ -9,7 +9,7 @@ namespace fx::preset {
 
 std::string_view fragmentsSchema();
 
-/// Adds the burst of fragments that `element` describes to `effect`, and findings for faults that the schema
+/// Adds the burst of fragments that `element` describes to `effect`. Adds findings for faults that the schema
 /// cannot exclude.
 void buildFragments(const PresetValue& element, sim::EffectDef& effect);
 

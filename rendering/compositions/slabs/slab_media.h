@@ -1,5 +1,5 @@
 /// @file slab_media.h
-/// Per-tile lists of balls and cards of a view, for passes that sum them along rays.
+/// Per-tile lists of the balls and cards (flat particles) of a view, for passes that sum them along rays.
 #pragma once
 
 #include "rendering/compositions/slabs/slab_passes.h"
@@ -7,19 +7,19 @@
 
 namespace fx::render {
 
-/// Takes streams from a gathered frame, and lists them when the frame is drawn. Keeps its memory from frame
-/// to frame.
+/// Takes streams from a gathered frame, and adds passes that list their elements per tile. The memory is kept
+/// from frame to frame.
 class SlabMedia
 {
 public:
     explicit SlabMedia(const TechniqueSetup& setup);
 
-    /// Takes all streams.
+    /// Takes all streams out of `io`.
     void gather(const GatherInputs& in, GatheredFrame& io);
-    /// Remembers all streams, and leaves them where they are.
+    /// Stores references to all streams, which also stay in `from`.
     void see(const GatherInputs& in, const GatheredFrame& from);
-    /// In place of the balls that it has taken; null: none. Must stay, and have its buffers when list() is
-    /// called.
+    /// Replaces the balls of the taken streams by those of `balls`; null: no balls. `balls` must stay valid,
+    /// and its buffers must exist when list() is called.
     void replaceBalls(const MediaSource* balls) { ballSource_ = balls; }
     bool isEmpty() const { return !ballSource_ && cards_.empty(); }
 
@@ -30,7 +30,7 @@ public:
     struct Lists
     {
         SlabTilePass::Outputs tiles;
-        ResourceId balls; ///< as texels; invalid: none
+        ResourceId balls; ///< texture of SlabBallPass; invalid: no balls
         SlabDetail detail;
         SlabDetailPass::Outputs fieldDetail;
         CardLists cards;
@@ -40,12 +40,12 @@ public:
             return {&media, balls, detail, fieldDetail, tiles, cards, slabs};
         }
     };
-    /// What list() makes.
+    /// Options of list().
     struct ListUse
     {
-        uint32_t maxOfTile;         ///< as SlabTilePass
-        ResourceId fieldTiles = {}; ///< likewise
-        bool marks = false;         ///< cards are gathered with what outputs need
+        uint32_t maxOfTile;         ///< see SlabTilePass::Inputs
+        ResourceId fieldTiles = {}; ///< see SlabTilePass::Inputs
+        bool marks = false;         ///< cards also get the data that outputs need
         BallDetails details = {};
     };
     /// Adds the passes that list balls and cards. A frame calls it once or twice.
@@ -58,14 +58,14 @@ private:
     uint64_t cardCapacity(const MediaPass::Inputs& in) const;
 
     GlDevice& device_;
-    const MediaSource* ballSource_ = nullptr; ///< of all balls; null without balls
-    std::pmr::vector<DrawBatch> cards_;       ///< batches other than balls
+    const MediaSource* ballSource_ = nullptr; ///< source of all balls; null without balls
+    std::pmr::vector<DrawBatch> cards_;       ///< batches of other sources
     std::pmr::vector<TileRect> rects_;
-    uint64_t cardFragments_ = 0; ///< estimated, of the whole picture
-    int width_ = 0;              ///< [pixel] of the picture
-    bool counts_ = false;        ///< counts listed and spilled entries
+    uint64_t cardFragments_ = 0; ///< estimated number in the whole picture
+    int width_ = 0;              ///< [pixel] width of the picture
+    bool counts_ = false;        ///< listed and spilled entries are counted
     ResourceId tiles_, heads_;   ///< counters of the last frame, for reading back; may be invalid
-    uint64_t capacity_ = 0;      ///< of the last frame's cards
+    uint64_t capacity_ = 0;      ///< fragments of cards that the last frame had room for
 };
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file slab_passes.h
-/// The passes that put media together in slabs across each ray.
+/// The passes that sum media in slabs, the depth intervals of each ray.
 #pragma once
 
 #include "rendering/compositions/slabs/slab_tiles.h"
@@ -8,12 +8,12 @@
 
 namespace fx::render {
 
-/// Detail that slabs draw.
+/// Which detail is drawn.
 enum class SlabDetail : uint8_t
 {
     None,
-    OfBalls,  ///< noise of each ball by itself
-    OfFields, ///< and of fields
+    OfBalls,  ///< noise of single balls
+    OfFields, ///< noise of single balls, and the detail of fields
 };
 
 constexpr size_t kSlabPrograms = 2 * 3 * 2;
@@ -23,15 +23,16 @@ const ProgramDesc& slabProgramAt(size_t index);
 
 inline constexpr ProgramDesc kSlabCardsProgram{"slab cards", nullptr, nullptr, "slabs/slab_cards.comp.glsl",
                                                nullptr};
-/// @param detail of fields
+/// @param detail with the detail of fields
 const ProgramDesc& slabBallsProgram(bool detail);
 inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
                                                nullptr};
 
-constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame, of 4 bytes
-constexpr uint64_t kMaxCards = uint64_t(1) << 21;       ///< fragments of cards of a frame, of 32 bytes
+constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame; 4 bytes each
+constexpr uint64_t kMaxCards = uint64_t(1) << 21;       ///< fragments of cards of a frame; 32 bytes each
 
-/// Gathers the fragments of cards, in one list a texel. The result does not depend on the drawing order.
+/// Collects the fragments of cards in one linked list per texel. The result does not depend on the drawing
+/// order.
 ///
 /// reads the buffers of the sources
 ///         distance  [m] along the ray to opaque geometry
@@ -41,23 +42,24 @@ class SlabCardPass
 public:
     struct Inputs
     {
-        std::span<const DrawBatch> batches; ///< of sources without balls; must stay, as must their sources
-        const MediaPass::Inputs* media;     ///< of the composition
-        uint64_t capacity;                  ///< fragments; more are left out and counted
-        bool marks = false;                 ///< besides, what outputs need
+        /// of sources without balls; must stay valid, like their sources
+        std::span<const DrawBatch> batches;
+        const MediaPass::Inputs* media; ///< inputs of the composition
+        uint64_t capacity;              ///< room for fragments; further fragments are dropped and counted
+        bool marks = false;             ///< also collect the data that outputs need
     };
     [[nodiscard]] static CardLists addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// Detail of the fields that balls belong to; both lists must stay until the graph has executed.
+/// Detail of the fields that balls belong to. Both lists must stay valid until the graph has executed.
 struct BallDetails
 {
-    std::span<const BlobMaterial> materials{}; ///< one a ball; empty: no field has detail
+    std::span<const BlobMaterial> materials{}; ///< one per ball; empty: no field has detail
     std::span<const FieldDetailBlock> details{};
-    ResourceId lumpTile{}; ///< of LumpTileTexture
+    ResourceId lumpTile{}; ///< texture of LumpTileTexture
 };
 
-/// Details of fields as texels, and what balls have of them.
+/// Uploads the details of fields as texels, and the data of each ball for the detail of its field.
 ///
 /// writes  texels     RGBA32F of kFieldColumns, layout of shaders/field/field_detail.glsl
 ///         materials  buffer of BlobMaterial
@@ -71,10 +73,10 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const BallDetails& in);
 };
 
-/// Balls and their lights as texels.
+/// Writes balls and the light that they scatter as texels.
 ///
-/// reads   list     balls, and what BlobLightPass has written for them
-///         detail   of the fields that they belong to
+/// reads   list     balls, and their light from BlobLightPass
+///         detail   detail of the fields that the balls belong to
 /// writes  texture  RGBA32F, layout of shaders/slabs/slab_balls.glsl; invalid without balls
 class SlabBallPass
 {
@@ -83,30 +85,30 @@ public:
                                           const SlabDetailPass::Outputs& detail, const ViewBlock& view);
 };
 
-/// Turns of loops that a program may take in one invocation. Mesa's software renderers end all loops after
-/// 65,535.
+/// Loop iterations that a program may execute in one invocation. Mesa's software renderers end all loops
+/// after 65,535 iterations.
 constexpr uint32_t kMaxLoopTurns = 60000;
 
-/// Lists the balls of each tile of 16 x 16 texels, in their order, and the tiles that show something.
-/// A tile with more than `maxOfTile` lists those with the lowest ranks, of which each stands for
-/// (balls of the tile) / (entries) of them.
+/// Lists the balls of each tile of 16 x 16 texels, in the order of balls, and the tiles that are not empty.
+/// If a tile has more than `maxOfTile` balls, it lists those with the lowest ranks. Each listed ball then
+/// represents (balls of the tile) / (listed balls) balls.
 ///
 /// reads   rects  which tiles each ball may cover
 ///         cards, fieldTiles
-/// writes  tiles  arguments of a draw of one square a tile, counters, and each tile's part of the lists
+/// writes  tiles  arguments of a draw of one square per tile, counters, and the range of each tile in `lists`
 ///         lists  R32UI numbers of balls
 class SlabTilePass
 {
 public:
     struct Inputs
     {
-        std::span<const TileRect> rects; ///< must stay until the graph has executed
-        uint64_t entries;                ///< tiles of all of them
+        std::span<const TileRect> rects; ///< must stay valid until the graph has executed
+        uint64_t entries;                ///< total number of tiles in all `rects`
         int width, height;               ///< [texel]
-        uint32_t maxOfTile;              ///< entries, >= 2
-        float flip;                      ///< of window y against clip y, 1 or -1
+        uint32_t maxOfTile;              ///< largest number of balls in the list of a tile, >= 2
+        float flip;                      ///< sign of window y relative to clip y, 1 or -1
         CardLists cards;
-        ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock: their tiles show something as well
+        ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock; tiles with fields count as not empty
     };
     struct Outputs
     {
@@ -123,12 +125,12 @@ struct SlabTileCounts
 };
 static_assert(sizeof(SlabTileCounts) == 32);
 
-/// Sums all media of a texel in slabs across its ray, and composites the slabs front to back. Formulas:
+/// Sums all media of a texel in slabs along its ray, and composites the slabs front to back. Formulas:
 /// kernel-quantile, kernel-moment, slab-light.
 ///
-/// reads   what SlabBallPass, SlabTilePass and SlabCardPass have written
+/// reads   the results of SlabBallPass, SlabTilePass and SlabCardPass
 ///         distance  [m] along the ray to opaque geometry
-/// writes  media     as the media pass, drawn over `under`
+/// writes  media     as written by MediaPass, drawn over `under`
 /// Tiles without balls and cards cost nothing. Keeps no state.
 class SlabPass
 {
@@ -136,14 +138,14 @@ public:
     struct Inputs
     {
         const MediaPass::Inputs* media;
-        ResourceId balls; ///< invalid without any
+        ResourceId balls; ///< invalid without balls
         SlabDetail detail;
         SlabDetailPass::Outputs fieldDetail;
         SlabTilePass::Outputs tiles;
         CardLists cards;
         int slabs; ///< 6 or 16
     };
-    /// Entries of a tile that its programs read within kMaxLoopTurns.
+    /// Largest SlabTilePass::Inputs::maxOfTile for which no loop exceeds kMaxLoopTurns.
     static constexpr uint32_t maxOfTile(int slabs) { return kMaxLoopTurns / (slabs > 6 ? 28 : 14); }
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);

@@ -12,21 +12,22 @@
 
 namespace fx::render {
 
-constexpr int kSlabTile = 16; ///< [texel] side; also in shaders/slabs
+constexpr int kSlabTile = 16; ///< [texel] side of a tile; shaders/slabs has the same constant
 
 /// First and last tile of a ball, both included; layout of shaders/slabs/slab_tiles.comp.glsl. left > right:
-/// it is beside the picture.
+/// the ball is outside of the picture.
 struct TileRect
 {
     uint16_t left, right; ///< columns
-    uint16_t low, high;   ///< rows, upwards
-    uint32_t rank;        ///< stays with the ball; of a crowded tile those with the lowest are listed
+    uint16_t low, high;   ///< rows, numbered upwards
+    /// Constant for a ball; a tile with too many balls lists those with the lowest ranks.
+    uint32_t rank;
 };
 static_assert(sizeof(TileRect) == 12);
 
-/// Fills `outRects` with one for each ball. The eye may be inside of balls.
-/// @param view of the layers, whose size [texel] and least radius it has
-/// @return tiles of all rectangles
+/// Fills `outRects` with one rectangle per ball. The eye may be inside of balls.
+/// @param view of the layers; contains their size [texel] and the least radius of a ball
+/// @return total number of tiles in all rectangles
 uint64_t findTiles(std::span<const BlobInstance> balls, const ViewBlock& view,
                    std::pmr::vector<TileRect>& outRects);
 

@@ -32,11 +32,11 @@ public:
 private:
     GlDevice& device_;
     SlabMedia media_;
-    std::pmr::vector<FieldDetailBlock> details_; ///< of the frame
-    std::span<const BlobMaterial> materials_;    ///< likewise; empty without details_
-    LumpTileTexture lumpTile_;                   ///< nothing before detail is seen
-    ResourceId lumps_;                           ///< of the frame
-    uint32_t unused_ = 0;                        ///< frames without detail, one after the other
+    std::pmr::vector<FieldDetailBlock> details_; ///< detail of the fields of this frame
+    std::span<const BlobMaterial> materials_;    ///< materials of balls in this frame; empty without details_
+    LumpTileTexture lumpTile_;                   ///< created when detail is drawn
+    ResourceId lumps_;                           ///< lumpTile_ in the graph of this frame
+    uint32_t unused_ = 0;                        ///< number of successive frames without detail
     int slabs_ = 16;
 };
 

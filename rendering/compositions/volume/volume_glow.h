@@ -1,5 +1,5 @@
 /// @file volume_glow.h
-/// State of a view for the propagation of emitted light in its fields: grids on the GPU.
+/// State of a view for the propagation of emitted light in its fields: the grids on the GPU.
 #pragma once
 
 #include "rendering/field/field_glow_pass.h"
@@ -13,20 +13,21 @@
 
 namespace fx::render {
 
-/// Nothing before a field emits. Threads: [GL thread].
+/// Nothing is created before a field emits. Threads: [GL thread].
 class VolumeGlow
 {
 public:
     explicit VolumeGlow(GlDevice& device) : device_(device) {}
 
-    /// Makes room for grids. @return OutOfMemory
+    /// Makes room for `grids`. @return OutOfMemory
     base::Status makeRoom(std::span<const FieldGlowBlock> grids);
-    /// Imports the resources of a frame; without grids they are invalid.
+    /// Imports the resources of a frame. Without grids the resource ids are invalid.
     void importAll(FrameGraph& graph, std::span<const FieldGlowBlock> grids);
-    /// Uploads the grids and adds the passes. @param in inputs; grids and textures of the glow are added
+    /// Uploads the grids and adds the passes. @param in inputs except grids and textures of the glow, which
+    /// this sets
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::span<const FieldGlowBlock> grids);
 
-    ResourceId light() const { return textures_.light; } ///< of the frame; invalid: no field emits
+    ResourceId light() const { return textures_.light; } ///< light of this frame; invalid if no field emits
     ResourceId grids() const { return grids_; }          ///< buffer of FieldGlowBlock
     void release();
     uint64_t bytes() const;
@@ -35,7 +36,7 @@ private:
     GlDevice& device_;
     std::array<GlTexture, 5> volumes_; ///< in the order of GlowTextures
     GlBuffer buffer_;
-    GlowTextures textures_; ///< of the frame
+    GlowTextures textures_; ///< resource ids in this frame
     ResourceId grids_;      ///< grids of this frame
 };
 

@@ -1,5 +1,5 @@
 /// @file volume_network.h
-/// State of a view whose fields have illumination networks: grids and their light on the GPU.
+/// State of a view whose fields have illumination networks: the grids and their light on the GPU.
 #pragma once
 
 #include "rendering/field/field_glow_pass.h"
@@ -15,38 +15,43 @@
 
 namespace fx::render {
 
-/// The light goes on from frame to frame: some sweeps a frame while media or lights change, some more after
-/// that, then none. Nothing before a view asks for networks. Threads: [GL thread].
+/// The light of the last frame is the start of the next one. Each frame runs kSweeps iterations ("sweeps")
+/// while media or lights change, and until kSettledSweeps have run after the last change. Nothing is created
+/// before the settings of a view request networks. Threads: [GL thread].
 class VolumeNetwork
 {
 public:
     explicit VolumeNetwork(GlDevice& device) : device_(device) {}
 
-    /// Takes over the grids of a frame that is not kept. @param eye [m] world position that they are relative
-    /// to @param cells along a side of a grid, a multiple of 8 @return OutOfMemory
+    /// Sets the grids of a frame whose media differ from the last frame.
+    /// @param cells along a side of a grid, a multiple of 8
+    /// @param eye [m] world position to which the grids are relative
+    /// @return OutOfMemory
     base::Status makeRoom(std::span<const FieldGlowBlock> grids, int cells, const glm::dvec3& eye);
     void importAll(FrameGraph& graph);
-    /// @param in inputs; grids and textures are added @param isKept media and lights are those of the last
-    /// frame
+    /// Uploads the grids and adds the passes.
+    /// @param in inputs except grids and textures, which this sets
+    /// @param isKept media and lights are those of the last frame
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const LightBindings& lights, bool isKept);
 
     bool isEmpty() const { return grids_.empty(); }
     bool isSettled() const { return settled_ >= kSettledSweeps; } ///< no sweeps are left to do
     int cells() const { return cells_; }
-    ResourceId moments() const { return textures_.moments; } ///< of the frame; invalid: there are no grids
-    ResourceId buffer() const { return gridsId_; }           ///< of FieldGlowBlock
+    ResourceId moments() const { return textures_.moments; } ///< moments of this frame; invalid without grids
+    ResourceId buffer() const { return gridsId_; }           ///< buffer of FieldGlowBlock
     void release();
     uint64_t bytes() const;
 
 private:
-    static constexpr int kSweeps = 2;         ///< of a frame
-    static constexpr int kSettledSweeps = 16; ///< after the last change, and of light that begins in darkness
+    static constexpr int kSweeps = 2; ///< per frame
+    /// After the last change, and for grids that begin without light.
+    static constexpr int kSettledSweeps = 16;
 
     /// A grid of the last frame.
     struct Known
     {
         glm::dvec3 corner; ///< [m] world
-        float side;        ///< [m] of a cell
+        float side;        ///< [m] side of a cell
     };
     void matchGrids(const glm::dvec3& eye);
     base::Status makeTextures();
@@ -55,11 +60,11 @@ private:
     int cells_ = 0;
     int settled_ = 0; ///< sweeps since the last change
     std::vector<FieldGlowBlock> grids_;
-    std::vector<Known> known_, now_;   ///< of the last frame, of this one
+    std::vector<Known> known_, now_;   ///< grids of the last frame; of this frame
     std::array<GlTexture, 7> volumes_; ///< in the order of NetworkTextures
     GlBuffer buffer_;
-    NetworkTextures textures_; ///< of the frame
-    ResourceId gridsId_;       ///< of the frame
+    NetworkTextures textures_; ///< resource ids in this frame
+    ResourceId gridsId_;       ///< grids in this frame
 };
 
 } // namespace fx::render

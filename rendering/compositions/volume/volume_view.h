@@ -22,8 +22,8 @@
 
 namespace fx::render {
 
-/// Sums balls in fields. Cards and balls that are too small for voxels are summed in slabs along the same
-/// rays. Without fields it works as the composition `slabs`.
+/// Sums balls in voxel fields. Cards, and balls that are too small for voxels, are summed in slabs along the
+/// same rays. Without fields the result is that of the composition `slabs`.
 class VolumeView final : public CompositionView
 {
 public:
@@ -54,10 +54,10 @@ private:
         Balls,
         Texels,
         Tiles,
-        Materials,  ///< none where no field has detail, as the next
-        Blobs,      ///< of the frame, for lights: those of PassFrame come later
-        Stacks,     ///< of the lights
-        NearBricks, ///< none where no ball is near the eye, as the next
+        Materials,  ///< empty if no field has detail, as is Blobs
+        Blobs,      ///< balls of the frame, for lights; PassFrame gets its balls later
+        Stacks,     ///< SliceStackBlocks of the lights
+        NearBricks, ///< empty if no ball is near the eye, as is NearParts
         NearParts,
         Lists
     };
@@ -73,7 +73,7 @@ private:
     void upload(FrameGraph& graph);
     void fill(FrameGraph& graph, ResourceId blobs);
     void addFields(FrameGraph& graph, PassFrame& frame);
-    /// Grids of emitted light; none where networks carry it.
+    /// Grids of emitted light; empty if illumination networks propagate it.
     std::span<const FieldGlowBlock> glows() const
     {
         return networkCells_ > 0 ? std::span<const FieldGlowBlock>() : plan_.glows();
@@ -85,31 +85,33 @@ private:
     GlDevice& device_;
     FieldPlan plan_;
     FieldTexels texels_;
-    FieldMarchPass::Inputs march_{}; ///< of the frame
+    FieldMarchPass::Inputs march_{}; ///< inputs of the march in this frame
     std::pmr::vector<FieldDetailBlock> details_;
-    std::span<const std::byte> stacks_;       ///< SliceStackBlocks of the frame
-    uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
+    std::span<const std::byte> stacks_; ///< SliceStackBlocks of the frame
+    /// Number of the filling of light slices to which detail has been added.
+    uint64_t corrected_ = 0;
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
-    VolumeNetwork network_;                 ///< in place of the glow, where the settings ask for it
-    int networkCells_ = 0;                  ///< of the frame, along a side of a grid; 0: there is none
-    std::span<const BlobInstance> blobs_;   ///< balls of this frame, if any has detail
-    bool layers_ = false;                   ///< the frame has layer outputs
-    glm::dvec3 eye_{0.0};                   ///< [m] world, of the frame
-    const FrameGraph* filledFor_ = nullptr; ///< textures hold fields before light, by passes of this graph
-    GlTexture texelTexture_, table_;        ///< of FieldTexels, and of bricks
-    LumpTileTexture lumpTile_;              ///< nothing before detail is seen
-    SlabMedia loose_;                       ///< cards, and balls of `looseSource_`
-    BlobSource looseSource_;                ///< of balls that are too small for voxels, or near the eye
+    VolumeNetwork network_;               ///< used instead of the glow if the settings request it
+    int networkCells_ = 0;                ///< cells along a side of a grid in this frame; 0: no networks
+    std::span<const BlobInstance> blobs_; ///< balls of this frame, if any has detail
+    bool layers_ = false;                 ///< the frame has layer outputs
+    glm::dvec3 eye_{0.0};                 ///< [m] world, of the frame
+    /// Graph whose passes have filled the textures with fields that are not lit yet.
+    const FrameGraph* filledFor_ = nullptr;
+    GlTexture texelTexture_, table_; ///< texels of FieldTexels; table of bricks
+    LumpTileTexture lumpTile_;       ///< created when detail is drawn
+    SlabMedia loose_;                ///< cards, and balls of `looseSource_`
+    BlobSource looseSource_;         ///< balls that are too small for voxels, or near the eye
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
-    int slabs_ = 16; ///< that the loose is at least divided into
-    /// Imported as last resources, so that their content is preserved for the next frame.
+    int slabs_ = 16; ///< least number of slabs for balls and cards outside of fields
+    /// Imported as persistent resources, so that their content is preserved for the next frame.
     std::array<GlBuffer, Lists> buffers_;
     std::array<ResourceId, Lists> ids_;                        ///< of the frame
-    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< persistent as well
+    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< also persistent
     bool isKept_ = false; ///< lists and textures are those of the last frame
-    uint32_t unused_ = 0; ///< frames, one after the other
+    uint32_t unused_ = 0; ///< number of successive frames without balls
 };
 
 } // namespace fx::render

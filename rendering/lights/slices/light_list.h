@@ -1,5 +1,5 @@
 /// @file light_list.h
-/// The lights of one view, which of them cast shadows through media, and where their planes lie in the atlas.
+/// The lights of one view, which of them have media shadows, and the positions of their planes in the atlas.
 #pragma once
 
 #include "rendering/frame/view_types.h"
@@ -26,38 +26,39 @@ struct SliceStackBlock
 static_assert(sizeof(SliceStackBlock) == 5 * 16);
 
 constexpr uint64_t kSliceTexelBytes = 8; ///< depth and its slope towards the next plane, 32 bits each
-constexpr int kSliceTileColumns = 8;     ///< tiles in a row of the planes of a stack
-constexpr size_t kFinerPlanes =
-    kMaxLightEntries - 2;      ///< first entry with finer planes of the sun near the eye
-constexpr size_t kSkyAxes = 6; ///< of an icosahedron: both ends of each are sampled, with equal weights
+constexpr int kSliceTileColumns = 8;     ///< tiles (planes of a stack) in a row of the atlas
+/// first entry with finer planes of the sun near the eye
+constexpr size_t kFinerPlanes = kMaxLightEntries - 2;
+/// axes of an icosahedron; both directions of each are sampled, with equal weights
+constexpr size_t kSkyAxes = 6;
 static_assert(1 + kMaxEffectLights + kMaxHostLights + kSkyAxes <= kFinerPlanes);
 
-/// [1] sine of the elevation of all axes but the first, which is vertical.
+/// [1] Sine of the elevation of axes 1 to 5; axis 0 is vertical.
 constexpr float kSkyAxisElevation = 0.4472135955f; // 1 / sqrt(5)
 
 enum class LightKind : uint8_t
 {
     Sun,
     Host,   ///< ViewSettings::hostLights
-    Effect, ///< of effects in the snapshot
-    Sky,    ///< sky and ground, looked up along axes
+    Effect, ///< light of an effect in the snapshot
+    Sky,    ///< sky and ground, sampled along axes
 };
 
-/// Origin of a light of the list.
+/// Where a light of the list comes from.
 struct LightOrigin
 {
     LightKind kind = LightKind::Sun;
-    uint32_t index = 0; ///< of ViewSettings::hostLights, or of the effects' lights, brightest first
+    uint32_t index = 0; ///< in ViewSettings::hostLights, or in the lights of effects, brightest first
 };
 
 /// Cost of the planes of a light.
 struct LightCost
 {
     LightOrigin origin;
-    uint32_t stacks = 0; ///< 0: it has no planes, and media cast no shadow in it
-    uint32_t planes = 0; ///< of all stacks
-    uint64_t texels = 0; ///< of all planes
-    uint64_t rays = 0;   ///< along which media are integrated when the planes are filled
+    uint32_t stacks = 0; ///< 0: no planes, so media cast no shadows in this light
+    uint32_t planes = 0; ///< number of planes of all stacks
+    uint64_t texels = 0; ///< number of texels of all planes
+    uint64_t rays = 0;   ///< number of rays along which media are integrated to fill the planes
 };
 
 /// Inputs of the light list of a frame.
@@ -67,27 +68,28 @@ struct LightListInputs
     glm::dvec3 eye;                       ///< [m] world
     std::span<const EffectLight> effects; ///< brightest first
     std::span<const MediumCaster> casters;
-    bool resetsHistory = false; ///< planes do not fade from those of the last frame
+    bool resetsHistory = false; ///< planes do not cross-fade from those of the last frame
 };
 
-/// Lights of a frame in the order in which they get planes: the sun, then the others by the light that
-/// arrives at the casters, then the axes of the sky. Planes of other sides than in the last frame fade in.
-/// Threads: one at a time. Equal inputs give equal bits, after equal inputs.
+/// Lights of a frame in the order in which they get planes: the sun, then the others by their illuminance at
+/// the casters, then the axes of the sky. If texel side or spacing of planes differ from the last frame, the
+/// new planes fade in. Threads: one at a time. Equal sequences of inputs give equal bits.
 class LightList
 {
 public:
     explicit LightList(std::pmr::memory_resource* memory);
 
-    /// Begins a frame: planes whose sides change fade.
+    /// Builds the list of the next frame, and advances cross-fades of planes.
     void build(const LightListInputs& in);
-    /// Builds the list of the same frame again from other inputs, reverting the last build().
+    /// Reverts the last build() and builds the list of the same frame from other inputs.
     void rebuild(const LightListInputs& in);
-    /// Sets the shadow map by which opaque surfaces shade media. @param shift [m] eye minus the origin of the
-    /// map's coordinates @return whether the block has changed
+    /// Sets the shadow map with which opaque surfaces shadow media.
+    /// @param shift [m] eye minus the origin of the map's coordinates
+    /// @return whether block() has changed
     bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
 
     const LightListBlock& block() const { return block_; }
-    /// The sun, points, axes of the sky; without finer planes of the sun.
+    /// The sun, point lights and axes of the sky, without the entries of finer planes of the sun.
     std::span<const SliceLightBlock> lights() const
     {
         return std::span(block_.lights).first(size_t(block_.counts.x + block_.counts.y));
@@ -96,14 +98,12 @@ public:
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
-    /// Number of costs: one for each of the first block().counts.x lights, then one for the sky if it has
+    /// Number of lights for costOf(): the first block().counts.x lights, then one for the sky if it has
     /// planes.
     size_t costCount() const;
     LightCost costOf(size_t light) const;
-    uint64_t placesRevision() const
-    {
-        return placesRevision_;
-    }                                                ///< differs where planes lie elsewhere in the world
+    /// Number that changes when the positions of planes in the world change.
+    uint64_t placesRevision() const { return placesRevision_; }
     int atlasWidth() const { return atlasWidth_; }   ///< [texel] size; 0: no medium casts a shadow
     int atlasHeight() const { return atlasHeight_; } ///< [texel]
     int mostTexels() const { return mostTexels_; }   ///< [texel] side of the largest plane
@@ -125,9 +125,8 @@ private:
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
     SliceFades fades_;
-    SliceFades fadesBefore_; ///< of the frame before
-    float sunTexel_ =
-        0.0f; ///< [m] side of the sun's texels, between the one before and that now; 0: no planes
+    SliceFades fadesBefore_; ///< fades of the previous frame
+    float sunTexel_ = 0.0f;  ///< [m] side of the sun's texels, interpolated during a cross-fade; 0: no planes
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;

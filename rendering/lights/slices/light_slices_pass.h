@@ -10,11 +10,11 @@ extern const ProgramDesc kLightSlicesProgram;
 
 /// Integrates the media between each light and each texel of its planes.
 ///
-/// reads   casters  buffer of casters, two vec4 each: center and radius; cross section
+/// reads   casters  buffer of two vec4 per caster: center and radius; cross section
 ///         stacks   buffer of SliceStackBlock
-/// writes  atlas    RG32F, optical depth up to a plane, and from it to the next; each texel is written by one
-/// invocation, in the order of the casters,
-///                  so that equal inputs give equal bits
+/// writes  atlas    RG32F: optical depth up to the plane, and from this plane to the next
+/// Each texel is written by one invocation, which adds casters in the order of the list. So equal inputs give
+/// equal bits.
 class LightSlicesPass
 {
 public:

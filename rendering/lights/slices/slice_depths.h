@@ -1,6 +1,6 @@
 /// @file slice_depths.h
-/// Light slices on the processor: the same numbers as those of the GPU within 1e-5 of the largest depth. For
-/// tests, measurements and hosts without OpenGL.
+/// Light slices on the processor, for tests, measurements and hosts without OpenGL. Optical depths equal
+/// those of the GPU within 1e-5 of the largest depth.
 #pragma once
 
 #include "rendering/lights/slices/slice_stack.h"
@@ -14,8 +14,8 @@ namespace fx::render {
 /// Optical depth at a point of a stack.
 struct SliceDepth
 {
-    float toLight; ///< [1] of the media between the light and the point
-    float total;   ///< [1] of all media on the line through both
+    float toLight; ///< [1] optical depth of the media between the light and the point
+    float total;   ///< [1] optical depth of all media on the line through light and point
 };
 
 /// Optical depths at all texels of the planes of a stack. Threads: one at a time while it is built.
@@ -28,9 +28,10 @@ public:
     void build(const SliceStack& stack, std::span<const MediumCaster> casters);
 
     const SliceStack& stack() const { return stack_; }
-    /// [1] at a texel.
+    /// [1] Optical depth between the light and a texel of a plane.
     float at(int plane, int x, int y) const { return depths_[indexOf(plane, x, y)]; }
-    /// Interpolated: linearly between texels and between planes.  @param position [m] as the stack's
+    /// Optical depths at a point, interpolated linearly between texels and between planes.
+    /// @param position [m] relative to the same point as the stack
     SliceDepth depthAt(const glm::vec3& position) const;
 
 private:

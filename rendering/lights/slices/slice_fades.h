@@ -1,7 +1,8 @@
 /// @file slice_fades.h
-/// Which sides the stacks of a view have while they change: a stack that the media outgrow, or that has
-/// become too large for them, gets the next sides, and for some frames both are looked up and mixed. Another
-/// lattice errs elsewhere, so that a change within one frame would be seen as a flash.
+/// Cross-fades of light slices. The sides of a stack are the side of its texels and the spacing of its
+/// planes. If the extent of the media requires other sides, the stack gets new planes, and for some frames
+/// the old and the new planes are sampled and mixed. Old and new planes have different errors, so a change
+/// within one frame would be visible as a flash.
 #pragma once
 
 #include "rendering/lights/slices/slice_stack.h"
@@ -12,20 +13,21 @@
 
 namespace fx::render {
 
-constexpr int kFadeFrames = 16; ///< in which new planes take over
+constexpr int kFadeFrames = 16; ///< length of a cross-fade
 
-/// Planes above these are replaced at once: those before would not fit into the atlas beside them.
+/// Larger planes are replaced without a cross-fade, because the atlas has no room for old and new planes
+/// together.
 constexpr SliceResolution kMaxFadingPlanes{256, 64};
 
-/// How a stack is to be made.
+/// The sides of a stack in this frame.
 struct SliceFade
 {
     SliceFit now;
-    SliceFit before;     ///< only with weight > 0
+    SliceFit before;     ///< valid if weight > 0
     float weight = 0.0f; ///< [1] < 1, weight of the previous planes
 };
 
-/// Threads: one at a time.
+/// The cross-fades of all stacks of a view. Threads: one at a time.
 class SliceFades
 {
 public:
@@ -35,7 +37,7 @@ public:
     void begin(bool forgets);
     /// Returns the fade of the next stack of the frame. Stacks must be passed in the same order in each
     /// frame.
-    /// @param wanted as the casters need it, snapped
+    /// @param wanted the stack that fits the casters, snapped
     SliceFade next(const SliceStack& wanted);
 
 private:
@@ -51,7 +53,7 @@ private:
     };
     static bool isNear(const Sides& a, const Sides& b);
 
-    std::pmr::vector<Held> held_; ///< of each stack
+    std::pmr::vector<Held> held_; ///< by stack
     size_t next_ = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file view_lights.h
-/// The lights of one view on the GPU: their list, the media that cast shadows, and the planes.
+/// The lights of one view on the GPU: the list of lights, the media that cast shadows, and the light slices.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -20,10 +20,10 @@
 
 namespace fx::render {
 
-/// Timer group of the passes that fill planes.
+/// Timer group of the passes that fill light slices.
 constexpr std::string_view kLightSliceGroup = "light slices";
 
-/// All programs that lights need.
+/// All programs of lights.
 std::span<const ProgramDesc* const> lightPrograms();
 
 class ViewLights
@@ -31,35 +31,36 @@ class ViewLights
 public:
     ViewLights(GlDevice* device, std::pmr::memory_resource* memory);
 
-    /// Makes the list of a frame. Planes are filled again only if casters or lights have changed; if only
-    /// casters have changed, at intervals of SliceSettings::refreshFrames.
+    /// Builds the list of a frame. Planes are filled again if lights have changed, or if casters have changed
+    /// and SliceSettings::refreshFrames have passed since the last filling.
     /// @param casters revision of `in.casters` in the world
     /// @return OutOfMemory
-    /// @param isUsed false: nothing is drawn and no shadow is cast, so no GPU memory is allocated
+    /// @param isUsed false: nothing is drawn and no shadow is cast, so that no GPU memory is allocated
     base::Status gather(const LightListInputs& in, uint64_t casters, bool isUsed = true);
 
-    /// Whether the planes are those of the casters that the last gather() was given.
+    /// Whether the planes belong to the casters of the last gather().
     bool isCurrent() const { return !isBehind_; }
 
-    /// Instead of gather(): the frame has the lights of the last one.
+    /// Called instead of gather(): the frame has the same lights as the last frame.
     void keep() { isKept_ = true; }
 
-    /// The host's shadow map of this frame.  @param origin [m] world position that its places are relative to
+    /// Sets the host's shadow map of this frame.
+    /// @param origin [m] world position to which the coordinates of the map are relative
     void setSunShadow(const HostShadowMap& map, const glm::dvec3& origin);
 
     /// Imports list and planes, and adds the passes that fill them. @return bindings for draws
     LightBindings addPasses(FrameGraph& graph);
 
-    void forget();  ///< invalidates data that this frame should have written
-    void release(); ///< gives back buffer and planes
+    void forget();  ///< call this if the passes of the frame have not run
+    void release(); ///< deletes buffer and planes
     bool hasPlanes() const { return atlas_.name() != 0; }
-    uint64_t bytes() const; ///< [byte] held on the GPU
+    uint64_t bytes() const; ///< [byte] size of GPU memory
     const LightList& list() const { return list_; }
     uint32_t atlasTexture() const { return atlas_.name(); } ///< GL name; 0: no planes
     /// Whether the planes are up to date with the last list.
     bool isFilled() const { return atlas_.name() != 0 && filled_ == wanted_; }
-    /// Shadow of a light of the last list; without filled planes, all light passes.
-    /// @param origin [m] world position that the places of lookups are relative to
+    /// Media shadow in a light of the last list. Without filled planes, the transmittance is 1.
+    /// @param origin [m] world position to which the sampled positions are relative
     MediaShadowBlock shadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
 
 private:
@@ -75,21 +76,21 @@ private:
 
     GlDevice& device_;
     LightList list_;
-    glm::dvec3 eye_{0.0}; ///< [m] world position that the list is relative to
+    glm::dvec3 eye_{0.0}; ///< [m] world position to which the list is relative
     std::pmr::vector<CasterBlock> casters_;
-    /// Casters that the planes were filled with; empty if planes are filled in every frame.
+    /// Casters with which the planes were filled; empty if planes are filled in every frame.
     std::pmr::vector<MediumCaster> held_;
     std::pmr::vector<MediumCaster> shifted_; ///< scratch: the same, relative to the eye of the frame
-    glm::dvec3 heldEye_{0.0};                ///< [m] world position that `held_` is relative to
+    glm::dvec3 heldEye_{0.0};                ///< [m] world position to which `held_` is relative
     uint64_t heldRevision_ = 0;
-    uint64_t givenRevision_ = 0; ///< of the last casters that gather() was given
-    int age_ = 0;                ///< [frame] since the casters were held
-    bool isBehind_ = false;      ///< the planes are those of held casters
+    uint64_t givenRevision_ = 0; ///< revision of the casters of the last gather()
+    int age_ = 0;                ///< [frame] since `held_` was set
+    bool isBehind_ = false;      ///< the planes belong to held_, not to the present casters
     GlBuffer lightBuffer_;
     GlTexture atlas_;
-    uint64_t filled_ = 0;    ///< key of the content of the planes; 0: none
-    uint64_t wanted_ = 0;    ///< key of this frame
-    uint32_t sunShadow_ = 0; ///< GL name of the host's
+    uint64_t filled_ = 0;    ///< key of the present content of the planes; 0: none
+    uint64_t wanted_ = 0;    ///< key of the content for this frame
+    uint32_t sunShadow_ = 0; ///< GL name of the host's shadow map
     bool isKept_ = false;    ///< the list on the GPU is that of the last frame
 };
 

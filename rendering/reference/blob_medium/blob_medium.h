@@ -1,6 +1,6 @@
 /// @file blob_medium.h
-/// Reference medium: a sum of balls with the quartic kernel, in double precision. GPU passes are compared
-/// with it.
+/// Reference medium: a sum of balls with the quartic kernel, in double precision. Results of GPU passes are
+/// compared with it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,7 +9,7 @@
 
 namespace fx::render {
 
-/// Part of a ray, in its own parameter [m].
+/// A range of the ray parameter [m].
 struct RaySpan
 {
     double begin;
@@ -31,25 +31,27 @@ struct Blob
     glm::dvec3 source;   ///< [cd/m2] emitted light per optical depth
 };
 
-/// Sum of blobs; each emits by its own extinction. Const calls from any thread.
+/// Sum of blobs. Each blob emits in proportion to its own extinction. Threads: any thread may call const
+/// functions.
 class BlobMedium
 {
 public:
     explicit BlobMedium(std::vector<Blob> blobs);
 
-    /// Interval of `ray` outside of which there is no medium.
+    /// Range of `ray` outside of which there is no medium.
     RaySpan span(const Ray& ray) const;
     double extinctionAt(const glm::dvec3& position) const; ///< [1/m] >= 0
     glm::dvec3 sourceAt(const glm::dvec3& position) const; ///< [cd/m2] emitted light per optical depth
-    /// [1] >= 0. Exact: the sum of the blobs' clipped polynomials (formula kernel-optical-depth).
+    /// [1] >= 0. Optical depth between two parameters [m]. It is exact: a sum of clipped polynomials (formula
+    /// kernel-optical-depth).
     double opticalDepth(const Ray& ray, double begin, double end) const;
 
 private:
     std::vector<Blob> blobs_;
 };
 
-/// Light that `medium` sends along `ray` from [begin, end] by composite midpoint steps in optical depth
-/// order: the plain, slow and independent answer. [cd/m2]
+/// [cd/m2] Light that `medium` emits towards the origin of `ray` from the range [begin, end], by `steps`
+/// midpoint steps. It is a simple, slow and independent reference.
 glm::dvec3 marchEmission(const BlobMedium& medium, const Ray& ray, double begin, double end, int steps);
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file dazzle_levels.h
-/// The published algorithm of glare for 8-bit pictures, and a corrected version.
+/// The published glare algorithm for 8-bit pictures, and a corrected version of it.
 ///
 /// One channel of a picture is a list of levels: 0..255 can be displayed, higher levels overflow.
 #pragma once
@@ -11,35 +11,34 @@
 namespace fx::render {
 
 /// @formula dazzle-levels
-/// Overflow of an 8-bit picture dealt to the levels below white in proportion to their headroom.
+/// Distributes the overflow of an 8-bit picture to levels below white, in proportion to their headroom.
 ///
 /// symbol   unit    meaning
 ///   i      level   0..255
 ///   c_i    1       number of pixels of level i
 ///   over   level   sum of p - 255 over pixels above 255
-///   glare  level   what is dealt: over times the sensor's gain, at most S_0
+///   glare  level   distributed amount: over times the sensor's gain, at most S_0
 ///   S_i    level   headroom of all pixels of level i and above, sum over j >= i of c_j (255 - j)
 /// @derivation
-///   Each pixel of level i is due glare (255 - i) / S_0. Levels are dealt from the brightest down; level i
+///   The exact share of a pixel of level i is glare (255 - i) / S_0. From the brightest level down, level i
 ///   gets
 ///       q_i = floor(glare S_i / S_0) - floor(glare S_(i+1) / S_0)                               (1)
-///   so that the q_i sum to glare exactly. Its pixels get floor(q_i / c_i), and the rest is spread evenly:
-///   pixel n of the level, in the order of the picture, gets one more where
+///   so that the sum of all q_i is exactly glare. Each pixel of the level gets floor(q_i / c_i). The rest is
+///   spread evenly: pixel n of the level, in the order of the picture, gets one more if
 ///       floor((n + 1) rest / c_i) > floor(n rest / c_i)                                         (2)
-///   glare <= S_0 gives q_i <= c_i (255 - i): no pixel exceeds 255, and none gets darker.
+///   Since glare <= S_0, q_i <= c_i (255 - i): no pixel exceeds 255, and no pixel gets darker.
 /// @source    [UBT96] dazzle of the CCD sensor
 /// @deviation the published code divides by zero below the darkest level in use, counts overflowed pixels in
-/// its
-///            histogram, overflows 32 bits, and rounds a whole level up at once, which overspends, up to
-///            darkening what is left; (1) and (2) do none of it
-/// @valid     any levels, sums up to 2^63; no headroom leaves nothing to deal; glare beyond S_0 fills every
-/// pixel
-/// @accuracy  exact: integers; each pixel is less than 2 levels from its real share
+///            its histogram and overflows 32 bits. It also rounds up whole levels, so that it distributes too
+///            much and may darken the remaining levels. (1) and (2) have none of these faults
+/// @valid     any levels, sums up to 2^63; without headroom nothing is distributed; with glare = S_0 every
+///            pixel becomes 255
+/// @accuracy  integers, no rounding error of sums; each pixel is within 2 levels of its exact share
 /// @tests     tests/rendering/reference/dazzle/test_dazzle_levels.cpp
-/// @param gain glare per overflow, >= 0; 1 deals all of it
+/// @param gain glare per overflow, >= 0; with 1 the whole overflow is distributed
 std::vector<uint8_t> dazzleLevels(std::span<const uint32_t> levels, double gain);
 
-/// The published code with one change: it stops instead of dividing by zero. Kept for comparison.
+/// The published code with one change: it stops instead of dividing by zero. Used for comparison.
 std::vector<int64_t> dazzleLevelsAsPrinted(std::span<const uint32_t> levels);
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file dazzle_reference.h
-/// The dazzle on the CPU, in 128-bit integers: the reference of the GPU programs, and the implementation
-/// without a GPU. Equal to DazzlePass bit for bit, for every sensor law.
+/// The glare computed on the CPU, with 128-bit integers. It equals DazzlePass bit for bit, for every sensor
+/// law. It is the reference of the GPU programs and the implementation without a GPU.
 #pragma once
 
 #include "rendering/passes/dazzle_pass.h"
@@ -11,14 +11,15 @@
 namespace fx::render {
 
 /// @param rgba     width * height pixels of four floats, row by row
-/// @param settings accepted by checkSensorLaw()
-/// @param ioHistory as the history buffer of DazzlePass
-/// @return the picture after the dazzle; empty for an empty one, whose history does not change
+/// @param settings must be accepted by checkSensorLaw()
+/// @param ioHistory content of the history buffer of DazzlePass
+/// @return the picture with glare. For an empty picture, an empty one; the history does not change then
 std::vector<float> dazzleReference(std::span<const float> rgba, int width, int height,
                                    const DazzleSettings& settings, double deltaTime, bool resetHistory,
                                    DazzleHistory& ioHistory);
 
-/// Glare per overflow, formula sensor-law (1), in operations that every processor and GPU rounds alike.
+/// Glare per overflow by equation (1) of formula sensor-law. Only operations are used that every processor
+/// and GPU rounds equally.
 /// @param over mean overflow per pixel in units of white, >= 0
 double dazzleGain(double over, const DazzleSettings& settings);
 

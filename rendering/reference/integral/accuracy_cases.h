@@ -1,6 +1,6 @@
 /// @file accuracy_cases.h
-/// Set-ups on which the schemes of the ray integral are compared, and their errors. Times are the caller's
-/// matter: it measures integrate().
+/// Test cases to compare schemes of the ray integral, and their errors. Callers that need times measure
+/// integrate().
 #pragma once
 
 #include "rendering/reference/integral/integral_scheme.h"
@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// Distribution of relative errors, and the work that was done for them.
+/// Distribution of relative errors, and the work of the computation.
 struct IntegralError
 {
     double median = 0.0;
@@ -23,7 +23,7 @@ struct IntegralError
     RayWork work;
 };
 
-/// A picture of blobs, as packets of 4 x 4 pixels that are ready to be integrated.
+/// A picture of blobs, as packets of 4 x 4 pixels for PacketIntegrator.
 template <class T>
 class PacketPicture
 {
@@ -36,8 +36,7 @@ public:
     const RayPacket<T>& packet(size_t i) const { return packets_[i]; }
     uint64_t hits() const;
 
-    /// The timed work: integrates every ray of packets [begin, end). @param outLights one for each packet of
-    /// the picture
+    /// Integrates all rays of the packets [begin, end). @param outLights one for each packet of the picture
     void integrate(PacketIntegrator<T>& integrator, size_t begin, size_t end,
                    PacketLight<T>* outLights) const;
 
@@ -46,33 +45,33 @@ private:
     std::vector<RayPacket<T>> packets_;
 };
 
-/// 270 blobs of radius 0.3 m with random emission, centers even in a ball of radius 1 m, of which the
-/// diameter fills the width of the picture; parallel rays.
-/// @param opticalDepth [1] of the ray through the center
+/// A picture of 270 blobs of radius 0.3 m with random emission. Their centers are uniformly distributed in a
+/// ball of radius 1 m, whose diameter fills the width of the picture. Rays are parallel.
+/// @param opticalDepth [1] optical depth of the ray through the center
 /// @param width, height in pixels, multiples of 4
-/// @param every takes each so many-th packet of the picture only
+/// @param every only each packet number k * every of the picture is used
 template <class T>
 PacketPicture<T> ballOfBlobs(double opticalDepth, uint32_t width, uint32_t height, uint32_t every = 1);
 
-/// The right answers to a picture: one for each ray, by reference_integral.h.
+/// Reference light [cd/m2] of each ray of a picture, by reference_integral.h.
 std::vector<std::array<double, 3>> referenceLight(const PacketPicture<double>& picture,
                                                   const IntegralSettings& settings);
 
-/// Errors of all channels of all rays whose light is above 1e-6 of the brightest.
+/// Errors of all channels of all rays whose light exceeds 1e-6 times that of the brightest ray.
 template <class T>
 IntegralError integralError(const PacketPicture<T>& picture, const IntegralSettings& settings,
                             const std::vector<std::array<double, 3>>& reference);
 
-/// Blobs that all emit 1: light has to be 1 - e^-tau.
+/// Error of a test where all blobs emit 1, so that the exact light is 1 - e^-tau.
 struct FurnaceError
 {
     double largest = 0.0; ///< |I / (1 - e^-tau) - 1|
-    double excess = 0.0;  ///< I / (1 - e^-tau) - 1: light that was created
+    double excess = 0.0;  ///< largest I / (1 - e^-tau) - 1: energy gain
     double atDepth = 0.0; ///< optical depth of the largest error
-    uint32_t atBlobs = 0;
+    uint32_t atBlobs = 0; ///< number of blobs of the largest error
 };
 
-/// Optical depths 10^-3 to 10^5, 25 a decade, through 1 to 64 overlapping blobs.
+/// Tests optical depths 10^-3 to 10^5, 25 per decade, through 1 to 64 overlapping blobs.
 template <class T>
 FurnaceError furnaceError(const IntegralSettings& settings);
 

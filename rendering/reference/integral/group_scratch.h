@@ -1,6 +1,6 @@
 /// @file group_scratch.h
-/// Scratch data of the integral for a group of rays: memory, rules and constants. A group has one ray for
-/// each vector lane.
+/// Scratch data of the integral for a group of rays: memory, quadrature rules and constants. A group has one
+/// ray for each SIMD lane.
 #pragma once
 
 #include "rendering/reference/integral/integral_scheme.h"
@@ -15,12 +15,13 @@
 
 namespace fx::render::integral {
 
-/// Memory on the boundary of a cache line, which whole vectors never cross. Contents are lost when it grows.
+/// Memory aligned to a cache line, so that no vector load crosses a line. The content is lost when the array
+/// grows.
 template <class T>
 class LineArray
 {
 public:
-    /// Room for `count` values; the start is aligned to 64 bytes.
+    /// Returns room for `count` values, aligned to 64 bytes.
     T* room(size_t count)
     {
         if (count > capacity_) {
@@ -40,35 +41,36 @@ private:
     size_t capacity_ = 0;
 };
 
-/// Scratch of a group with W rays. Lane arrays have W numbers for each blob or event.
+/// Scratch memory of a group with W rays. Lane arrays have W numbers for each blob or event.
 template <class T>
 struct GroupScratch
 {
     LineArray<T> center, chord2, events, perInterval;
-    LineArray<T> offset, square, margin; ///< of nearby blobs, twice
+    LineArray<T> offset, square, margin; ///< of nearby blobs; room for two intervals
     std::vector<uint32_t> nearby;
     uint32_t nearbyCount[2] = {};
-    LineArray<T> weights; ///< 4 numbers a blob: extinction, then three sources, divided by radius^(2 degree)
-    T largest = T(0), unit = T(1);        ///< the last group's largest radius, and the power of two below it
-    T brightest = T(0), lightUnit = T(1); ///< its brightest source, and the power of two below it
-    std::vector<T> first, last;           ///< extremes of each blob over the lanes
-    std::vector<T> low, high;             ///< of each event over the lanes
+    /// 4 numbers per blob: extinction and three sources, divided by radius^(2 degree)
+    LineArray<T> weights;
+    T largest = T(0), unit = T(1);        ///< largest radius of the last group, and the power of two below it
+    T brightest = T(0), lightUnit = T(1); ///< largest source of the last group, and the power of two below it
+    std::vector<T> first, last;           ///< by blob: least begin and largest end over all lanes
+    std::vector<T> low, high;             ///< by event: extremes over all lanes
     std::vector<uint32_t> byFirst, byLast;
-    std::vector<uint64_t> candidates; ///< bit i: blob i may matter in the present interval
+    std::vector<uint64_t> candidates; ///< bit i: blob i may overlap the present interval
 };
 
-/// The active blobs of the present interval in the order of summation, with terms shared by sums over them.
+/// The blobs that overlap the present interval, in the order of summation, with terms that several sums use.
 template <class T>
 struct NearbyBlobs
 {
     T* offset; ///< d of formula blob-polynomial
-    T* square; ///< g
-    T* margin; ///< > 0 where the lane's interval lies within the blob
+    T* square; ///< g of formula blob-polynomial
+    T* margin; ///< > 0 if the lane's interval is within the blob
     uint32_t* blob;
     uint32_t* count;
 };
 
-/// The blobs of a group as sums see them: scaled, with the present candidates.
+/// The scaled blobs of a group, with the candidates of the present interval.
 template <class T>
 struct BlobLanes
 {
@@ -77,18 +79,18 @@ struct BlobLanes
     const T* weights;
     const uint64_t* candidates;
     uint32_t words;
-    NearbyBlobs<T>
-        nearby[2]; ///< two: the light of one interval may be summed after the extinction of the next
+    /// Two, because the light of an interval may be summed after the extinction of the next one.
+    NearbyBlobs<T> nearby[2];
 };
 
 /// Inputs of the rays of a group. Lane arrays of blob k begin at k * stride.
 template <class T>
 struct GroupInput
 {
-    uint32_t count; ///< of blobs
+    uint32_t count; ///< number of blobs
     uint32_t stride;
-    T largest;   ///< [m] radius of the caller's blobs, those that all rays miss among them
-    T brightest; ///< [cd/m2] source of the same blobs, in any channel
+    T largest;   ///< [m] largest radius of all blobs of the caller, also of blobs that all rays miss
+    T brightest; ///< [cd/m2] largest source of the same blobs in any channel
     const T* center;
     const T* chord2;
     const T* nearest;
@@ -96,7 +98,7 @@ struct GroupInput
     const T* background[3];
 };
 
-/// Where the results of a group go, lane by lane.
+/// Output arrays for the results of a group, one value per lane.
 template <class T>
 struct GroupOutput
 {
@@ -120,9 +122,9 @@ struct GroupRules
 
     IntegralSettings settings;
     T stopDepth;
-    T caps[3]; ///< of kernels of degree 2, 3 and 4: the steeper, the more nodes for the same light
+    T caps[3]; ///< for kernels of degree 2, 3 and 4: steeper kernels need more nodes for the same accuracy
     GaussRule<T> gauss3 = gaussRule<T>(3), gauss5 = gaussRule<T>(5), gauss8 = gaussRule<T>(8);
-    std::vector<T> positive; ///< from -1 to 1
+    std::vector<T> positive; ///< nodes from -1 to 1, see pieceNodes()
 };
 
 } // namespace fx::render::integral

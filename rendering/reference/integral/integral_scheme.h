@@ -1,5 +1,5 @@
 /// @file integral_scheme.h
-/// How the light along a ray is integrated: schemes, their names, and the tiers that the product promises.
+/// How the light along a ray is integrated: schemes, their names, and their default settings.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -14,32 +14,35 @@ namespace fx::render {
 
 enum class IntegralMethod : uint8_t
 {
-    Paper,    ///< attenuation linear in the ray parameter within a part, closed form (formula
-              ///< linear-attenuation)
-    Simpson,  ///< Simpson's rule with exact optical depth
-    Gauss,    ///< Gauss-Legendre nodes with exact optical depth (formula gauss-attenuation)
-    Positive, ///< source linear in optical depth between nodes (formula depth-linear-source); bounds hold
-              ///< always
-    March,    ///< equal steps along the whole ray, density taken in their middle
-    Adaptive  ///< Paper, with the parts and the end of the ray chosen by a bound on the light from behind
+    /// Attenuation is linear in the ray parameter within a part; closed form (formula linear-attenuation).
+    Paper,
+    Simpson, ///< Simpson's rule with exact optical depth
+    Gauss,   ///< Gauss-Legendre nodes with exact optical depth (formula gauss-attenuation)
+
+    /// Source is linear in optical depth between nodes (formula depth-linear-source); bounds always hold.
+    Positive,
+    March,   ///< equal steps along the whole ray, with the density at their midpoints
+    Adaptive ///< Paper, with parts and end of the ray chosen by a bound of the remaining light
 };
 
 /// Model of emission. Blob i has extinction rho_i(t) and emits source_i per unit of its optical depth.
 enum class SourceModel : uint8_t
 {
-    PerBlob, ///< sum over i of rho_i source_i: every blob emits by its own mass
-    Product  ///< (sum of rho_i) (sum of k_i source_i), k_i the kernel scaled to 1 at the center: the paper's
+    PerBlob, ///< sum over i of rho_i source_i: each blob emits in proportion to its own extinction
+    /// (sum of rho_i) (sum of k_i source_i), as published; k_i is the kernel scaled to 1 at the center
+    Product
 };
 
 struct IntegralScheme
 {
     IntegralMethod method = IntegralMethod::Gauss;
-    uint32_t count =
-        5; ///< Paper: parts, 1..64; Simpson: panels, 1..64; Gauss: nodes, 3, 5 or 8; Positive: pieces, 2..64
-    double cap = 1.0;   ///< [1] Gauss: optical depth of a part; infinity leaves intervals whole. Kernels of
-                        ///< degree 3 and 4 use a quarter and a tenth of it
-    double step = 0.01; ///< [m] March
-    double tolerance = 0.001; ///< [1] Adaptive: error as a share of the most light the ray can have
+    /// Paper: parts, 1..64; Simpson: panels, 1..64; Gauss: nodes, 3, 5 or 8; Positive: pieces, 2..64
+    uint32_t count = 5;
+    /// [1] Gauss: largest optical depth of a part; infinity: intervals are not divided. Kernels of degree 3
+    /// and 4 use a quarter and a tenth of it.
+    double cap = 1.0;
+    double step = 0.01;       ///< [m] March: step length
+    double tolerance = 0.001; ///< [1] Adaptive: error relative to the largest possible light of the ray
     double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: never
 };
 
@@ -48,18 +51,19 @@ IntegralScheme defaultScheme();
 /// 8 nodes, cap 2.
 IntegralScheme highScheme();
 
-/// Reads paper-1, simpson-4, gauss-5, gauss-8, gauss-5-cap-0.5, gauss-5-cap-inf, positive-8, march-0.01,
-/// adaptive-0.001. Paper never ends a ray early, as published; gauss-3 has cap 0.5, gauss-5 1, gauss-8 2.
+/// Parses names such as paper-1, simpson-4, gauss-5, gauss-8, gauss-5-cap-0.5, gauss-5-cap-inf, positive-8,
+/// march-0.01, adaptive-0.001. As published, Paper never ends a ray early. The default cap of gauss-3 is 0.5,
+/// of gauss-5 1, of gauss-8 2.
 base::Result<IntegralScheme> parseScheme(std::string_view name);
 std::string schemeName(const IntegralScheme& scheme);
-/// Schemes of the accuracy report, coarse to fine within a method.
+/// Names of the schemes of the accuracy report, from coarse to fine within a method.
 const std::vector<std::string>& comparedSchemes();
 
 struct IntegralSettings
 {
     IntegralScheme scheme;
     SourceModel model = SourceModel::PerBlob;
-    uint32_t degree = 2; ///< kernel (1 - q^2)^degree of every blob, 2..4
+    uint32_t degree = 2; ///< 2..4; the kernel of all blobs is (1 - q^2)^degree
 };
 
 } // namespace fx::render

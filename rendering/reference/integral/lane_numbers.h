@@ -1,9 +1,9 @@
 /// @file lane_numbers.h
-/// The number operations that the integral needs, for plain scalars; pack-inl.h has them for SIMD vectors.
+/// The arithmetic operations of the integral for scalars; pack-inl.h has them for SIMD vectors.
 ///
-/// The text of the integral (*.inl) is written for "numbers" V: float, double and __float128, or a vector of
-/// them, one ray in each lane. Every operation works on lanes alone, nothing is fused, so that a lane has the
-/// bits of the scalar.
+/// The code of the integral (*.inl) is a template of a number type V: float, double, __float128, or a SIMD
+/// vector with one ray in each lane. All operations work on each lane separately and are not fused. So each
+/// lane has the same bits as the scalar code.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace fx::render::integral {
 
-/// Functions of the scalar T that its language or library gives. Other types than float and double also give
+/// Functions of the scalar type T. A specialization for a type other than float and double must also define
 /// expOfMinus(x).
 template <class T>
 struct Real
@@ -35,9 +35,9 @@ struct ExpConstants<float>
     static constexpr float kLargest = 87.0f;
     static constexpr float kMin = -80.0f;
     static constexpr float kPerLn2 = 1.44269504f;
-    static constexpr float kLn2High = 0.693359375f; // 9 bits, so that n times it is exact
+    static constexpr float kLn2High = 0.693359375f; // 9 bits, so that its product with n is exact
     static constexpr float kLn2Low = -2.12194440e-4f;
-    static constexpr float kRound = 12582912.0f; // 1.5 2^23: its sum with n has n in the low bits
+    static constexpr float kRound = 12582912.0f; // 1.5 2^23: the low bits of kRound + n are n
     static constexpr int kMantissa = 23;
     static constexpr int kTerms = 7;
 };
@@ -56,10 +56,10 @@ struct ExpConstants<double>
     static constexpr int kTerms = 13;
 };
 
-/// Below it expOfMinus needs no reduction.
+/// Below this argument, expOfMinus() needs no range reduction.
 constexpr float kSmallDepth = 0.34f;
 
-/// Entry k is 1 / k!, rounded once.
+/// Entry k is 1 / k!, computed in double and rounded to T.
 template <class T>
 inline constexpr auto kPerFactorial = [] {
     std::array<T, 14> table{};
@@ -85,20 +85,19 @@ inline T expSeries(T r)
 /// e^-x for optical depths, the same bits in a scalar and in every lane of a vector.
 ///
 /// symbol   unit   meaning
-///   x       1      optical depth; larger than 87 (float) or 708 (double) counts as that
+///   x       1      optical depth; limited to 87 (float) or 708 (double)
 ///   n       1      nearest integer to -x / ln 2
-///   r       1      what is left, |r| <= ln(2)/2
+///   r       1      remainder, |r| <= ln(2)/2
 /// @derivation
 ///   -x = n ln 2 + r, ln 2 in two pieces so that n times the first is exact     (1)
 ///   e^-x = 2^n e^r                                                              (2)
 ///   e^r = sum r^k / k!, k = 0..7 in float (next term 5e-9), 0..13 in double     (3)
-///   n comes from rounding -x / ln 2 + 1.5 2^m, m bits of mantissa, whose low bits are n: shifted to the
-///   place of the exponent they multiply by 2^n                                        (4)
+///   With m bits of mantissa, the low bits of -x / ln 2 + 1.5 2^m are n. Shifted left by m and added to the
+///   bits of e^r, they increase its exponent by n                                      (4)
 /// @source    [MUL16] section 11 for the reduction; the series is elementary
 /// @deviation none
-/// @valid     x = 0 gives exactly 1; infinity counts as the largest; x < -80 (float) or -700 (double) counts
-/// as that;
-///            n is 0 for |x| < 0.34, so that there (3) alone has the same bits
+/// @valid     x = 0 gives exactly 1; x below -80 (float) or -700 (double) is set to this limit;
+///            for |x| < 0.34, n is 0, so that (3) alone gives the same bits
 /// @accuracy  relative error <= 2e-7 (float), 1e-15 (double)
 /// @tests     tests/rendering/reference/integral/test_lane_numbers.cpp
 template <class T>
@@ -120,7 +119,7 @@ inline T expOfMinus(T x)
     }
 }
 
-/// How a number of kind V holds scalars.
+/// Access to the scalars in a number of type V.
 template <class V>
 struct Lanes
 {
@@ -141,7 +140,7 @@ inline V smaller(V a, V b)
 {
     return b < a ? b : a;
 }
-/// For sorting: which of two zeros with different signs is the smaller is left open.
+/// Minimum, for sorting. For zeros of different sign, the sign of the result is unspecified.
 template <class V>
 inline V minOf(V a, V b)
 {
@@ -157,7 +156,7 @@ inline V root(V a)
 {
     return Real<V>::root(a);
 }
-/// yes where a < b, otherwise no.
+/// Returns `yes` in lanes with a < b, otherwise `no`.
 template <class V>
 inline V chooseLess(V a, V b, V yes, V no)
 {
@@ -178,7 +177,7 @@ inline uint64_t bitsLess(V a, V b)
 {
     return a < b ? 1 : 0;
 }
-/// One number is its own lowest and highest.
+/// Number of rows that foldRows() handles at once.
 constexpr uint32_t kFoldedRows = 1;
 template <class V, bool kLowest>
 inline void foldRows(const V* rows, size_t stride, uint32_t count, V* out)
@@ -196,7 +195,7 @@ inline V highest(V a)
 {
     return a;
 }
-/// e^-x for |x| < kSmallDepth: the bits of expOfMinus.
+/// e^-x for |x| < kSmallDepth, with the same bits as expOfMinus().
 template <class V>
 inline V expOfSmall(V x)
 {

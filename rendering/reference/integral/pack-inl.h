@@ -1,5 +1,6 @@
 /// @file pack-inl.h
-/// Numbers of lane_numbers.h with one ray in each SIMD lane. Included once for each instruction set.
+/// The operations of lane_numbers.h for SIMD vectors with one ray in each lane. Included once for each
+/// instruction set.
 #if defined(FX_INTEGRAL_PACK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_INTEGRAL_PACK_INL
 #undef FX_INTEGRAL_PACK_INL
@@ -41,7 +42,7 @@ HWY_INLINE Pack<T> chooseLess(Pack<T> a, Pack<T> b, Pack<T> yes, Pack<T> no)
 {
     return Pack<T>(hn::IfThenElse(hn::Lt(a.v, b.v), yes.v, no.v));
 }
-/// As the scalars do it, so that zeros of both signs end alike.
+/// Uses the same comparison as the scalar code, so that zeros of different sign give the same result.
 template <class T>
 HWY_INLINE Pack<T> larger(Pack<T> a, Pack<T> b)
 {
@@ -93,7 +94,8 @@ HWY_INLINE T highest(Pack<T> a)
     return hn::GetLane(hn::MaxOfLanes(typename Pack<T>::Tag(), a.v));
 }
 #if HWY_TARGET != HWY_SCALAR
-/// Half the lanes from each: the lower, or higher, of neighbors.
+/// Minimum or maximum of each pair of neighboring lanes: results from `a` in the lower half, from `b` in the
+/// upper.
 template <bool kLowest, class T>
 HWY_INLINE Pack<T> foldLanes(Pack<T> a, Pack<T> b)
 {
@@ -102,8 +104,8 @@ HWY_INLINE Pack<T> foldLanes(Pack<T> a, Pack<T> b)
     const Pack<T> odd(hn::ConcatOdd(tag, b.v, a.v));
     return kLowest ? minOf(even, odd) : maxOf(even, odd);
 }
-/// lowest() or highest() of `count` vectors that stand `stride` numbers apart. Reads up to kFoldedRows - 1
-/// vectors behind the last and writes up to a whole vector more.
+/// Computes lowest() or highest() of each of `count` vectors, which are `stride` numbers apart. Reads up to
+/// kFoldedRows - 1 vectors past the last one, and writes up to one vector past the last result.
 constexpr uint32_t kFoldedRows = 8;
 template <class V, bool kLowest, class T>
 HWY_INLINE void foldRows(const T* rows, size_t stride, uint32_t count, T* out)
@@ -141,7 +143,7 @@ HWY_INLINE Pack<T> expSeries(Pack<T> r)
         sum = sum * r + Lanes<Pack<T>>::all(kPerFactorial<T>[k]);
     return sum;
 }
-/// Formula attenuation-exponential, operation by operation.
+/// Formula attenuation-exponential, with the same operations as the scalar code.
 template <class T>
 HWY_INLINE Pack<T> expOfMinus(Pack<T> x)
 {
@@ -157,7 +159,7 @@ HWY_INLINE Pack<T> expOfMinus(Pack<T> x)
     const auto power = hn::ShiftLeft<C::kMantissa>(hn::BitCast(bits, shifted.v)); // (4)
     return Pack<T>(hn::BitCast(tag, hn::Add(hn::BitCast(bits, sum.v), power)));   // (2)
 }
-/// expOfMinus without its reduction.
+/// expOfMinus() without range reduction.
 template <class T>
 HWY_INLINE Pack<T> expOfSmall(Pack<T> x)
 {

@@ -1,5 +1,5 @@
 /// @file packet_job.h
-/// Calls into the text that is compiled for each instruction set.
+/// Interface to the code of the integral that is compiled for each instruction set.
 #pragma once
 
 #include "rendering/reference/integral/group_scratch.h"
@@ -7,7 +7,7 @@
 
 namespace fx::render::integral {
 
-/// Those blobs of a packet that one of its groups of rays meets. Keeps its memory.
+/// The blobs of a packet that a group of its rays meets. The memory is kept.
 template <class T>
 struct MetBlobs
 {
@@ -23,7 +23,7 @@ struct PacketJob
     MetBlobs<T>& met;
     const PacketRays<T>& rays;
     const RayPacket<T>& packet;
-    RayWork* work; ///< null: not counted
+    RayWork* work; ///< null: work is not counted
     PacketLight<T>& light;
 };
 
@@ -46,7 +46,7 @@ T brightestSource(const RayPacket<T>& packet)
     return brightest;
 }
 
-/// Lanes from `lane` on.
+/// Input of the group of rays that begins at lane `lane`.
 template <class T>
 GroupInput<T> inputOf(const PacketJob<T>& job, uint32_t lane, T largest, T brightest)
 {
@@ -80,12 +80,12 @@ struct MeetJob
     RayPacket<T>& packet;
 };
 
-// With the instruction set of the machine, see foundation/simd/instruction_set.h.
+// These use the best available instruction set, see foundation/simd/instruction_set.h.
 template <class T>
 void integrateRays(const PacketJob<T>& job);
 template <class T>
 uint64_t meetRays(const MeetJob<T>& job);
-/// Scalar path, for processors without vectors: the code of RayIntegrator.
+/// Scalar path for processors without SIMD; uses the code of RayIntegrator.
 template <class T>
 void integrateOneByOne(const PacketJob<T>& job);
 

@@ -1,5 +1,5 @@
 /// @file quadrature.h
-/// Nodes and weights in the precision of T.
+/// Nodes and weights of quadrature rules in the precision of T.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace fx::render::integral {
 
-/// The positive half of a Gauss-Legendre rule on [-1, 1], which is symmetric. Pairs from the outermost
-/// inwards.
+/// The positive nodes of a Gauss-Legendre rule on [-1, 1], which is symmetric. The outermost node comes
+/// first.
 template <class T>
 struct GaussRule
 {
@@ -35,19 +35,20 @@ struct GaussRule
 /// @derivation
 ///   (k + 1) P_{k+1} = (2 k + 1) x P_k - k P_{k-1}, P_0 = 1, P_1 = x                 (1)
 ///   (x^2 - 1) P_n' = n (x P_n - P_{n-1})                                            (2)
-///   nodes are the zeros of P_n, found by Newton's method from cos(pi (i + 3/4)/(n + 1/2))   (3)
+///   nodes are the zeros of P_n; Newton's method starts at cos(pi (i + 3/4)/(n + 1/2))       (3)
 ///   w = 2 / ((1 - x^2) P_n'^2)                                                      (4)
 /// @source    [AS64] 8.5.3, 8.5.4 and 25.4.29
 /// @deviation none
-/// @valid     n <= 64 here
-/// @accuracy  a rounding of T, checked on all polynomials up to degree 2 n - 1
+/// @valid     n <= 64
+/// @accuracy  one rounding to T; checked with all polynomials up to degree 2 n - 1
 /// @tests     tests/rendering/reference/integral/test_quadrature.cpp
 template <class W>
 std::pair<W, W> gaussNode(uint32_t n, uint32_t i)
 {
     W x = static_cast<W>(std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5))); // (3)
     W slope = W(0);
-    for (int iteration = 0; iteration < 12; ++iteration) { // squares its error: from 1e-3 to 1e-34 in four
+    for (int iteration = 0; iteration < 12; ++iteration)
+    { // quadratic convergence: from 1e-3 to 1e-34 in four iterations
         W before = W(1), value = x;
         for (uint32_t k = 1; k < n; ++k) {
             const W next = (W(2 * k + 1) * x * value - W(k) * before) / W(k + 1); // (1)
@@ -81,8 +82,8 @@ GaussRule<T> gaussRule(uint32_t n)
     return rule;
 }
 
-/// pieces + 1 places from -1 to 1, closer to each other at the ends, where optical depth is least even:
-/// -cos(pi i / pieces).
+/// pieces + 1 nodes -cos(pi i / pieces) from -1 to 1. They are denser at the ends, where optical depth is
+/// least linear.
 template <class T>
 std::vector<T> pieceNodes(uint32_t pieces)
 {

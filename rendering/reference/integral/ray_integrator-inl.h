@@ -1,6 +1,6 @@
 /// @file ray_integrator-inl.h
-/// The text of RayIntegrator, for other number types than float and double: specialize integral::Real<T>
-/// before including this.
+/// Implementation of RayIntegrator. For number types other than float and double, specialize
+/// integral::Real<T> before including this.
 #pragma once
 
 #include "foundation/simd/floating_point_scope.h"
@@ -20,7 +20,7 @@
 #include <vector>
 
 namespace fx::render::integral {
-// The order is that of use.
+// These files must be included in this order.
 // clang-format off
 #include "rendering/reference/integral/blob_sums.inl"
 #include "rendering/reference/integral/interval_walk.inl"

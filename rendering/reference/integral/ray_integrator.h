@@ -1,5 +1,5 @@
 /// @file ray_integrator.h
-/// The light along one ray through overlapping blobs. For many rays at once see ray_packet.h, which gives the
+/// The light along one ray through overlapping blobs. For many rays, ray_packet.h is faster and gives the
 /// same bits.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace fx::render {
 
-/// Keeps its memory between rays: one for each thread. T is float or double; tests instantiate
+/// Keeps its memory between rays. Each thread needs its own object. T is float or double; tests instantiate
 /// ray_integrator-inl.h for __float128.
 template <class T>
 class RayIntegrator
@@ -22,7 +22,8 @@ public:
     RayIntegrator(RayIntegrator&&) noexcept;
     RayIntegrator& operator=(RayIntegrator&&) noexcept;
 
-    /// The order of `blobs` does not matter: the result is the same bit for bit.
+    /// Computes light, optical depth and transmittance of a ray. The result does not depend on the order of
+    /// `blobs`, bit for bit.
     RayLight<T> integrate(std::span<const RayBlob<T>> blobs, const RayWindow<T>& window);
 
     const RayWork& work() const;

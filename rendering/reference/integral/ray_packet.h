@@ -1,9 +1,9 @@
 /// @file ray_packet.h
-/// The light along 16 neighboring rays at once. Each ray gets the bits that RayIntegrator gives it alone,
-/// with every instruction set.
+/// The light along 16 neighboring rays at once. With every instruction set, each ray gets the same bits as
+/// from RayIntegrator.
 ///
-/// Meant for a tile of 4 x 4 pixels: find the blobs that the tile can meet, in the order of their ids, then
-/// packet.begin(), meetBlobs(), integrate().
+/// Use, for a tile of 4 x 4 pixels: find the blobs that rays of the tile may meet, in the order of their ids.
+/// Then call packet.clear(), meetBlobs() and integrate().
 #pragma once
 
 #include "foundation/result/status.h"
@@ -20,8 +20,8 @@ namespace fx::render {
 
 constexpr uint32_t kPacketRays = 16;
 
-/// A ball of medium in space. Lengths and places are relative to an origin of the caller's, near the camera
-/// or the medium, in which float is good enough.
+/// A ball of medium in space. Positions are relative to an origin that the caller chooses, near enough to the
+/// camera or the medium for the precision of float.
 template <class T>
 struct BallBlob
 {
@@ -31,7 +31,7 @@ struct BallBlob
     T source[3];  ///< [cd/m2] (1 - albedo) emission
 };
 
-/// Lane i of every array is ray i. Unused lanes repeat a used one.
+/// Lane i of each array belongs to ray i. Unused lanes must repeat a used one.
 template <class T>
 struct alignas(64) PacketRays
 {
@@ -42,8 +42,8 @@ struct alignas(64) PacketRays
     T background[3][kPacketRays];
 };
 
-/// The blobs of a packet. Blob k has the places [k * kPacketRays, (k + 1) * kPacketRays) of the lane arrays.
-/// Finite numbers are the caller's duty.
+/// The blobs of a packet. Blob k has the elements [k * kPacketRays, (k + 1) * kPacketRays) of the lane
+/// arrays. All numbers must be finite.
 template <class T>
 struct RayPacket
 {
@@ -57,14 +57,15 @@ struct RayPacket
         T source[3];
         uint32_t id;
     };
-    std::vector<Shared> shared; ///< by increasing id
+    std::vector<Shared> shared; ///< sorted by increasing id
 
     void clear();
-    /// Adds a blob and returns its place; lanes are zero (missed) until written.
+    /// Adds a blob and returns its index. Its lanes are zero, which means that rays miss it, until they are
+    /// written.
     size_t add(const Shared& blob);
 };
 
-/// The direction of a ray, for PacketRays, from one of any length.
+/// Normalizes a direction, for PacketRays.
 /// @return InvalidArgument for zero, an infinity or NaN
 base::Result<std::array<double, 3>> unitDirection(const std::array<double, 3>& direction);
 
@@ -77,15 +78,16 @@ struct alignas(64) PacketLight
     uint32_t flags[kPacketRays];
 };
 
-/// Appends those of `balls` that at least one of the rays meets, in the order of `candidates`, which are
-/// places in `balls` and become the ids. Parameters are counted from the rays' origins. Formula
-/// ray-ball-approach.
+/// Appends the balls that at least one ray meets to `packet`, in the order of `candidates`. A candidate is an
+/// index in `balls`, which becomes the id of the blob. Ray parameters are measured from the origins of rays.
+/// Formula ray-ball-approach.
 /// @return number of ray-blob hits
 template <class T>
 uint64_t meetBlobs(const PacketRays<T>& rays, std::span<const BallBlob<T>> balls,
                    std::span<const uint32_t> candidates, RayPacket<T>& packet);
 
-/// Keeps its memory between packets: one for each thread. Sets the floating-point mode while it works.
+/// Integrates packets of rays. The memory is kept between packets; each thread needs its own object. Sets the
+/// floating-point mode during calls.
 template <class T>
 class PacketIntegrator
 {
@@ -95,7 +97,8 @@ public:
     PacketIntegrator(PacketIntegrator&&) noexcept;
     PacketIntegrator& operator=(PacketIntegrator&&) noexcept;
 
-    /// Uses nearest, farthest and background of `rays`; origin and direction are meetBlobs' matter.
+    /// Computes the light of all rays of a packet. Reads nearest, farthest and background of `rays`;
+    /// meetBlobs() has already used origin and direction.
     void integrate(const PacketRays<T>& rays, const RayPacket<T>& packet, PacketLight<T>& outLight);
 
     /// Enables counters, which cost a few percent; off by default.

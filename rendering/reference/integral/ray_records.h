@@ -1,8 +1,8 @@
 /// @file ray_records.h
 /// Inputs and results of the integral for one ray.
 ///
-/// Ray parameters may be counted from any point of the ray. Choose an origin near the blobs, and compute them
-/// in double: a float of 1e5 m resolves 8 mm.
+/// Ray parameters may be measured from any point of the ray. Choose a point near the blobs and compute
+/// parameters in double, because at 1e5 m the resolution of float is 8 mm.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace fx::render {
 
-/// A blob as one ray meets it. Extinction at parameter t is
+/// A blob relative to one ray. Its extinction at parameter t is
 ///     extinction ((chord2 - (t - center)^2) / radius^2)^degree,
 /// which is the kernel (1 - q^2)^degree, q the distance from the blob's center in radii.
 template <class T>
@@ -21,7 +21,7 @@ struct RayBlob
     T radius;                ///< [m] > 0
     T extinction;            ///< [1/m] at the blob's center, >= 0
     std::array<T, 3> source; ///< [cd/m2] (1 - albedo) emission, >= 0
-    uint32_t id;             ///< different for every blob of a ray: the order of summation
+    uint32_t id;             ///< different for all blobs of a ray; defines the order of summation
 };
 
 /// The visible part of the ray, and the background behind it.
@@ -35,28 +35,29 @@ struct RayWindow
 
 enum RayFlag : uint32_t
 {
-    kRayInvalid = 1,  ///< a number was not finite or had a forbidden sign: the result is all zero
-    kRayStopped = 2,  ///< ended at the scheme's stopDepth (or bound); the rest is dark
-    kRayFallback = 4, ///< some part was thicker than the cap after 64 parts: Positive was used there
-    kRayTooSmall = 8  ///< a blob was too small beside the largest for the arithmetic, and was left out
+    kRayInvalid = 1,  ///< an input was not finite or had a wrong sign: the result is zero
+    kRayStopped = 2,  ///< the ray ended at the scheme's stopDepth (or bound); light from behind is omitted
+    kRayFallback = 4, ///< a part exceeded the cap after division into 64 parts: Positive was used for it
+    /// a blob was omitted, because the precision is too low for its size relative to the largest
+    kRayTooSmall = 8
 };
 
 template <class T>
 struct RayLight
 {
-    std::array<T, 3> radiance; ///< [cd/m2] with the background
-    T opticalDepth;            ///< [1] up to where the ray ended
+    std::array<T, 3> radiance; ///< [cd/m2] with the attenuated background
+    T opticalDepth;            ///< [1] up to the end of the ray
     T transmittance;           ///< [1] 0..1
     uint32_t flags;
 };
 
-/// Work done, for reports beside times. Sums over all rays of all calls.
+/// Counters of work, to be reported together with times. They are sums over all rays of all calls.
 struct RayWork
 {
     uint64_t rays = 0;
     uint64_t hits = 0;      ///< blobs that rays meet
-    uint64_t intervals = 0; ///< of positive length
-    uint64_t parts = 0;     ///< of intervals; March: steps
+    uint64_t intervals = 0; ///< intervals of positive length
+    uint64_t parts = 0;     ///< parts of intervals; March: steps
     uint64_t blobSums = 0;  ///< evaluations of one blob's polynomial or kernel
     uint64_t nodes = 0;     ///< quadrature nodes
     uint64_t exponentials = 0;

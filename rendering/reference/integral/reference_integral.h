@@ -1,6 +1,6 @@
 /// @file reference_integral.h
-/// The same integral by adaptive quadrature of its definition: slow, but independent of the intervals'
-/// polynomials, of local coefficients and of the schemes, which are compared with it.
+/// The ray integral by adaptive quadrature of its definition. It is slow, but shares no polynomials,
+/// coefficients or schemes with the fast code, which is compared with it.
 #pragma once
 
 #include "rendering/reference/integral/quadrature.h"
@@ -19,17 +19,17 @@ namespace fx::render {
 ///
 /// symbol   unit   meaning
 ///   w_i     m      half the chord of blob i
-///   u       1      ray parameter from the blob's nearest point in units of w_i, clamped to [-1, 1]
+///   u       1      ray parameter relative to the center of the chord, in units of w_i, clamped to [-1, 1]
 ///   F_n(u)  1      integral of (1 - v^2)^n over v from 0 to u
-///   G(a,b)  cd/m2  ten Gauss nodes on [a, b]
+///   G(a,b)  cd/m2  quadrature of light with ten Gauss nodes on [a, b]
 /// @derivation
 ///   tau(t) = sum over i of extinction_i (w_i/R_i)^(2 n) w_i (F_n(u_i(t)) - F_n(u_i(t_0)))          (1)
-///   I = integral of e^-tau(t) s(t) dt + e^-tau(t_1) background, cut where blobs begin and end       (2)
-///   a piece [a, b] with middle m is halved until |G(a,m) + G(m,b) - G(a,b)| is within its share     (3)
+///   I = integral of e^-tau(t) s(t) dt + e^-tau(t_1) background, divided where blobs begin and end   (2)
+///   a piece [a, b] with midpoint m is halved until |G(a,m) + G(m,b) - G(a,b)| is within tolerance   (3)
 /// @source    [UBT96] eq. (2) for the integral; quadrature is textbook
 /// @deviation none
 /// @valid     any number of blobs; cost grows with their square
-/// @accuracy  the tolerance, as a share of the light; tested against closed forms
+/// @accuracy  the tolerance, relative to the light; tested against closed forms
 /// @tests     tests/rendering/reference/integral/test_reference_integral.cpp
 template <class T, class Exp>
 class ReferenceIntegral
@@ -76,7 +76,7 @@ public:
         return sum;
     }
 
-    /// (1), between two places.
+    /// Equation (1), between two ray parameters.
     T opticalDepth(T begin, T end) const
     {
         T sum = T(0);
@@ -146,7 +146,7 @@ private:
         }
         return sum;
     }
-    /// (3)
+    /// Equation (3).
     void add(std::array<T, 3>& io, T begin, T end, T before, const std::array<T, 3>& whole, int level) const
     {
         const T middle = begin + (end - begin) / T(2);

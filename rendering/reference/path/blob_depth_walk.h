@@ -8,23 +8,23 @@
 namespace fx::render {
 
 /// @formula blob-depth-inverse
-/// Where a ray has passed a given optical depth of overlapping balls.
+/// Ray parameter at which the optical depth of overlapping balls reaches a given value.
 ///
 /// symbol   unit   meaning
-///   s_i      1/m    extinction of ball i in the middle of its chord, e_i (h_i^2 / R_i^2)^2 by blob-majorant
-///   c_i, h_i m      middle of the chord, half its length
+///   s_i      1/m    extinction of ball i at the center of its chord, e_i (h_i^2 / R_i^2)^2 by blob-majorant
+///   c_i, h_i m      center of the chord, half its length
 ///   u        1      (t - c_i) / h_i, limited to -1..1
-///   D(t)     1      optical depth from the beginning a to t; T the depth that is wanted
+///   D(t)     1      optical depth from the beginning a to t; T the given optical depth
 /// @derivation
 ///   k(u) = integral of (1 - v^2)^2 from 0 to u = u - 2 u^3 / 3 + u^5 / 5                            (1)
 ///   D(t) = sum of s_i h_i (k(u(t)) - k(u(a)))                                                     (2)
 ///   D'(t) = sum of s_i (1 - u^2)^2 >= 0                                                           (3)
-///   t <- t - (D(t) - T) / D'(t), or the middle of the bracket when that leaves it                 (4)
-/// @source    [UBT96] eq. (1) for the kernel; (1) to (4) follow from it: Newton's iteration on a growing
+///   t <- t - (D(t) - T) / D'(t), or the center of the bracket if this t is outside of it          (4)
+/// @source    [UBT96] eq. (1) for the kernel; (1) to (4) follow from it: Newton's iteration on a monotone
 ///            function, within a bracket
 /// @deviation none
 /// @valid     0 <= T <= D(end)
-/// @accuracy  |D(t) - T| <= 1e-12 (1 + T), or neighbors in double precision
+/// @accuracy  |D(t) - T| <= 1e-12 (1 + T), or the bracket has no number between its ends
 /// @tests     tests/rendering/reference/path/test_path_depth.cpp
 class BlobDepthWalk final : public DepthWalk
 {
@@ -42,12 +42,12 @@ public:
     double emissionDensity() const override;
 
 private:
-    /// Computes the members about emission; called last.
+    /// Computes the members about emission. Called after all other members are computed.
     void findEmission(double begin, double end);
 
     struct Chord
     {
-        double middle, inverseHalf; ///< [m], [1/m]
+        double middle, inverseHalf; ///< [m] center of the chord; [1/m] 1 / half its length
         double peak;                ///< [1/m] s_i
         double weight;              ///< [1] s_i h_i
     };
@@ -57,12 +57,12 @@ private:
     const BlobPathMedium& medium_;
     RayHits hits_;
     std::vector<Chord> chords_;      ///< one for each of `hits_`
-    double begin_ = 0.0, end_ = 0.0; ///< [m] of the part with medium
+    double begin_ = 0.0, end_ = 0.0; ///< [m] ends of the part of the ray with medium
     double before_ = 0.0;            ///< [1] sum of s_i h_i k(u(a))
     double depth_ = 0.0;
     double emitted_ = 0.0;
-    std::vector<double> emittedBy_; ///< [cd/m2] of each of `hits_`; empty where the medium emits nothing
-    glm::dvec3 origin_{0.0};        ///< [m] of the ray
+    std::vector<double> emittedBy_;                  ///< [cd/m2] by hit; empty if the medium emits nothing
+    glm::dvec3 origin_{0.0};                         ///< [m] origin of the ray
     double emissionBegin_ = 0.0, emissionEnd_ = 0.0; ///< [m] arguments of start()
 };
 

@@ -1,5 +1,5 @@
 /// @file blob_path_medium.h
-/// Balls with the quartic kernel as the path tracer's medium.
+/// A medium of balls with the quartic kernel, for the path tracer.
 #pragma once
 
 #include "rendering/reference/path/path_medium.h"
@@ -12,47 +12,48 @@
 namespace fx::render {
 
 /// @formula blob-majorant
-/// Upper bound of the extinction between two places where a ray enters or leaves a ball.
+/// Upper bound of the extinction on a segment of a ray between two points where it enters or leaves a ball.
 ///
 /// symbol   unit   meaning
 ///   e_i    1/m    extinction at the center of ball i, 105 s / (32 pi R^3) with cross section s and radius R
-///   h_i    m      half the chord of the ray in ball i; c_i [m] the ray parameter nearest to the center
-///   d_i    m      distance of the segment [a, b] from c_i along the ray, 0 when c_i is inside
+///   h_i    m      half the chord of the ray in ball i; c_i [m] ray parameter of the chord's center
+///   d_i    m      distance of the segment [a, b] from c_i along the ray, 0 if c_i is inside
 /// @derivation
 ///   extinction of ball i at t: e_i ((h_i^2 - (t - c_i)^2) / R_i^2)^2                              (1)
-///   it falls with |t - c_i|, so its largest value on [a, b] is (1) at distance d_i                (2)
+///   it decreases with |t - c_i|, so its largest value on [a, b] is (1) at the distance d_i        (2)
 ///   majorant = sum of (2) over the balls whose chords contain [a, b]                              (3)
 /// @source    [UBT96] eq. (1) for the kernel in (1); (2) and (3) follow from it
-/// @deviation none
-///   of a group with detail: the most that detail leaves of (3) of its balls, by field-detail          (4)
+/// @deviation with detail, a group contributes the largest eroded extinction, by field-detail, for a smooth
+///            extinction (3) of its balls (4)
 /// @valid     finite balls
-/// @accuracy  a true bound but for rounding, which a factor of 1 + 1e-12 covers, 1 + 1e-5 of (4)
+/// @accuracy  an upper bound; for rounding it is multiplied by 1 + 1e-12, or 1 + 1e-5 with (4)
 /// @tests     tests/rendering/reference/path/test_path_media.cpp
 class BlobPathMedium final : public PathMedium
 {
 public:
-    /// @param eye [m] world position that rays are relative to
-    /// @param illuminance [lx] of other lights; much fainter emitters are not sampled directly
-    /// @param details of the blobs; none: they are smooth  @param pixel of the picture, for details
+    /// @param eye [m] world position to which rays are relative
+    /// @param illuminance [lx] of other lights; emitters that are much fainter are not sampled directly
+    /// @param details detail of the blobs; empty: blobs are smooth
+    /// @param pixel width of a pixel of the picture, for the detail
     BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
                    double illuminance = 0.0, const MediumDetails& details = {}, const PixelWidth& pixel = {});
     std::unique_ptr<MediumWalk> walk() const override;
-    /// Null with detail, whose optical depth has no closed form.
+    /// Null with detail, because its optical depth has no closed form.
     std::unique_ptr<DepthWalk> depthWalk() const override;
 
-    /// Grows with the illuminance that the glow would have without medium between.
+    /// Probability that increases with the illuminance by the glowing balls, computed without attenuation.
     double emissionChance(const glm::dvec3& position) const override;
-    /// Whether any ball glows brightly enough for direct sampling.
+    /// Whether a ball emits enough light for direct sampling.
     bool shines() const { return !shines_.empty(); }
 
     /// Samples a ball in proportion to its emission without self-absorption, then a direction that hits it.
     glm::dvec3 emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const override;
 
-    /// By cells of a grid: the sum over balls of the largest value that each has in the cell, times the
-    /// largest factor of detail.
+    /// Largest value over the cells of a grid: the sum over balls of the largest extinction of each ball in
+    /// the cell, times the largest factor of detail.
     double majorant() const override;
 
-    /// One ball, in the order of the tree.
+    /// Optical properties of one ball. Balls are in the order of the tree.
     struct Substance
     {
         double extinction;     ///< [1/m] at the center
@@ -66,14 +67,14 @@ public:
     const DetailedMedium& details() const { return details_; }
     bool hasOnePhase() const { return hasOnePhase_; }
 
-    /// [cd/m2] light that a ball emits for each optical depth, summed over the channels
+    /// [cd/m2] Light that a ball emits per optical depth, summed over the channels.
     double power(uint32_t place) const
     {
         const glm::dvec3& source = substances_[place].source;
         return source.x + source.y + source.z;
     }
-    /// [1/sr] density, due to one ball, of directions of emissionDirection() from `position` that hit this
-    /// ball.
+    /// [1/sr] Probability density with which emissionDirection() at `position` chooses this ball and a
+    /// direction that hits it.
     double emissionDensity(uint32_t place, const glm::dvec3& position) const;
 
 private:
@@ -95,9 +96,10 @@ private:
     void findGlow(std::span<const MediumBlob> blobs, double illuminance);
 
     glm::dvec3 glowCenter_{0.0};
-    double glowRadius2_ = 0.0;   ///< [m2]
-    double glowIntensity_ = 0.0; ///< [cd] of all balls, over the illuminance of other lights [m2]
-    /// [1] probability that one of the balls up to this place is drawn; empty: no ball emits.
+    double glowRadius2_ = 0.0; ///< [m2]
+    /// [m2] intensity [cd] of all balls over the illuminance [lx] of other lights
+    double glowIntensity_ = 0.0;
+    /// [1] Cumulative probability of drawing each ball; empty: no ball emits.
     std::vector<double> shines_;
 };
 

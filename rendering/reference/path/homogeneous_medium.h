@@ -1,12 +1,12 @@
 /// @file homogeneous_medium.h
-/// Media of one extinction inside a ball, a slab or a box: for which closed forms are known.
+/// Media of constant extinction in a ball, a slab or a box, for which closed forms are known.
 #pragma once
 
 #include "rendering/reference/path/path_medium.h"
 
 namespace fx::render {
 
-/// Region that a ray cuts in one piece.
+/// A convex region, so that a ray intersects it in one interval.
 struct MediumShape
 {
     enum class Kind
@@ -24,14 +24,14 @@ class HomogeneousMedium final : public PathMedium
 {
 public:
     /// @param point extinction, scattering, emission and phase of every point
-    /// @param knowsDepth false: optical depths are left to be estimated, to test the estimator
-    /// @param looseness >= 1, by which majorants are too large, so that null collisions happen
+    /// @param knowsDepth false: depthWalk() is null, to test the estimator of transmittance
+    /// @param looseness >= 1, factor by which majorants are too large, so that null collisions occur
     HomogeneousMedium(const MediumShape& shape, const MediumPoint& point, bool knowsDepth = true,
                       double looseness = 1.0)
         : shape_(shape), point_(point), knowsDepth_(knowsDepth), looseness_(looseness)
     {}
     std::unique_ptr<MediumWalk> walk() const override;
-    /// Null when the extinction differs between channels, or depths are to be estimated.
+    /// Null if the extinction differs between channels, or if knowsDepth is false.
     std::unique_ptr<DepthWalk> depthWalk() const override;
     double majorant() const override;
 

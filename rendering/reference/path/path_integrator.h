@@ -1,5 +1,5 @@
 /// @file path_integrator.h
-/// Light along paths of any length through media and over surfaces, one random path at a time.
+/// Light along random paths of any length through media and over surfaces.
 #pragma once
 
 #include "rendering/reference/path/path_lights.h"
@@ -14,55 +14,56 @@
 
 namespace fx::render {
 
-/// Scene of the paths. Members are owned by the caller; coordinates are those of the rays.
+/// The scene of the path tracer. The caller owns the pointed-to objects. Coordinates are those of the rays.
 struct PathScene
 {
-    const PathMedium* medium = nullptr;       ///< may be null
-    const TriangleScene* triangles = nullptr; ///< may be null; `mesh` holds their normals and colors
+    const PathMedium* medium = nullptr; ///< may be null
+    /// May be null; `mesh` has the normals and colors of the triangles.
+    const TriangleScene* triangles = nullptr;
     OpaqueMesh mesh;
     std::span<const PathLight* const> lights;
-    const PathSky* sky = nullptr; ///< null: black
+    const PathSky* sky = nullptr; ///< null: no light
 };
 
 struct PathSettings
 {
-    uint32_t bounces = std::numeric_limits<uint32_t>::max(); ///< scatterings and reflections of a path
+    /// Largest number of scatterings and reflections of a path.
+    uint32_t bounces = std::numeric_limits<uint32_t>::max();
     FlightEstimator flight = FlightEstimator::Depth;
     ShadowEstimator shadow = ShadowEstimator::Exact;
 
-    /// Number of flights at the beginning of a path in which a collision is forced. Such a flight carries the
-    /// share of light that collides; the remaining light reaches the sky. Only flights by depth that end at
-    /// no surface.
+    /// Number of flights at the beginning of a path in which a collision is forced. Such a flight is weighted
+    /// by the share of light that collides; the remaining share escapes to the sky. Used only for
+    /// FlightEstimator::Depth and flights that do not end at a surface.
     uint32_t forcedFlights = 1;
 
-    /// [1] throughput below which paths end at random, relative to the share of light that forced collisions
-    /// left; 0: never
+    /// [1] Threshold of Russian roulette: paths with a lower throughput end at random. It is relative to the
+    /// share of light after forced collisions. 0: no roulette.
     double roulette = 0.1;
 };
 
 struct PathResult
 {
     glm::dvec3 luminance{0.0}; ///< [cd/m2]
-    double opacity =
-        0.0; ///< [1] 1 - transmittance of the eye's ray, 1 in front of a surface; mean of the channels
-    bool sawBackground = false; ///< the camera ray hit nothing: the background is visible ...
-    glm::dvec3 throughput{0.0}; ///< [1] ... by this share, and no light of the sky is in `luminance`
+    /// [1] 1 - transmittance of the camera ray, or 1 if it hits a surface; mean of the channels
+    double opacity = 0.0;
+    bool sawBackground = false; ///< the camera ray hit no surface, so that the background is visible
+    /// [1] transmittance to the background, with sawBackground; `luminance` then has no light of the sky
+    glm::dvec3 throughput{0.0};
 };
 
-/// One for each thread.
+/// Traces paths. Each thread needs its own object.
 class PathIntegrator
 {
 public:
-    /// @param scene its objects must outlive this
+    /// @param scene its objects must outlive the integrator
     PathIntegrator(const PathScene& scene, const PathSettings& settings);
 
-    /// One path from the eye.
+    /// Traces one path from the eye. @param begin [m] ray parameter
     PathResult trace(const TraceRay& ray, double begin, PathSampler& sampler);
 
-    uint64_t collisions() const
-    {
-        return tracker_.collisions();
-    } ///< tentative ones so far, as a measure of work
+    /// Tentative collisions so far, as a measure of work
+    uint64_t collisions() const { return tracker_.collisions(); }
 
 private:
     struct Way
@@ -72,27 +73,30 @@ private:
     };
 
     SurfaceHit surface(const TraceRay& ray, double begin);
-    /// [lx] of a light, attenuated by occluders.
+    /// [lx] Illuminance of a light sample, attenuated by media and surfaces.
     glm::dvec3 arriving(const LightSample& sample, const glm::dvec3& position, PathSampler& sampler);
 
-    /// Light that is scattered at the end of a way.
+    /// Light from light sources that is scattered at the end of a path segment.
     glm::dvec3 lightAt(const Way& way, PathSampler& sampler);
-    /// [1/m] with which the last way, which is `way`, collides at a parameter; only by depth.
+    /// [1/m] Probability density of a collision at a parameter of `way`, which must be the last flight by
+    /// depth.
     double collisionDensity(const Way& way, double parameter) const;
-    /// Light of lights near the way that is scattered anywhere on it, by a place drawn for each of them.
+    /// Light from nearby light sources that is scattered anywhere on the segment. One point is sampled for
+    /// each light.
     glm::dvec3 lightOnWay(const Way& way, PathSampler& sampler);
-    /// Light of the medium itself that arrives at a place; `density` [1/sr] is that of the next flight's
-    /// direction, which is also the share of light that leaves in this direction.
+    /// Light emitted by the medium that arrives at a point and is scattered there.
+    /// @param density [1/sr] probability density of the next flight's direction, which equals the share of
+    ///         light that is scattered to this direction
     template <class Density>
     glm::dvec3 emissionAt(const glm::dvec3& position, const Density& density, PathSampler& sampler);
-    /// Light that is scattered at the end of a way, and the direction after it.
+    /// Scatters at the end of a segment: returns the scattered light, and samples the next direction.
     glm::dvec3 scatter(const Way& way, PathSampler& sampler, FlightStart& outNext);
-    /// [1] of the way of the eye's ray to infinity.
+    /// [1] Opacity of the camera ray up to infinity.
     double opacity(const Way& way, PathSampler& sampler);
     /// Russian roulette: ends paths of low throughput at random, and weights the surviving ones accordingly.
     /// @param least [1] throughput below which it is applied
     static bool survives(double least, glm::dvec3& io, PathSampler& sampler);
-    /// Continues above the surface that a way met.
+    /// Reflects at a surface: adds the reflected light of light sources, and samples the next direction.
     void reflect(const SurfaceHit& hit, const TraceRay& ray, PathSampler& sampler, FlightStart& outNext,
                  glm::dvec3& io, glm::dvec3& outLuminance);
 

@@ -1,5 +1,5 @@
 /// @file path_lights.h
-/// Lights of the path tracer: directions are drawn towards them; the sky is met by rays that escape.
+/// Lights of the path tracer. Directions towards lights are sampled; the sky is hit by rays that escape.
 #pragma once
 
 #include "rendering/frame/scene_light.h"
@@ -13,51 +13,53 @@
 
 namespace fx::render {
 
-/// A direction in which a light was looked for.
+/// A sampled direction towards a light.
 struct LightSample
 {
-    glm::dvec3 direction{0.0, 1.0, 0.0};                       ///< unit, towards the light
-    double distance = std::numeric_limits<double>::infinity(); ///< [m] beyond it nothing blocks
-    /// [lx] luminance over the probability per solid angle: its mean is the illuminance of a surface that
-    /// faces the light
+    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
+    /// [m] distance of the light; objects beyond it do not block
+    double distance = std::numeric_limits<double>::infinity();
+    /// [lx] luminance over the probability density per solid angle. Its expected value is the illuminance of
+    /// a surface perpendicular to the light.
     glm::dvec3 illuminance{0.0};
 };
 
-/// Where a light is that shines from within the scene.
+/// Position and size of a light in the scene.
 struct LightPlace
 {
     glm::dvec3 center{0.0}; ///< [m]
     double radius = 0.0;    ///< [m] 0: a point
 };
 
-/// A source of light that rays do not see. Coordinates are those of the rays. Const calls from any thread.
+/// A light that rays do not hit, so that it must be sampled. Coordinates are those of the rays. Threads: any
+/// thread may call const functions.
 class PathLight
 {
 public:
     virtual ~PathLight() = default;
-    /// @param u two numbers in [0, 1)
+    /// Samples a direction. @param u two numbers in [0, 1)
     virtual LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const = 0;
 
-    /// Null for lights that are far away.
+    /// Position of the light; nothing for lights at infinity.
     virtual std::optional<LightPlace> place() const { return std::nullopt; }
 };
 
-/// A disc in the sky, of equal luminance.
+/// A disc of uniform luminance in the sky.
 class SunLight final : public PathLight
 {
 public:
-    /// @param direction unit, towards its middle  @param illuminance [lx] on a surface that faces it
+    /// @param direction unit, towards its center  @param illuminance [lx] on a surface perpendicular to it
     /// @param angularRadius [rad] 0..pi/2; 0: parallel light
     SunLight(const glm::dvec3& direction, const glm::dvec3& illuminance, double angularRadius);
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
 
 private:
     glm::dvec3 direction_, illuminance_;
-    double cosine_; ///< of the angular radius
-    double scale_;  ///< [1] so that the mean over the disc gives `illuminance_`
+    double cosine_; ///< cosine of the angular radius
+    double scale_;  ///< [1] factor with which samples have the mean `illuminance_`
 };
 
-/// A ball whose surface has the same luminance everywhere. Inside, its shell is seen in all directions.
+/// A ball with a surface of uniform luminance. From inside, the surface is visible in all directions.
 class BallPathLight final : public PathLight
 {
 public:
@@ -71,11 +73,13 @@ private:
     double radius_;
 };
 
-/// A point that shines within a cone. Between the two angles light falls off smoothly.
+/// A point light that emits in a cone. Between the inner and the outer angle its intensity decreases
+/// smoothly.
 class SpotPathLight final : public PathLight
 {
 public:
-    /// @param direction unit, the way the light goes  @param intensity [cd] inside the inner angle
+    /// @param direction unit, direction in which light travels
+    /// @param intensity [cd] inside of the inner angle
     /// @param inner, outer [rad] half angles, 0 <= inner <= outer <= pi; both pi: a point light
     SpotPathLight(const glm::dvec3& position, const glm::dvec3& direction, const glm::dvec3& intensity,
                   double inner, double outer);
@@ -87,8 +91,8 @@ private:
     double cosInner_, cosOuter_;
 };
 
-/// A glowing group of particles: as bright as a point, but finite inside its extent, where nothing blocks it.
-/// The same model as in the reference renderer and in rendering/lights/light.h.
+/// A glowing group of particles. It illuminates like a point light, but inside of its extent its light is
+/// finite and nothing blocks it. The reference renderer and the lights of views use the same model.
 class GlowPathLight final : public PathLight
 {
 public:
@@ -104,15 +108,15 @@ private:
     double radius_;
 };
 
-/// A light of a scene. @param eye [m] world position that rays are relative to
+/// Converts a light of a scene. @param eye [m] world position to which rays are relative
 std::unique_ptr<PathLight> makePathLight(const SceneLight& light, const glm::dvec3& eye);
 
-/// Light from everywhere that is far away.
+/// Light from infinity in all directions.
 class PathSky
 {
 public:
     virtual ~PathSky() = default;
-    /// [cd/m2] @param direction unit, of a ray that escapes
+    /// [cd/m2] Luminance in the direction of a ray that escapes. @param direction unit
     virtual glm::dvec3 luminance(const glm::dvec3& direction) const = 0;
 };
 

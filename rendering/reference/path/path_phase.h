@@ -1,5 +1,5 @@
 /// @file path_phase.h
-/// Phase functions that directions are drawn from.
+/// Phase functions from which directions can be sampled.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,7 +9,7 @@
 
 namespace fx::render {
 
-/// Which way light is scattered. A value; const calls from any thread.
+/// A phase function, as a value type. Threads: any thread may call const functions.
 class PhaseFunction
 {
 public:
@@ -17,16 +17,16 @@ public:
     static PhaseFunction rayleigh();
     /// @param g mean cosine, -0.999..0.999
     static PhaseFunction henyeyGreenstein(double g);
-    /// @param share [0, 1] of light that follows the first lobe
+    /// @param share share of the first lobe, 0..1  @param first, second mean cosines
     static PhaseFunction twoLobes(double first, double second, double share);
 
     /// [1/sr] >= 0, integrates to 1 over all directions. @param cosine between the old and the new direction
     double at(double cosine) const;
-    /// Cosine of a direction that is distributed as at(). @param u in [0, 1)
+    /// Samples the cosine of a direction with the density at(). @param u in [0, 1)
     double cosine(double u) const;
     double meanCosine() const { return share_ * g_[0] + (1.0 - share_) * g_[1]; }
 
-    /// The direction at `cosine` from `direction`, turned by `turn` in [0, 1) of a circle.
+    /// A direction with the given cosine to `direction`, rotated about it by `turn` in [0, 1) turns.
     static glm::dvec3 around(const glm::dvec3& direction, double cosine, double turn);
 
     bool operator==(const PhaseFunction&) const = default;

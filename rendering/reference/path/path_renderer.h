@@ -1,12 +1,12 @@
 /// @file path_renderer.h
-/// Renders a picture by path tracing: tiles over threads, with a journal of finished tiles and the variance
-/// of every pixel.
+/// Renders a picture by path tracing, with tiles on several threads, a journal of finished tiles, and the
+/// variance of every pixel.
 ///
-/// Light of the scene's sun, lamps and sky, of glowing gas and of shining particles is scattered by media and
-/// reflected by diffuse triangles any number of times. Camera rays that hit nothing show the scene's
-/// background; other rays that escape hit the sky: its luminance above, light reflected by ground of the
-/// lighting's albedo below. The picture has the same bits for any number of threads, and whether it was made
-/// in one run or in several.
+/// Light of sun, lamps, sky, glowing gas and luminous particles is scattered by media and reflected by
+/// diffuse triangles any number of times. Camera rays that hit nothing show the background of the scene.
+/// Other rays that escape hit the sky: above the horizon its luminance, below it the light reflected by the
+/// ground with Lighting::groundAlbedo. The picture has the same bits for any number of threads, in one run or
+/// in several.
 #pragma once
 
 #include "rendering/reference/path/path_integrator.h"
@@ -23,11 +23,11 @@ struct PathPictureSettings
 {
     int width = 640;       ///< [pixel] 1..16384
     int height = 360;      ///< [pixel] 1..16384
-    uint32_t samples = 64; ///< paths of a pixel, 1..2^24; with `error` the most that it may take
-    /// [1] standard error that pixels are to have, root mean square over a tile, in the unit of written
-    /// values; 0: all pixels take `samples`. A tile first takes kPilotSamples, from whose variance follows
-    /// how many the pixels need. The picture is made of other paths: a mean over a number of samples that
-    /// depends on the samples is biased.
+    uint32_t samples = 64; ///< paths per pixel, 1..2^24; with `error` the largest number
+    /// [1] Wanted standard error of pixels, root mean square over a tile, in the unit of written values; 0:
+    /// all pixels have `samples` paths. A tile first traces kPilotSamples paths per pixel; their variance
+    /// gives the required number of paths. These pilot paths are not part of the picture, because a mean is
+    /// biased if its number of samples depends on the samples.
     double error = 0.0;
     double exposure = 1.0;      ///< [m2/cd] written value per luminance
     double sunRadius = 0.00465; ///< [rad] angular radius of the sun, 0..pi/2
@@ -40,8 +40,8 @@ namespace path_channel {
 enum : uint32_t
 {
     Color, ///< RGBA, linear, exposed; A is 1 in front of triangles and background, or the medium's opacity
-    Variance = 4, ///< RGB, of the pixel's mean: the square of its standard error
-    Samples = 7,  ///< paths that the pixel took
+    Variance = 4, ///< RGB, variance of the mean: square of the standard error
+    Samples = 7,  ///< number of paths of the pixel
     Count
 };
 }
@@ -50,8 +50,8 @@ enum : uint32_t
 struct PathWork
 {
     uint64_t paths = 0;
-    uint64_t collisions = 0; ///< tentative ones
-    uint64_t nonFinite = 0;  ///< paths that gave no number; each counts as black
+    uint64_t collisions = 0; ///< tentative collisions
+    uint64_t nonFinite = 0;  ///< paths whose result was not finite; they count as black
 };
 
 class PathRenderer
@@ -63,25 +63,25 @@ public:
     ~PathRenderer();
 
     /// Builds the data shared by all tiles. `tasks` and the spans of `scene` must outlive the renderer.
-    /// @return InvalidArgument for a number outside its range
+    /// @return InvalidArgument if a number is outside of its range
     base::Status build(const ReferenceScene& scene, const PathPictureSettings& settings,
                        base::TaskRunner& tasks);
 
-    /// Identifies the picture: a hash of everything that its pixels depend on.
+    /// Identifies the picture: a hash of all inputs of its pixels.
     uint64_t key() const { return key_; }
     uint32_t tileCount() const { return tiles_.tileCount(); }
-    /// Takes over a tile of an earlier run; ignored unless number and length are possible.
+    /// Sets a tile from an earlier run. It is ignored if number or length are invalid.
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
-    /// Renders the tiles that are missing.
-    /// @param journal receives each tile, may be null
-    /// @return Interrupted on request, or the error of the journal
+    /// Renders the missing tiles.
+    /// @param journal receives each tile; may be null
+    /// @return Interrupted if `callbacks` requested it, or the error of the journal
     base::Status render(TileJournal* journal, const RenderCallbacks& callbacks);
 
     /// One channel (see path_channel), width x height, rows from the top.
     const std::vector<float>& pixels(uint32_t channel) const { return tiles_.pixels(channel); }
     std::vector<float> interleaved(uint32_t first) const { return tiles_.interleaved(first); }
-    PathWork work() const; ///< of this run; tiles of earlier ones are not counted
-    /// [1] root mean square over all pixels and color channels of the standard error of written values
+    PathWork work() const; ///< work of this run only
+    /// [1] Standard error of written values, root mean square over all pixels and color channels.
     double standardError() const;
 
 private:

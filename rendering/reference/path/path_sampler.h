@@ -1,6 +1,7 @@
 /// @file path_sampler.h
-/// The random numbers of one path: stratified over the samples of a pixel, and a pure function of pixel,
-/// sample and dimension, so that neither order nor thread count can change a picture.
+/// The random numbers of one path. They are stratified over the samples of a pixel, and are a pure function
+/// of pixel, sample and dimension. So a picture depends on neither the order of paths nor the number of
+/// threads.
 #pragma once
 
 #include <array>
@@ -13,18 +14,19 @@ namespace fx::render {
 /// 2^-k.
 ///
 /// symbol   unit   meaning
-///   s      1      number of the sample, in bits from the highest
+///   s      1      number of the sample, with the highest bit first
 ///   h      1      hash of seed, pixel and dimension
 ///   x, y   1      the pair
 /// @derivation
-///   i = scramble(s, h): the order of samples differs between dimensions, or they would be correlated (1) x =
-///   scramble(reverse(i)), y = scramble(i by Pascal's matrix modulo 2): the first two Sobol dimensions (2)
-///   scramble: a hash whose bit k depends on bits above k only, which is a nested uniform permutation (3)
+///   i = scramble(s, h): another order of samples in each dimension, so that they are not correlated  (1)
+///   x = scramble(reverse(i)), y = scramble(Pascal's matrix times i, modulo 2): the first two Sobol
+///   dimensions                                                                                       (2)
+///   scramble is a hash whose bit k depends only on bits above k: a nested uniform permutation         (3)
 /// @source    [Bur20] Burley, "Practical hash-based Owen scrambling", JCGT 9(4), for (1) to (3)
-/// @deviation dimensions beyond the first 64 pairs come from philox4x32-10 alone: paths so long gain nothing
-/// by strata
-/// @valid     up to 2^32 samples a pixel
-/// @accuracy  32 bits; every pair is uniform over the seeds, so that means of paths are unbiased
+/// @deviation dimensions after the first 64 pairs are philox4x32-10 numbers, because such long paths do not
+///            benefit from stratification
+/// @valid     up to 2^32 samples per pixel
+/// @accuracy  32 bits; over all seeds, pairs are uniformly distributed, so that means are unbiased
 /// @tests     tests/rendering/reference/path/test_path_sampler.cpp
 class PathSampler
 {
@@ -33,7 +35,7 @@ public:
     {}
 
     std::array<double, 2> pair(); ///< each in [0, 1)
-    /// In [0, 1), not stratified: for frequent decisions, such as those of null collisions.
+    /// A number in [0, 1) without stratification, for frequent decisions, such as those of null collisions.
     double number();
 
 private:
@@ -41,7 +43,7 @@ private:
     uint32_t pixel_, sample_;
     uint32_t pairs_ = 0, numbers_ = 0;
     std::array<uint32_t, 4> words_{};
-    uint32_t left_ = 0; ///< of `words_`
+    uint32_t left_ = 0; ///< unused numbers in `words_`
 };
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file chord_depth.h
-/// Optical depth of blobs along a ray, from the chords that tracing has found.
+/// Optical depth of blobs along a ray, computed from the chords in RayHits.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"
@@ -8,7 +8,7 @@
 
 namespace fx::render {
 
-/// One blob on one ray: its extinction is peak (1 - u^2)^2 at parameter nearest + half u, |u| <= 1.
+/// The chord of a ray in a blob. At the parameter nearest + half u, |u| <= 1, extinction is peak (1 - u^2)^2.
 struct BlobChord
 {
     BlobChord(const BallBlob<double>& blob, const RayHits& hits, size_t i)
@@ -18,7 +18,7 @@ struct BlobChord
         peak = blob.extinction * q2 * q2;
     }
 
-    /// Of chords that rounding leaves no length: behind them.
+    /// u at parameter `t`, clamped to -1..1; 1 if the chord has no length due to rounding.
     double place(double t) const { return half > 0.0 ? std::clamp((t - nearest) / half, -1.0, 1.0) : 1.0; }
     /// Integral of (1 - u^2)^2 from 0 to place(t).
     double bracket(double t) const
@@ -31,7 +31,7 @@ struct BlobChord
     {
         return peak * half * (bracket(end) - bracket(begin));
     }
-    /// [1/m]
+    /// [1/m] Extinction at parameter `t`.
     double extinction(double t) const
     {
         const double u = place(t);
@@ -42,7 +42,7 @@ struct BlobChord
     double nearest, half, peak;
 };
 
-/// Of all hits between two parameters.
+/// Optical depth of all hits between two ray parameters.
 inline double opticalDepthOf(const MediumView& medium, const RayHits& hits, double begin, double end)
 {
     double sum = 0.0;

@@ -1,5 +1,5 @@
 /// @file detailed_ray.h
-/// Light and optical depth along a ray through fields with detail, which have no closed form.
+/// Light and optical depth along a ray through fields with detail, for which there is no closed form.
 #pragma once
 
 #include "rendering/reference/render/chord_depth.h"
@@ -14,66 +14,67 @@ namespace fx::render {
 ///
 /// symbol   unit     meaning
 ///   t        m        ray parameter; L the length of the ray in the medium
-///   k(t)     1/m      extinction: over the groups, what detail leaves of the sum of the group's balls
-///   j(t)     cd/m3    emitted light
+///   k(t)     1/m      extinction: sum over groups of the eroded extinction
+///   j(t)     cd/m3    emission
 ///   D, T     1        optical depth from the beginning, transmittance exp(-D)
-///   a, b     m        ends of a piece, m its middle
+///   a, b     m        ends of a piece; m its midpoint
 ///   J        cd/m2    light of the whole ray, estimated from the first pieces
 ///   e        1        tolerance
 /// @derivation
-///   S(f) = (b - a)/6 (f(a) + 4 f(m) + f(b)) is Simpson's rule; S' the sum of the same for both halves    (1)
+///   S(f) = (b - a)/6 (f(a) + 4 f(m) + f(b)) is Simpson's rule; S' is the sum of S for both halves        (1)
 ///   A piece is halved until, for k and for each channel of j,
 ///       max(T(a), 1/1000) |S'(k) - S(k)| <= q e, T(a) |S'(j) - S(j)| <= q e J, q^2 = (b - a)/L        (2)
-///   which allows e in all where errors of pieces are independent, as those at kinks of the noise are,
-///   and until its halves have an optical depth of at most 1/2, so that S(T j) is right.                 (3)
-///   Between three points k is the parabola through them:
+///   and until its halves have an optical depth of at most 1/2, so that S(T j) is accurate. If errors of
+///   pieces are independent, as at kinks of the noise, (2) limits the total error to e.                 (3)
+///   Between three points, k is approximated by the parabola through them:
 ///       D(m) - D(a) = (b - a)/24 (5 k(a) + 8 k(m) - k(b))                                               (4)
-///   The first pieces are no longer than the least half chord of the balls that matter there, and than an
-///   eighth of the largest lumps.
+///   The first pieces are at most as long as half of the shortest chord at their position, and as an eighth
+///   of the largest lumps.
 /// @source    textbook; field-detail for k
-/// @deviation kinks of the noise are not sought: pieces with one are halved until (2) holds
+/// @deviation kinks of the noise are not located: a piece with a kink is halved until (2) holds
 /// @valid     any number of balls
-/// @accuracy  root mean square over rays: of T at most e, of light e J, of D e / max(T, 1/1000)
+/// @accuracy  root mean square error over rays: T at most e, light e J, D e / max(T, 1/1000)
 /// @tests     tests/rendering/reference/render/test_detailed_ray.cpp
 ///
-/// One for each thread.
+/// Each thread needs its own object.
 class DetailedRay
 {
 public:
     enum class Wanted : uint8_t
     {
-        Depth, ///< alone
-        Light  ///< and light, coverage and distance
+        Depth, ///< optical depth only
+        Light  ///< optical depth, light, coverage and distance
     };
-    /// @param medium must outlive this and be built
+    /// @param medium must be built and must outlive the object
     DetailedRay(const MediumView& medium, Wanted wanted, double tolerance);
 
-    /// Replaces the results that the following functions return.
+    /// Integrates a ray. The functions from opticalDepth() to distance() return the results.
     /// @param hits all blobs of the medium that the ray meets between its parameters `begin` and `end`
     void trace(const TraceRay& ray, const RayHits& hits, double begin, double end);
 
     double opticalDepth() const { return depth_; }
     double opticalDepth(double from, double to) const { return depthTo(to) - depthTo(from); }
     const glm::dvec3& light() const { return sent_.light; }       ///< [cd/m2] emitted
-    const glm::dvec3& coverage() const { return sent_.coverage; } ///< [1] of fire, smoke, dust
-    /// [cd/m2] scattered in the centers of blobs, by layer.
+    const glm::dvec3& coverage() const { return sent_.coverage; } ///< [1] opacity of fire, smoke, dust
+    /// [cd/m2] Light scattered by blobs of a layer, see blob_light.h.
     const glm::dvec3& scattered(base::MediaLayer layer) const { return sent_.scattered[size_t(layer)]; }
     /// [m] mean distance of the visible medium, +infinity without medium: formula seen-depth (1).
     double distance() const;
 
-    /// Evaluates the share that detail leaves of each blob at a ray parameter; share() returns it.
+    /// Evaluates the detail at a ray parameter, for share().
     void look(double parameter);
-    /// @param hit number in `hits`
+    /// [1] Eroded extinction of a blob over its smooth extinction, at the parameter of look().
+    /// @param hit index in `hits`
     double share(size_t hit) const { return mix_.share(hits_->place[hit]); }
 
 private:
-    /// Emitted light: per metre of the ray, or of the whole ray.
+    /// Light towards the eye: per meter of the ray, or of the whole ray.
     struct Sent
     {
         glm::dvec3 light{0.0}, coverage{0.0};
         std::array<glm::dvec3, 3> scattered{};
-        double moment = 0.0; ///< of distance
-        double seen = 0.0;   ///< extinction
+        double moment = 0.0; ///< distance times visible extinction
+        double seen = 0.0;   ///< visible extinction
 
         void add(const Sent& other, double weight);
     };
@@ -83,7 +84,7 @@ private:
         double extinction = 0.0; ///< [1/m]
         Sent sent;
     };
-    /// Half of a piece that has been halved enough.
+    /// Half of a piece for which (2) and (3) hold.
     struct Piece
     {
         double begin, end;       ///< [m]
@@ -109,7 +110,7 @@ private:
     TraceRay ray_{};
     const RayHits* hits_ = nullptr;
     std::vector<BlobChord> chords_;
-    std::vector<Sample> samples_; ///< ends and middles of the first pieces
+    std::vector<Sample> samples_; ///< ends and midpoints of the first pieces
     std::vector<Piece> pieces_;
     double perLength_ = 0.0; ///< [1/m] 1 / L
     double brightest_ = 0.0; ///< [cd/m2] J

@@ -1,5 +1,5 @@
 /// @file medium_details.h
-/// Detail of the fields of a medium, as the renderers without a GPU get and evaluate it.
+/// Detail of the fields of a medium, for renderers without a GPU.
 #pragma once
 
 #include "rendering/field_detail/blob_detail.h"
@@ -14,7 +14,7 @@
 
 namespace fx::render {
 
-/// The detail of a list of balls. Without groups there is none.
+/// The detail of a list of balls. Without groups there is no detail.
 struct MediumDetails
 {
     /// Data that all blobs of a group share.
@@ -23,39 +23,39 @@ struct MediumDetails
         GroupDetail detail;     ///< relative to `origin`, world axes
         glm::dvec3 origin{0.0}; ///< [m] world
     };
-    /// What a ball has.
+    /// Data of one ball.
     struct Ball
     {
-        int32_t group = -1;                 ///< number in `groups`; -1: it stays smooth
+        int32_t group = -1;                 ///< index in `groups`; -1: the ball has no detail
         std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
         float temperature = 0.0f;           ///< [K]
         float thinning = 0.0f;              ///< [1] v of field-detail
     };
     std::vector<Group> groups;
-    std::vector<Ball> balls;         ///< one for each of the list, or none at all
+    std::vector<Ball> balls;         ///< one for each ball of the list; empty without detail
     int octaves = kMaxDetailOctaves; ///< 1..kMaxDetailOctaves
 
     bool isGiven() const { return !groups.empty(); }
 };
 
-/// Width of the pixels of a picture: noise that is finer than two of them has faded out.
+/// Width of a pixel as a function of distance. Octaves of noise finer than two pixels are faded out.
 struct PixelWidth
 {
     glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit, the axis of the view
-    double perDepth = 0.0;              ///< [1] over the distance along the axis
-    double constant = 0.0;              ///< [m] added to it
+    double perDepth = 0.0;              ///< [1] width of a pixel per distance along the axis
+    double constant = 0.0;              ///< [m] added to the width
 
     PixelWidth() = default;
     PixelWidth(const ReferenceCamera& camera, int height);
-    double at(const glm::dvec3& point) const; ///< [m] @param point [m] relative to the eye
+    double at(const glm::dvec3& point) const; ///< [m] width of a pixel at `point` [m], relative to the eye
 };
 
-/// Details of a medium whose balls have been put in another order. Read by any number of threads.
+/// Details of a medium with its balls in the order of a tree. Threads: any thread may call const functions.
 class DetailedMedium
 {
 public:
     DetailedMedium() = default;
-    /// @param tree of the balls, whose order is that of places
+    /// @param tree tree of the balls; a "place" is an index in its order
     DetailedMedium(const MediumDetails& details, const BallTree& tree, const glm::dvec3& eye,
                    const PixelWidth& pixel);
 
@@ -66,15 +66,16 @@ public:
     /// [m] size of the largest lumps of a group in the world.
     double lumpSize(size_t group) const;
 
-    /// What detail makes of a group at a point.
-    /// @param extinction [1/m] > 0, sum of its balls  @param carried [cell], thinning [1] means of its balls
+    /// Evaluates the detail of a group at a point.
+    /// @param extinction [1/m] > 0, sum over the balls of the group
+    /// @param carried [cell], thinning [1] means over the balls, weighted by extinction
     MediumDetail at(size_t group, double extinction, const std::array<glm::dvec3, 2>& carried,
                     double thinning, const glm::dvec3& point) const;
-    /// [cd/m2] black body of a ball's temperature.
+    /// [cd/m2] Black-body luminance at the temperature of a ball.
     const glm::vec3& thermal(uint32_t place) const { return thermal_[place]; }
-    /// [1/m] what is left of a smooth extinction of at most `most` is no more.
+    /// [1/m] Upper bound of the eroded extinction where the smooth extinction is at most `most` [1/m].
     double maxErodedExtinction(size_t group, double most) const;
-    double mostGain(size_t group) const; ///< [1] by which detail multiplies an extinction at most
+    double mostGain(size_t group) const; ///< [1] largest factor by which detail multiplies extinction
 
 private:
     struct Group
@@ -84,39 +85,39 @@ private:
     };
     std::vector<Group> groups_;
     std::vector<MediumDetails::Ball> balls_; ///< by place
-    std::vector<glm::vec3> thermal_;         ///< likewise
+    std::vector<glm::vec3> thermal_;         ///< by place
     PixelWidth pixel_;
     int octaves_ = kMaxDetailOctaves;
 };
 
-/// Sums of the balls at one point, group by group. One for each thread.
+/// Sums over the balls at one point, by group, and the resulting detail. Each thread needs its own object.
 class DetailMix
 {
 public:
     explicit DetailMix(const DetailedMedium& medium) : medium_(medium) {}
 
     void clear();
-    /// @param extinction [1/m] of the ball at the point
+    /// Adds a ball. @param extinction [1/m] of the ball at the point
     void add(uint32_t place, double extinction);
-    /// After all balls of the point.
+    /// Evaluates the detail at the point. Call it after all balls are added.
     void finish(const glm::dvec3& point);
-    /// [1] by which the extinction of the ball is multiplied.
+    /// [1] Factor of the extinction of a ball.
     double share(uint32_t place) const
     {
         const int32_t group = medium_.groupOf(place);
         return group < 0 ? 1.0 : sums_[size_t(group)].detail.share;
     }
-    /// [1] by which its temperature is multiplied.
+    /// [1] Factor of the temperature of a ball.
     float temperature(uint32_t place) const
     {
         const int32_t group = medium_.groupOf(place);
         return group < 0 ? 1.0f : sums_[size_t(group)].detail.temperature;
     }
-    /// [cd/m2] emitted light per optical depth.
-    /// @param source without detail
+    /// [cd/m2] Emitted light of a ball per optical depth, with detail.
+    /// @param source the same without detail
     glm::dvec3 source(uint32_t place, const glm::dvec3& source, const glm::dvec3& albedo) const;
 
-    /// [1/m] of all balls that were added is no more than this left, if add() got upper bounds.
+    /// [1/m] Upper bound of the eroded extinction of all added balls, if add() was called with upper bounds.
     double maxErodedExtinction() const;
 
 private:
@@ -128,8 +129,8 @@ private:
         MediumDetail detail;
     };
     const DetailedMedium& medium_;
-    std::vector<Sum> sums_; ///< of groups
-    double smooth_ = 0.0;   ///< [1/m] of balls without detail
+    std::vector<Sum> sums_; ///< by group
+    double smooth_ = 0.0;   ///< [1/m] sum over balls without detail
 };
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file medium_view.h
-/// The medium of one picture: the tree over its blobs, and the light of 16 rays at once.
+/// The medium of one picture: a tree of its blobs, and the integration of 16 rays at once.
 #pragma once
 
 #include "rendering/reference/integral/ray_packet.h"
@@ -13,37 +13,38 @@
 
 namespace fx::render {
 
-/// Source light of blobs in one integration. Columns in the order of the tree.
+/// Which light of blobs an integration sums.
 enum class MediumSource : uint8_t
 {
     Light,    ///< [cd/m2] emitted light
-    Coverage, ///< 1 for what is counted as fire, smoke, dust in place of red, green, blue
+    Coverage, ///< opacity of fire, smoke and dust, in place of red, green and blue
     Fire,     ///< [cd/m2] light scattered by blobs of this layer, see setScattered()
     Smoke,
     Dust
 };
 
-/// Blobs relative to an eye. Read by any number of threads after build().
+/// Blobs relative to an eye. Threads: any thread may call const functions after build().
 class MediumView
 {
 public:
-    /// @param details of the blobs; none: they are smooth  @param pixel of the picture, for details
-    /// @param hasTracks track() is going to be asked
+    /// @param details detail of the blobs; empty: blobs are smooth
+    /// @param pixel width of a pixel of the picture, for the detail
+    /// @param hasTracks track() will be called
     void build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
                const MediumDetails& details = {}, const PixelWidth& pixel = {}, bool hasTracks = false);
 
     const BallTree& tree() const { return tree_; }
-    /// Of the blob at a place of the tree's order, relative to the eye.
+    /// The blob at a place, that is an index in the order of the tree. It is relative to the eye.
     const BallBlob<double>& blob(uint32_t place) const { return blobs_[place]; }
     const std::array<double, 3>& coverage(uint32_t place) const { return coverage_[isUniform_ ? 0 : place]; }
-    /// Whose a blob is, and how it moves.
+    /// Instance and velocity of a blob.
     struct Track
     {
         glm::dvec3 velocity; ///< [m/s] world
         uint64_t instance;
     };
     const Track& track(uint32_t place) const { return tracks_[place]; }
-    /// How a blob scatters.
+    /// Scattering properties of a blob.
     struct Scattering
     {
         glm::vec3 albedo; ///< [1]
@@ -52,25 +53,26 @@ public:
     };
     const Scattering& scattering(uint32_t place) const { return scattering_[place]; }
     const DetailedMedium& details() const { return details_; }
-    const glm::vec3& scattered(uint32_t place) const { return scattered_[place]; } ///< of setScattered()
-    /// Light that blobs scatter [cd/m2 per optical depth], by their places; empty: none.
+    const glm::vec3& scattered(uint32_t place) const { return scattered_[place]; } ///< see setScattered()
+    /// Sets the light that blobs scatter [cd/m2 per optical depth], by place; empty: none.
     void setScattered(std::vector<glm::vec3> light);
     /// Whether blobs of a layer scatter light.
     bool scatters(base::MediaLayer layer) const { return scatters_[size_t(layer)]; }
     std::array<double, 3> source(MediumSource source, uint32_t place) const;
     bool isEmpty() const { return count_ == 0; }
-    /// Whether all blobs count alike, so that coverage needs no integration of its own.
+    /// Whether all blobs have the same layers, so that coverage needs no separate integration.
     bool isUniform() const { return isUniform_; }
-    glm::dvec3 coverage() const { return {coverage_[0][0], coverage_[0][1], coverage_[0][2]}; } ///< then
+    /// if isUniform()
+    glm::dvec3 coverage() const { return {coverage_[0][0], coverage_[0][1], coverage_[0][2]}; }
 
 private:
     BallTree tree_;
     size_t count_ = 0;
     std::unique_ptr<BallBlob<double>[]> blobs_;
-    std::vector<std::array<double, 3>> coverage_; ///< one for all when they are alike
+    std::vector<std::array<double, 3>> coverage_; ///< one for all blobs if isUniform_
     std::unique_ptr<Scattering[]> scattering_;
     std::vector<glm::vec3> scattered_;
-    std::vector<Track> tracks_; ///< none unless they were wanted
+    std::vector<Track> tracks_; ///< empty unless `hasTracks`
     DetailedMedium details_;
     std::array<bool, 3> scatters_{};
     bool isUniform_ = true;
@@ -85,7 +87,7 @@ struct RayBundle
     std::array<double, kPacketRays> end;
 };
 
-/// Light of the medium alone, without what stands behind it.
+/// Light of the medium, without the background.
 struct BundleLight
 {
     std::array<glm::dvec3, kPacketRays> radiance;
@@ -93,22 +95,21 @@ struct BundleLight
     std::array<double, kPacketRays> transmittance;
 };
 
-/// Integrates bundles. One for each thread.
+/// Integrates bundles of rays. Each thread needs its own object.
 class BundleIntegrator
 {
 public:
     virtual ~BundleIntegrator() = default;
-    /// Finds the blobs that the bundle meets among the places `candidates` (rising); they serve the following
-    /// calls.
-    /// @return ray-blob hits
+    /// Finds the blobs that the bundle meets among `candidates`, which are ascending places. integrate() uses
+    /// them.
+    /// @return number of ray-blob hits
     virtual uint64_t meet(const MediumView& medium, const RayBundle& rays,
                           std::span<const uint32_t> candidates) = 0;
     virtual void integrate(MediumSource source, BundleLight& out) = 0;
 };
 
-/// @param isSingle float instead of double. Ray parameters are then counted from near the first blob, where
-/// float
-///   resolves them
+/// @param isSingle float instead of double; ray parameters are then measured from a point near the first
+///         blob, for the precision of float
 std::unique_ptr<BundleIntegrator> makeBundleIntegrator(const IntegralSettings& settings, bool isSingle);
 
 } // namespace fx::render

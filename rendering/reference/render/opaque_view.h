@@ -1,5 +1,5 @@
 /// @file opaque_view.h
-/// What stands behind the medium: diffuse triangles under the scene's lights, or the background.
+/// The opaque part of a scene: diffuse triangles under the scene's lights, and the background.
 #pragma once
 
 #include "rendering/frame/scene_light.h"
@@ -15,14 +15,14 @@
 
 namespace fx::render {
 
-/// Radiance of a ray that hits no triangle. Owned by the caller.
+/// Radiance of rays that hit no triangle. The caller owns `image`.
 struct OpaqueBackground
 {
-    glm::vec3 luminance{0.0f};        ///< [cd/m2] overhead, used when `image` is empty
-    glm::vec3 horizon{0.0f};          ///< [cd/m2] at and below eye height
+    glm::vec3 luminance{0.0f};        ///< [cd/m2] at the zenith, used if `image` is empty
+    glm::vec3 horizon{0.0f};          ///< [cd/m2] at and below the horizon, used if `image` is empty
     int width = 0, height = 0;        ///< [pixel] of `image`
-    std::span<const glm::vec3> image; ///< [cd/m2] rows from the top
-    bool panorama = false;            ///< equirectangular around the eye; false: fills the view
+    std::span<const glm::vec3> image; ///< [cd/m2] top row first
+    bool panorama = false;            ///< true: equirectangular around the eye; false: fills the picture
 };
 
 /// The opaque part of a scene.
@@ -32,34 +32,34 @@ struct OpaqueScene
     OpaqueBackground background;
     Lighting lighting;
     std::vector<SceneLight> lamps;
-    std::vector<EffectLight> lights; ///< of the effects
-    /// The lights of `lights` that are not emitted by a medium. The path tracer uses only these, because its
-    /// media emit the others.
+    std::vector<EffectLight> lights; ///< lights of the effects
+    /// Those of `lights` that are not emitted by a medium. The path tracer uses only these, because its media
+    /// emit the light of the others.
     std::vector<EffectLight> particleLights;
-    bool isEmpty = false; ///< no surface or background is behind the medium: the picture is transparent there
+    /// There are no surfaces and no background: the picture is transparent behind the medium.
+    bool isEmpty = false;
 };
 
-/// [cd/m2] light that the ground below the scene sends upwards.
+/// [cd/m2] Luminance of the ground below the scene, seen from above.
 glm::dvec3 groundLuminance(const Lighting& lighting);
 
-/// One pixel of it.
+/// Result of one ray.
 struct OpaqueSample
 {
     glm::dvec3 luminance{0.0};                                 ///< [cd/m2]
     double distance = std::numeric_limits<double>::infinity(); ///< [m] along the ray
 };
 
-/// [lx] at a place a little above a surface, whose unit normal is towards the side that is seen.
+/// [lx] Illuminance at a point slightly above a surface. The unit normal is on the visible side.
 using Illuminance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
 
-/// Shades as rendering/stage does, but with exact shadow rays in place of a shadow map. The medium casts no
-/// shadow on surfaces there, and none here. Lamps light from their middle. An Illuminance replaces all of
-/// that.
+/// Shades surfaces like rendering/stage, but with exact shadow rays instead of a shadow map. Media cast no
+/// shadow on surfaces, and lamps are points at their centers. A given Illuminance replaces this shading.
 class OpaqueView
 {
 public:
     /// @param scene its spans must stay valid
-    /// @param eye [m] world position that rays are relative to
+    /// @param eye [m] world position to which rays are relative
     void build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks);
 
     const OpaqueScene& scene() const { return scene_; }
@@ -68,21 +68,22 @@ public:
     bool hasMesh() const { return !triangles_.empty(); }
     const BallTree& tree() const { return triangles_.tree(); }
 
+    /// Radiance of a ray, and the distance of the surface that it hits.
     /// @param x, y position in the picture, 0..1 from the upper left
-    /// @param hits of the ray in tree(); ignored without a mesh
+    /// @param hits hits of the ray in tree(); ignored without a mesh
     /// @param begin [m] ray parameter where the ray begins
-    /// @param scratch keeps memory for shadow rays
-    /// @param illuminance of surfaces, instead of that of rendering/stage; may be empty
+    /// @param scratch memory for shadow rays
+    /// @param illuminance replaces the shading of rendering/stage; may be empty
     OpaqueSample sample(const TraceRay& ray, double x, double y, const RayHits& hits, double begin,
                         RayHits& scratch, const Illuminance& illuminance = {}) const;
 
-    /// [m] along the ray to the first triangle, +infinity for none. @param scratch keeps memory
+    /// [m] Distance along the ray to the first triangle, +infinity if there is none. @param scratch memory
     double distance(const TraceRay& ray, RayHits& scratch) const
     {
         return hasMesh() ? triangles_.trace(ray, 0.0, scratch).distance
                          : std::numeric_limits<double>::infinity();
     }
-    /// Whether a triangle stands on the ray before `distance`. @param scratch keeps memory
+    /// Whether a triangle intersects the ray before `distance` [m]. @param scratch memory
     bool blocks(const TraceRay& ray, double distance, RayHits& scratch) const
     {
         return this->distance(ray, scratch) < distance;

@@ -1,5 +1,5 @@
 /// @file reference_camera.h
-/// The camera of the reference renderer, in double throughout.
+/// The camera of the reference renderer, in double precision.
 #pragma once
 
 #include "rendering/reference/trace/ray_grid.h"
@@ -15,12 +15,12 @@ struct ReferenceCamera
     glm::dvec3 up{0.0, 1.0, 0.0};       ///< unit
     glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit
     bool orthographic = false;
-    double halfHeight =
-        0.5; ///< half the picture's height: tangent of half the angle, or [m] when orthographic
-    double nearDistance = 0.1; ///< [m] along the axis, >= 0
+    /// Half of the picture's height: tangent of half the angle of view, or [m] if orthographic.
+    double halfHeight = 0.5;
+    double nearDistance = 0.1; ///< [m] of the near plane along the view axis, >= 0
 
-    /// Looks from `position` to `target`. Eye and target differ, and `up` is not parallel to their
-    /// difference.
+    /// A camera at `position` that looks to `target`. The two must differ, and `upwards` must not be parallel
+    /// to the view axis.
     static ReferenceCamera lookAt(const glm::dvec3& position, const glm::dvec3& target,
                                   const glm::dvec3& upwards);
 

@@ -1,11 +1,11 @@
 /// @file reference_renderer.h
-/// A picture by the ray integral: tiles over threads, with a journal of what is done.
+/// Renders a picture by the ray integral, with tiles on several threads and a journal of finished tiles.
 ///
-/// Every pixel is the integral of emission and absorption along its ray, through all blobs in double (or
-/// float), up to the nearest triangle. What the GPU passes add for looks is left out: procedural detail,
-/// scattering more than once, shimmer, glare. Light of sun, lamps, fires and sky that is scattered once is
-/// an option. The picture has the same bits for any number of threads, any instruction set, and whether it
-/// was made in one run or in several.
+/// A pixel is the integral of emission and absorption along its ray, through all blobs in double (or float),
+/// up to the nearest triangle. Effects of GPU passes for appearance are omitted: noise of single balls,
+/// multiple scattering, shimmer, glare. Single scattering of the light of sun, lamps, fires and sky is
+/// optional. The picture has the same bits for any number of threads, any instruction set, and in one run or
+/// in several.
 #pragma once
 
 #include "rendering/reference/render/reference_scene.h"
@@ -20,25 +20,25 @@ namespace fx::render {
 class ReferenceRenderer
 {
 public:
-    /// Builds what all tiles share. `tasks` must outlive the renderer.
-    /// @return InvalidArgument for a size, sample count, camera or blob outside its range
+    /// Builds the data shared by all tiles. `tasks` must outlive the renderer.
+    /// @return InvalidArgument if a size, sample count, camera or blob is outside of its range
     base::Status build(const ReferenceScene& scene, const ReferenceSettings& settings,
                        base::TaskRunner& tasks);
 
-    /// Identifies the picture: a hash of everything that its pixels depend on.
+    /// Identifies the picture: a hash of all inputs of its pixels.
     uint64_t key() const { return key_; }
     uint32_t tileCount() const { return tiles_.tileCount(); }
 
-    /// Takes over a tile of an earlier run; ignored unless number and length are possible.
+    /// Sets a tile from an earlier run. It is ignored if number or length are invalid.
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
-    /// Renders the tiles that are missing.
-    /// @param journal receives each tile, may be null
-    /// @return Interrupted on request, or the error of the journal
+    /// Renders the missing tiles.
+    /// @param journal receives each tile; may be null
+    /// @return Interrupted if `callbacks` requested it, or the error of the journal
     base::Status render(TileJournal* journal, const RenderCallbacks& callbacks);
 
-    /// One channel after another (see reference_channel), each width x height, rows from the top.
+    /// One channel (see reference_channel), width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return tiles_.pixels(channel); }
-    /// Four channels of each pixel together, beginning with `first`.
+    /// Four channels from `first` on, interleaved by pixel.
     std::vector<float> interleaved(uint32_t first) const { return tiles_.interleaved(first); }
     const ReferenceWork& work() const { return work_; }
 

@@ -1,5 +1,5 @@
 /// @file reference_scene.h
-/// What a picture of the reference renderer or the path tracer is made of, and its identity.
+/// Input of a picture of the reference renderer or the path tracer, and hashes that identify the picture.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -17,11 +17,11 @@
 
 namespace fx::render {
 
-/// All that a picture is made of. Spans in `opaque` must stay valid.
+/// The complete input of a picture, except its settings. Spans in `opaque` must stay valid.
 struct ReferenceScene
 {
     std::vector<MediumBlob> blobs;
-    MediumDetails details; ///< of `blobs`; empty: they are drawn smooth
+    MediumDetails details; ///< detail of `blobs`; empty: blobs are smooth
     OpaqueScene opaque;
     ReferenceCamera camera;
 };

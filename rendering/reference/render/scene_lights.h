@@ -1,5 +1,5 @@
 /// @file scene_lights.h
-/// All light of a scene that reaches a point when nothing stands in its way, direction by direction.
+/// The light of a scene at a point, without attenuation, as a list of directions.
 #pragma once
 
 #include "rendering/reference/render/opaque_view.h"
@@ -17,9 +17,10 @@ namespace fx::render {
 struct ArrivingLight
 {
     glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
-    glm::dvec3 illuminance{0.0};         ///< [lx] on a surface that faces the light
-    double distance = 1e30;              ///< [m] beyond it nothing blocks the light
-    double solidAngle = 0.0;             ///< [sr] that the direction stands for; 0: of no extent
+    glm::dvec3 illuminance{0.0};         ///< [lx] on a surface perpendicular to the light
+    double distance = 1e30;              ///< [m] distance of the light; objects beyond it do not block
+    /// [sr] solid angle that the direction represents; 0: light without extent
+    double solidAngle = 0.0;
 };
 
 /// @formula cone-quadrature
@@ -28,10 +29,10 @@ struct ArrivingLight
 /// symbol   unit   meaning
 ///   c      1      cosine of the angle to the axis, from c0 = 1 - h at the rim to 1
 ///   f      rad    angle about the axis
-///   n, m   1      rings, and directions of each
+///   n, m   1      number of rings, and of directions per ring
 ///   dw     sr     weight
 /// @derivation
-///   c at the n Gauss-Legendre nodes of [c0, 1] with weights w_i, f = 2 pi (j + turn) / m            (1)
+///   c is at the n Gauss-Legendre nodes of [c0, 1] with weights w_i; f = 2 pi (j + turn) / m         (1)
 ///   dw = w_i 2 pi / m; the sum is the solid angle 2 pi h                                          (2)
 /// @source    textbook: the product of two rules
 /// @deviation none
@@ -39,46 +40,47 @@ struct ArrivingLight
 /// @accuracy  exact for products of polynomials of degree 2 n - 1 in c and harmonics of f below m
 /// @tests     tests/rendering/reference/render/test_scene_lights.cpp
 ///
-/// @param axis unit  @param height h, 0..2  @param turn [1] of the step between directions, 0..1
+/// @param axis unit  @param height h, 0..2
+/// @param turn [1] rotation about the axis, over the step between directions, 0..1
 /// @param out receives n m directions with their weights in `solidAngle`
 void appendCone(const glm::dvec3& axis, double height, int rings, int sectors, double turn,
                 std::vector<ArrivingLight>& out);
 
-/// The lights of one scene. Coordinates are relative to the eye. Const calls from any thread.
+/// The lights of one scene. Coordinates are relative to the eye. Threads: any thread may call const
+/// functions.
 class SceneLights
 {
 public:
     static constexpr int kMaxSkyRings = 64;
 
-    /// @param skyRings 1..kMaxSkyRings: each half of the sky is `skyRings` rings of 2 skyRings directions
+    /// @param skyRings 1..kMaxSkyRings: each hemisphere has `skyRings` rings of 2 skyRings directions
     void build(const OpaqueScene& scene, const glm::dvec3& eye, int skyRings);
 
     bool hasSun() const { return sun_.illuminance != glm::dvec3(0.0); }
     const ArrivingLight& sun() const { return sun_; }
 
-    /// Lights of the scene's list, then those of glowing groups.
+    /// Number of lamps: the lights of the scene's list, then those of glowing groups.
     size_t lampCount() const { return lamps_.size(); }
-    /// Appends the light of one of them at a point: one direction of a point, a spot or a glowing group, many
-    /// of a ball. A glowing group is as bright as if it were a point, but finite inside its extent, and
-    /// nothing inside that extent blocks it.
+    /// Appends the light of a lamp at a point: one direction for a point light, a spot or a glowing group,
+    /// many for a ball. A glowing group illuminates like a point light. But inside of its extent its light is
+    /// finite, and nothing within its extent blocks it.
     /// @param turn [1] 0..1, see appendCone()
     void appendLamp(size_t lamp, const glm::dvec3& point, double turn, std::vector<ArrivingLight>& out) const;
 
-    /// How the light of a lamp changes along a ray.
+    /// How the light of a lamp varies along a ray.
     struct Course
     {
         double nearest;           ///< [m] ray parameter closest to the lamp
-        double distance;          ///< [m] from the lamp there, but at least the lamp's extent
-        std::vector<double> cuts; ///< [m] rising ray parameters where the light is not smooth
+        double distance;          ///< [m] distance of this point from the lamp, at least the lamp's extent
+        std::vector<double> cuts; ///< [m] ascending ray parameters at which the light is not smooth
     };
     void course(size_t lamp, const TraceRay& ray, Course& out) const;
 
     /// @formula sky-quadrature
-    /// Directions and weights that integrate a function over the sphere, separately
-    ///          for each hemisphere.
+    /// Directions and weights that integrate a function over the sphere, separately for each hemisphere.
     ///
     /// symbol   unit   meaning
-    ///   n             rings of a half
+    ///   n      1      number of rings of a hemisphere
     ///   h      1      cosine of the angle to the vertical
     ///   f      rad    angle about the vertical
     ///   x, y   1      shift, 0..1
@@ -89,13 +91,13 @@ public:
     /// @source    elementary; shifts by a lattice are textbook
     /// @deviation none
     /// @valid     n >= 1
-    /// @accuracy  with a shift of 1/2 the second order of the midpoint rule. A mean over k shifts of a
-    /// lattice is
-    ///   about that of k times as many directions
+    /// @accuracy  with a shift of 1/2, second order like the midpoint rule. A mean over k shifts of a lattice
+    ///            is about as accurate as k times as many directions
     /// @tests     tests/rendering/reference/render/test_scene_lights.cpp
     ///
-    /// Appends the sky and, below the horizon, the light of the ground: 4 n^2 directions, black ones too.
-    /// @param density n is so many times the rings given to build()
+    /// Appends the light of the sky and, below the horizon, of the ground: 4 n^2 directions, also without
+    /// light.
+    /// @param density n is this factor times `skyRings` of build()
     void appendSky(const glm::dvec2& shift, int density, std::vector<ArrivingLight>& out) const;
     bool hasSky() const { return sky_ != glm::dvec3(0.0) || ground_ != glm::dvec3(0.0); }
     const glm::dvec3& sky() const { return sky_; }       ///< [cd/m2] above the horizon
@@ -105,7 +107,7 @@ private:
     struct Lamp
     {
         glm::dvec3 position, intensity;
-        double radius;       ///< [m] of a ball, or the extent of a glowing group
+        double radius;       ///< [m] radius of a ball, or extent of a glowing group
         bool isGroup;        ///< a glowing group
         glm::dvec3 axis;     ///< unit, of a spot
         double inner, outer; ///< [1] cosines of a spot's angles; -2 and below: light in all directions

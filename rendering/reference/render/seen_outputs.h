@@ -1,5 +1,5 @@
 /// @file seen_outputs.h
-/// Whose the medium is that a ray sees, how it moves, and where it begins to be seen.
+/// Outputs of a ray (view_output): instance and motion of the visible medium, and the distance of its begin.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -19,7 +19,7 @@ namespace fx::render {
 struct ReferencePast
 {
     ReferenceCamera camera;
-    double seconds = 0.0; ///< >= 0 since then
+    double seconds = 0.0; ///< [s] >= 0, time since the previous frame
 };
 
 /// Contribution of an instance to one ray.
@@ -29,15 +29,15 @@ struct InstanceShare
     double share; ///< [1] share of the ray's opacity
 };
 
-/// Adds to the share of an instance.
+/// Adds `share` to the entry of `instance`, or appends a new entry.
 void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 
 /// The outputs are defined in docs/howto/outputs.md.
 ///
-/// A ball that has the optical depth d_k of the whole D_k in step k of a ray has the share
-///     sum over k of T_k (1 - exp(-D_k)) d_k / D_k
-/// of what is seen, where T_k is the transmittance up to the step: exact where all balls of a step are mixed
-/// alike. One for each thread.
+/// A ray is divided into steps. In step k, let d_k be the optical depth of a ball and D_k that of all balls,
+/// and T_k the transmittance up to the step. The share of the ball in the visible opacity is
+///     sum over k of T_k (1 - exp(-D_k)) d_k / D_k,
+/// which is exact if the mixture of balls is constant within each step. Each thread needs its own object.
 class SeenOutputs
 {
 public:
@@ -46,21 +46,22 @@ public:
 
     struct Seen
     {
-        double first = std::numeric_limits<double>::infinity(); ///< [m]
+        double first = std::numeric_limits<double>::infinity(); ///< [m] first depth
         glm::dvec2 motion{0.0};                                 ///< [pixel] right and up, times `share`
         double share = 0.0;                                     ///< [1] opacity
     };
 
-    /// @param eye [m] of the picture  @param width, height of it [pixel]
+    /// @param eye [m] eye of the picture  @param width, height of the picture [pixel]
     SeenOutputs(const MediumView& medium, const glm::dvec3& eye, const ReferencePast& past, int width,
                 int height)
         : medium_(medium), past_(past), moved_(eye - past.camera.eye), width_(width), height_(height)
     {}
 
+    /// Computes the outputs of a ray.
     /// @param hits blobs that the ray meets between its parameters `begin` and `end`
-    /// @param detailed that has traced the same; null: blobs are smooth
+    /// @param detailed has traced the same ray; null: blobs are smooth
     /// @param window position of the ray in the picture [pixel], right and up
-    /// @param ioShares gets what is seen of each instance, added to what is there
+    /// @param ioShares the visible share of each instance is added to its entry
     Seen along(const TraceRay& ray, const RayHits& hits, double begin, double end, DetailedRay* detailed,
                const glm::dvec2& window, std::vector<InstanceShare>& ioShares);
 
@@ -69,16 +70,17 @@ private:
     double firstDepth() const;
     void fillSteps();
     void weigh();
-    glm::dvec2 windowBefore(const glm::dvec3& place) const; ///< place relative to the eye then
+    /// Window position in the previous frame; `place` is relative to the previous eye.
+    glm::dvec2 windowBefore(const glm::dvec3& place) const;
 
     const MediumView& medium_;
     const ReferencePast& past_;
-    glm::dvec3 moved_; ///< [m] way of the eye since then
+    glm::dvec3 moved_; ///< [m] motion of the eye since the previous frame
     int width_, height_;
     std::vector<BlobChord> chords_;
-    std::vector<double> depths_;  ///< [1] of each hit in each step
-    std::vector<double> shares_;  ///< [1] of each hit
-    std::vector<double> moments_; ///< [m] of each hit, times its share
+    std::vector<double> depths_;  ///< [1] optical depth of each hit in each step
+    std::vector<double> shares_;  ///< [1] share of each hit
+    std::vector<double> moments_; ///< [m] mean distance of each hit, times its share
     DetailedRay* detailed_ = nullptr;
     double begin_ = 0.0, end_ = 0.0, whole_ = 0.0;
 };

@@ -1,5 +1,5 @@
 /// @file shadow_ray.h
-/// What the medium and the triangles of a scene leave of light on its way to a point.
+/// Attenuation of light on its way to a point, by the medium and the triangles of a scene.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -10,16 +10,16 @@
 
 namespace fx::render {
 
-/// One for each thread: keeps memory from ray to ray.
+/// Each thread needs its own object, because it keeps memory from ray to ray.
 class ShadowRay
 {
 public:
-    /// @param medium, opaque must outlive this
+    /// @param medium, opaque must outlive the object
     ShadowRay(const MediumView& medium, const OpaqueView& opaque)
         : medium_(medium), opaque_(opaque), detailed_(medium, DetailedRay::Wanted::Depth, kDetailTolerance)
     {}
 
-    /// Of the medium alone.
+    /// Transmittance of the medium between the ray's origin and `distance` [m], without surfaces.
     double transmittance(const TraceRay& ray, double distance)
     {
         if (medium_.isEmpty())
@@ -30,16 +30,18 @@ public:
         detailed_.trace(ray, hits_, 0.0, distance);
         return std::exp(-detailed_.opticalDepth());
     }
-    /// Transmittance of the media and surfaces between the ray's origin and `distance`; 0 behind a triangle.
+    /// Transmittance of medium and surfaces between the ray's origin and `distance` [m]; 0 if a triangle
+    /// blocks it.
     double visibility(const TraceRay& ray, double distance)
     {
         return opaque_.blocks(ray, distance, hits_) ? 0.0 : transmittance(ray, distance);
     }
-    /// [m] to the first triangle, +infinity for none.
+    /// [m] Distance to the first triangle, +infinity if there is none.
     double toSurface(const TraceRay& ray) { return opaque_.distance(ray, hits_); }
 
 private:
-    static constexpr double kDetailTolerance = 0.01; ///< many shadow rays make one value
+    /// Large, because each value is a mean over many shadow rays.
+    static constexpr double kDetailTolerance = 0.01;
 
     const MediumView& medium_;
     const OpaqueView& opaque_;

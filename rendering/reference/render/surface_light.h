@@ -1,5 +1,5 @@
 /// @file surface_light.h
-/// Light on the scene's triangles, by shadow rays through media and past other triangles.
+/// Illuminance of the triangles of a scene, with shadows of media and of other triangles.
 #pragma once
 
 #include "rendering/reference/render/scene_lights.h"
@@ -14,33 +14,33 @@ namespace fx::render {
 ///
 /// symbol     unit    meaning
 ///   n                normal; c_l = max(0, n . direction to light l)
-///   E_l      lx      illuminance of light l with nothing in its way, its directions apart
-///   T_l      1       transmittance of the medium towards it, 0 behind a triangle
-///   L_h      cd/m2   luminance of the upper half of the sky, or of the ground in the lower half
-///   F_h      1       share of half h in what the surface faces, (1 + n_y) / 2 or (1 - n_y) / 2
-///   w_j      sr      weight of direction j of half h
+///   E_l      lx      illuminance of light l without attenuation; each direction of a light counts separately
+///   T_l      1       transmittance of the medium towards it, 0 if a triangle blocks it
+///   L_h      cd/m2   luminance of hemisphere h: of the sky above, of the ground below the horizon
+///   F_h      1       form factor of hemisphere h for the surface, (1 + n_y) / 2 or (1 - n_y) / 2
+///   w_j      sr      weight of direction j of hemisphere h
 /// @derivation
 ///   E = sum over l of E_l c_l T_l + sum over h of pi L_h F_h M_h                                   (1)
-///   M_h = sum of w_j c_j T_j / sum of w_j c_j over the directions j of half h                      (2)
+///   M_h = sum of w_j c_j T_j / sum of w_j c_j over the directions j of hemisphere h                (2)
 /// @source    textbook
-/// @deviation (2) is divided by its own sum of weights, so that an open sky is exact whatever the number of
-///   directions
-/// @valid     light that other surfaces reflect is left out
-/// @accuracy  exact for points, spots and the sun; balls by cone-quadrature, sky by sky-quadrature with twice
-/// the
-///   rings
+/// @deviation (2) is divided by its sum of weights, so that an unoccluded sky is exact for any number of
+///            directions
+/// @valid     without light that other surfaces reflect
+/// @accuracy  exact for points, spots and the sun; balls by cone-quadrature, sky by sky-quadrature with
+///            twice the rings
 /// @tests     tests/rendering/reference/render/test_surface_light.cpp
 ///
-/// One for each thread.
+/// Each thread needs its own object.
 class SurfaceLight
 {
 public:
-    /// @param medium, opaque, lights must outlive this
+    /// @param medium, opaque, lights must outlive the object
     SurfaceLight(const MediumView& medium, const OpaqueView& opaque, const SceneLights& lights)
         : shadow_(medium, opaque), lights_(lights)
     {}
 
-    /// [lx] @param position a little above the surface  @param normal unit, towards the side that is seen
+    /// [lx] Illuminance by all lights. @param position slightly above the surface
+    /// @param normal unit, on the visible side
     glm::dvec3 at(const glm::dvec3& position, const glm::dvec3& normal);
 
 private:

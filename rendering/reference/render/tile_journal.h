@@ -1,9 +1,10 @@
 /// @file tile_journal.h
-/// Finished tiles of a picture in a file beside it, so that a killed render can be continued.
+/// Stores finished tiles of a picture in a file next to the picture, so that a killed render can be
+/// continued.
 ///
-/// The file is a header, then one record a tile in the order in which they were finished: number, checksum,
-/// floats, in the byte order of the machine. A process that dies leaves at most one incomplete record, which
-/// is cut off by the next open(). Threads: append() from any.
+/// The file has a header, then one record per tile in the order of completion: number, checksum, floats, in
+/// the byte order of the machine. A killed process leaves at most one incomplete record, which the next
+/// open() removes. Threads: any thread may call append().
 #pragma once
 
 #include "foundation/result/status.h"
@@ -23,22 +24,23 @@ public:
     /// Receives a tile of an earlier run.
     using Restore = std::function<void(uint32_t tile, std::span<const float> values)>;
 
-    /// @param path of the journal  @param key identifies the picture: everything that its pixels depend on
+    /// @param path path of the journal  @param key identifies the picture: a hash of all inputs of its pixels
     TileJournal(std::string path, uint64_t key) : path_(std::move(path)), key_(key) {}
     ~TileJournal();
     TileJournal(const TileJournal&) = delete;
     TileJournal& operator=(const TileJournal&) = delete;
 
-    /// Begins a new journal in place of any other.
-    /// @return Io when it cannot be written, or when another TileJournal has it open: it is left as it is
+    /// Begins a new journal and replaces an existing one.
+    /// @return Io if it cannot be written, or if another TileJournal has the file open, which is then not
+    ///         changed
     base::Status start();
-    /// Continues an earlier one, or begins one when there is none.
-    /// @return InvalidArgument when the file belongs to another picture; it is left as it is; Io as start()
+    /// Continues an existing journal, or begins one if there is none.
+    /// @return InvalidArgument if the file belongs to another picture; it is then not changed. Io as start()
     base::Status resume(const Restore& restore);
-    /// Adds a finished tile. After a failure the journal ends with the last whole tile, and nothing more is
-    /// added.
+    /// Adds a finished tile. After a failure, the journal ends with the last complete tile, and no more tiles
+    /// are added.
     base::Status append(uint32_t tile, std::span<const float> values);
-    /// The picture is safe: the journal is not needed any more.
+    /// Deletes the journal. Call this when the picture has been written.
     void remove();
 
 private:
@@ -46,7 +48,7 @@ private:
     base::Status failed(const char* what) const;
     base::Status writeHeader();
     base::Status writeAll(const std::vector<char>& bytes);
-    /// @return length of the part of the file that is whole
+    /// Passes all complete records to `restore`. @return [byte] length of the part with complete records
     uint64_t readRecords(const Restore& restore);
 
     std::string path_;
@@ -54,7 +56,7 @@ private:
     int descriptor_ = -1;
     uint64_t length_ = 0; ///< [byte] size of the complete tiles
     bool isBroken_ = false;
-    std::mutex mutex_; ///< of append()
+    std::mutex mutex_; ///< guards append()
 };
 
 } // namespace fx::render

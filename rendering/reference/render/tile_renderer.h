@@ -1,5 +1,5 @@
 /// @file tile_renderer.h
-/// Renders tiles of a picture independently: the same bits in any order and on any thread.
+/// Renders tiles of a picture independently of each other, with the same bits in any order and on any thread.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -18,28 +18,29 @@
 
 namespace fx::render {
 
-/// Which light that the medium scatters once is added.
+/// How single scattering in the medium is computed.
 enum class ScatteringMode : uint8_t
 {
     None,
-    Centers, ///< as it arrives at the blobs' centers
-    Single   ///< by shadow rays all along each ray, and from surfaces, which media and surfaces shade
+    Centers, ///< by the illumination at the centers of blobs, see blob_light.h
+    /// by shadow rays from points along each ray, see scattered_light.h; surfaces also have shadow rays
+    Single
 };
 
 struct ReferenceSettings
 {
     int width = 640;       ///< [pixel] 1..16384
     int height = 360;      ///< [pixel] 1..16384
-    int samples = 1;       ///< [1] a pixel is the mean of samples x samples rays, 1..16
+    int samples = 1;       ///< [1] 1..16; a pixel is the mean of samples x samples rays
     double exposure = 1.0; ///< [m2/cd] written value per luminance
-    bool isSingle = false; ///< integrates in float instead of double
+    bool isSingle = false; ///< integrate in float instead of double
     ScatteringMode scattering = ScatteringMode::None;
-    int skyRings = 3; ///< 1..64: ScatteringMode::Single takes light of the sky from 4 skyRings^2 directions
+    int skyRings = 3; ///< 1..64: ScatteringMode::Single samples the sky in 4 skyRings^2 directions
     IntegralSettings integral;
-    /// [1] 1e-6..0.1, of the quadrature of media with detail: see detailed-ray-integral
+    /// [1] 1e-6..0.1, tolerance e of formula detailed-ray-integral
     double detailTolerance = 1e-3;
-    bool outputs = false; ///< the channels from reference_channel::InstanceId on are there
-    ReferencePast past;   ///< of motion
+    bool outputs = false; ///< also compute the channels from reference_channel::InstanceId on
+    ReferencePast past;   ///< previous frame, for motion
 
     uint32_t channels() const;
 };
@@ -53,13 +54,14 @@ enum : uint32_t
     Fire = 8,       ///< RGBA premultiplied
     Smoke = 12,
     Dust = 16,
-    Depth = 20,   ///< [m] mean distance of the medium seen, +infinity for none
-    OpticalDepth, ///< [1]
+    Depth = 20,   ///< [m] mean distance of the visible medium, +infinity without medium
+    OpticalDepth, ///< [1] of the medium
     Count,
-    InstanceId = Count, ///< [1] MediumBlob::instance of what is most seen, exact below 2^24; 0 for none
-    MotionX,            ///< [pixel] to the right, since the frame before
-    MotionY,            ///< [pixel] up
-    FirstDepth,         ///< [m] +infinity for none
+    InstanceId =
+        Count,  ///< [1] MediumBlob::instance with the largest share, exact below 2^24; 0 without medium
+    MotionX,    ///< [pixel] motion to the right since the previous frame
+    MotionY,    ///< [pixel] motion upwards since the previous frame
+    FirstDepth, ///< [m] distance at which media begin to be visible, +infinity without medium
     CountWithOutputs
 };
 }
@@ -69,7 +71,7 @@ inline uint32_t ReferenceSettings::channels() const
     return outputs ? reference_channel::CountWithOutputs : reference_channel::Count;
 }
 
-/// Data shared by all tiles. Built once, then read by all threads.
+/// Data shared by all tiles. It is built once, then read by all threads.
 struct ReferencePicture
 {
     ReferenceSettings settings;
@@ -84,12 +86,12 @@ struct ReferenceWork
 {
     uint64_t rays = 0;
     uint64_t hits = 0;      ///< blobs that rays met
-    uint64_t nonFinite = 0; ///< values of pixels that were no numbers, and were replaced
+    uint64_t nonFinite = 0; ///< pixel values that were not finite and were replaced
 
     ReferenceWork& operator+=(const ReferenceWork& other);
 };
 
-/// One for each thread.
+/// Renders tiles. Each thread needs its own object.
 class TileRenderer
 {
 public:
@@ -98,7 +100,7 @@ public:
 
     /// Writes ReferenceSettings::channels() floats for each pixel of `block`, row by row from the top.
     /// @param shouldStop called repeatedly between rays; may be empty
-    /// @return false when it was stopped; `out` is then invalid
+    /// @return false if rendering was stopped; `out` is then invalid
     bool render(const PixelBlock& block, std::span<float> out, const std::function<bool()>& shouldStop);
 
     const ReferenceWork& work() const { return work_; }
@@ -125,7 +127,7 @@ private:
     DetailedRay detailed_;
     ScatteredLight scattered_;
     SurfaceLight surfaceLight_;
-    Illuminance illuminance_; ///< by `surfaceLight_`; empty: as rendering/stage does
+    Illuminance illuminance_; ///< uses `surfaceLight_`; empty: shading as in rendering/stage
     std::vector<Sample> samples_;
     RayHits hits_;
     RayHits shadowHits_;

@@ -1,5 +1,5 @@
 /// @file tiled_picture.h
-/// The tiles of a picture over threads: which are missing, their journal, progress and interruption.
+/// Renders the missing tiles of a picture on several threads, with a journal, progress and interruption.
 #pragma once
 
 #include "foundation/tasks/task_runner.h"
@@ -14,36 +14,38 @@
 
 namespace fx::render {
 
-/// Callbacks of a long render. Called from any thread.
+/// Callbacks of a long render. They are called from any thread.
 struct RenderCallbacks
 {
     std::function<void(uint32_t done, uint32_t total)> progress; ///< may be empty; one call at a time
-    std::function<bool()> shouldStop; ///< may be empty; called often, by several threads at once
+    /// Returns true to stop; may be empty; called often, by several threads at once.
+    std::function<bool()> shouldStop;
 };
 
 class TiledPicture
 {
 public:
-    /// Renders the pixels of `block`, row by row from the top, each with all channels; called by several
-    /// threads.
-    /// @return false when it was stopped: `out` is not used
+    /// Renders the pixels of `block`, row by row from the top, with all channels of a pixel together. Called
+    /// by several threads.
+    /// @return false if rendering was stopped; `out` is then not used
     using RenderTile = std::function<bool(const PixelBlock& block, std::span<float> out)>;
 
-    /// Starts a picture without any tile. @param edge [pixel] of a tile, the part that a killed process loses
+    /// Starts a picture without tiles.
+    /// @param edge [pixel] side of a tile; a killed process loses the tiles in progress
     void start(int width, int height, int edge, uint32_t channels);
     uint32_t tileCount() const { return tilesX_ * tilesY_; }
 
-    /// Takes over a tile of an earlier run; ignored unless number and length are possible.
+    /// Sets a tile from an earlier run. It is ignored if number or length are invalid.
     void restore(uint32_t tile, std::span<const float> values);
-    /// Renders the tiles that are missing.
-    /// @param journal receives each tile, may be null
-    /// @return Interrupted on request, or the error of the journal
+    /// Renders the missing tiles.
+    /// @param journal receives each tile; may be null
+    /// @return Interrupted if `callbacks` requested it, or the error of the journal
     base::Status render(base::TaskRunner& tasks, const RenderTile& renderTile, TileJournal* journal,
                         const RenderCallbacks& callbacks);
 
-    /// Of one channel, width x height, rows from the top.
+    /// One channel, width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return planes_[channel]; }
-    /// Four channels of each pixel together, beginning with `first`.
+    /// Four channels from `first` on, interleaved by pixel.
     std::vector<float> interleaved(uint32_t first) const;
 
 private:

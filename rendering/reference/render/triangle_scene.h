@@ -15,29 +15,30 @@
 
 namespace fx::render {
 
-/// Triangles with a diffuse color per vertex, three vertices each. Owned by the caller.
+/// Triangles with a diffuse color per vertex; each has three vertices of its own. The caller owns the arrays.
 struct OpaqueMesh
 {
-    glm::dvec3 origin{0.0};               ///< [m] world position that the vertices are relative to
+    glm::dvec3 origin{0.0};               ///< [m] world position to which the vertices are relative
     std::span<const glm::vec3> positions; ///< [m]
     std::span<const glm::vec3> normals;   ///< unit
     std::span<const glm::vec3> colors;    ///< [0, 1] linear albedo
 };
 
-/// Where a ray meets a triangle first.
+/// The first intersection of a ray with a triangle.
 struct SurfaceHit
 {
-    double distance = std::numeric_limits<double>::infinity(); ///< [m] ray parameter; infinite: nowhere
+    /// [m] ray parameter; infinite: no intersection
+    double distance = std::numeric_limits<double>::infinity();
     uint32_t triangle = 0;
     double u = 0.0, v = 0.0; ///< [1] weights of the second and third vertex
 
     bool isHit() const { return distance < std::numeric_limits<double>::infinity(); }
 };
 
-/// [1] of the distance from the ray's origin, by which rays that leave a surface begin above it.
+/// [1] Rays that leave a surface begin above it by this factor times the distance from the previous origin.
 constexpr double kSurfaceLift = 1e-6;
 
-/// A column of vertices at the place of `hit`.
+/// Interpolates an attribute of the vertices at `hit`.
 inline glm::dvec3 interpolate(std::span<const glm::vec3> column, const SurfaceHit& hit)
 {
     const size_t first = size_t(hit.triangle) * 3;
@@ -45,7 +46,8 @@ inline glm::dvec3 interpolate(std::span<const glm::vec3> column, const SurfaceHi
            hit.v * glm::dvec3(column[first + 2]);
 }
 
-/// Finds triangles by a tree over balls around them. Coordinates are relative to the origin given to build().
+/// Finds triangles with a tree of their bounding balls. Coordinates are relative to the origin passed to
+/// build().
 class TriangleScene
 {
 public:
@@ -54,22 +56,22 @@ public:
     bool empty() const { return tree_.count() == 0; }
     const BallTree& tree() const { return tree_; }
 
-    /// The nearest of the triangles whose balls are in `hits`, behind the parameter `begin`. Both sides
-    /// count.
+    /// The nearest intersection after the parameter `begin` with the triangles whose balls are in `hits`.
+    /// Triangles are two-sided.
     SurfaceHit nearest(const TraceRay& ray, const RayHits& hits, double begin) const;
-    /// The nearest of all. @param scratch keeps memory from call to call
+    /// The nearest intersection with all triangles. @param scratch memory, kept from call to call
     SurfaceHit trace(const TraceRay& ray, double begin, RayHits& scratch) const;
 
 private:
     struct Triangle
     {
         glm::dvec3 corner, edge1, edge2; ///< [m]
-        uint32_t index;                  ///< in the mesh
+        uint32_t index;                  ///< index in the mesh
     };
     void meet(const Triangle& triangle, const TraceRay& ray, double begin, SurfaceHit& io) const;
 
     BallTree tree_;
-    std::vector<Triangle> triangles_; ///< those that are not degenerate, in the order of the mesh
+    std::vector<Triangle> triangles_; ///< without degenerate ones, in the order of the mesh
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file ball_lanes-inl.h
-/// Balls and rays in vectors: the one place where a ray is tested against balls. Included once for each
-/// instruction set. Nothing is fused, so every set gives the same bits.
+/// Intersection of rays and balls with SIMD vectors; all tests of rays against balls use it. Included once
+/// for each instruction set. Operations are not fused, so all instruction sets give the same bits.
 #if defined(FX_BALL_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_BALL_LANES_INL
 #undef FX_BALL_LANES_INL
@@ -40,7 +40,7 @@ HWY_INLINE uint32_t lastBit(uint32_t bits)
     return 31u - uint32_t(__builtin_clz(bits));
 }
 
-/// Bit k for lane k.
+/// Converts a mask to bits: bit k is lane k.
 template <class Tag>
 HWY_INLINE uint32_t bitsOf(Tag tag, hn::Mask<Tag> mask)
 {
@@ -49,7 +49,7 @@ HWY_INLINE uint32_t bitsOf(Tag tag, hn::Mask<Tag> mask)
     return bits[0];
 }
 
-/// The selected lanes of a mask of doubles, for indices.
+/// Converts a mask of doubles to a mask of 32-bit indices.
 HWY_INLINE hn::Mask<PlaceTag> placeMask(DoubleMask mask)
 {
     uint8_t bits[8] = {};
@@ -57,13 +57,13 @@ HWY_INLINE hn::Mask<PlaceTag> placeMask(DoubleMask mask)
     return hn::LoadMaskBits(PlaceTag(), bits);
 }
 
-/// Compress-stores the selected lanes; memory after them may be overwritten.
+/// Stores the selected lanes contiguously. Memory after them may be overwritten.
 template <class Tag, class T>
 HWY_INLINE void storeSelected(Tag tag, hn::Vec<Tag> v, hn::Mask<Tag> selected, T* to)
 {
-#if HWY_TARGET <= HWY_AVX3 // has an instruction for it
+#if HWY_TARGET <= HWY_AVX3 // these targets have an instruction for it
     hn::CompressStore(v, selected, tag, to);
-#else // elsewhere Highway looks it up in tables that it builds at each call
+#else // for other targets, Highway would build tables at each call
     alignas(64) T lane[BallTree::kWidth];
     hn::Store(v, tag, lane);
     const uint32_t bits = bitsOf(tag, selected);
@@ -74,7 +74,7 @@ HWY_INLINE void storeSelected(Tag tag, hn::Vec<Tag> v, hn::Mask<Tag> selected, T
 #endif
 }
 
-/// Some balls.
+/// One ball in each lane.
 struct Balls
 {
     DoubleVector x, y, z, radius;
@@ -86,7 +86,7 @@ HWY_INLINE Balls loadBalls(const double* x, const double* y, const double* z, co
     return {hn::LoadU(tag, x), hn::LoadU(tag, y), hn::LoadU(tag, z), hn::LoadU(tag, radius)};
 }
 
-/// One ray in every lane.
+/// The same ray in every lane.
 struct RayLanes
 {
     HWY_INLINE explicit RayLanes(const TraceRay& ray)
@@ -98,31 +98,31 @@ struct RayLanes
     DoubleVector directionX, directionY, directionZ;
 };
 
-/// How a ray passes some balls.
+/// Chords of a ray in balls, one in each lane.
 struct Chords
 {
     DoubleVector nearest; ///< [m] ray parameter of the point nearest to the center
-    DoubleVector square;  ///< [m2] of half the chord; <= 0: the ray passes by
+    DoubleVector square;  ///< [m2] square of half the chord; <= 0: the ray misses the ball
 };
 
 /// @formula ball-chord
-/// Half the chord of a ray through a ball, without the cancellation that far-away balls suffer.
+/// Half the chord of a ray through a ball, without cancellation for distant balls.
 ///
 /// symbol   unit   meaning
 ///   o, d   m, 1   origin and unit direction of the ray
 ///   c, R   m      center and radius of the ball
 ///   t_c    m      ray parameter of the point nearest to the center
-///   p      m      from that point to the center: across the ray
-///   h2     m2     square of half the chord, positive where the ray meets the ball
+///   p      m      vector from that point to the center, perpendicular to the ray
+///   h2     m2     square of half the chord, positive if the ray meets the ball
 /// @derivation
 ///   t_c = (c - o) . d                                                                          (1)
 ///   p = (c - o) - t_c d                                                                        (2)
 ///   h2 = R^2 - p . p                                                                           (3)
-/// @source    [HAG19] the vector across the ray is formed before it is squared
-/// @deviation without the square root: integrators want the square
+/// @source    [HAG19] the perpendicular vector is computed before it is squared
+/// @deviation without the square root, because integrators use the square
 /// @valid     |d| = 1 within rounding; R < 1e150
-/// @accuracy  |error of h2| <= 8 eps (|c - o| R + R^2) with eps = 2^-53, where |c - o|^2 - t_c^2 loses
-///            eps |c - o|^2; all instruction sets give the same bits
+/// @accuracy  |error of h2| <= 8 eps (|c - o| R + R^2) with eps = 2^-53, while |c - o|^2 - t_c^2 would
+///            have an error of eps |c - o|^2; all instruction sets give the same bits
 /// @tests     tests/rendering/reference/trace/test_ball_tree.cpp
 HWY_INLINE Chords chordsOf(const Balls& balls, const RayLanes& ray)
 {
@@ -140,7 +140,7 @@ HWY_INLINE Chords chordsOf(const Balls& balls, const RayLanes& ray)
     return chords;
 }
 
-/// Appends those of the balls that the whole line meets; `out` has room for a whole vector.
+/// Appends the balls that the infinite line meets. `out` must have room for a whole vector.
 HWY_INLINE void appendHits(const Balls& balls, PlaceVector places, const RayLanes& ray, RayHits& out)
 {
     const DoubleTag tag;
@@ -153,7 +153,7 @@ HWY_INLINE void appendHits(const Balls& balls, PlaceVector places, const RayLane
     out.setSize(size + hn::CountTrue(tag, met));
 }
 
-/// Removes the hits that lie outside [begin, end] altogether.
+/// Removes the hits that are completely outside of [begin, end].
 inline void cutHits(double begin, double end, RayHits& io)
 {
     size_t kept = 0;
@@ -170,7 +170,7 @@ inline void cutHits(double begin, double end, RayHits& io)
 }
 
 /// Computes entry points of hits, and removes hits that lie completely before `begin` or after `end`. Square
-/// roots dominate the cost, so they are computed for hits only.
+/// roots dominate the cost; they are computed for hits only.
 HWY_INLINE void finishHits(double begin, double end, RayHits& io)
 {
     const DoubleTag tag;

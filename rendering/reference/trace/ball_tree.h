@@ -2,13 +2,13 @@
 /// A bounding-volume hierarchy over balls, rebuilt every frame, for queries of all balls that a ray or a tile
 /// of rays intersects.
 ///
-/// Balls are sorted along a Hilbert curve, eight of them form a leaf, and eight boxes form a node, up to one
-/// root: a packed tree [KF93] with implicit indices, so that it needs no pointers and every level is built in
+/// Balls are sorted along a Hilbert curve. Eight balls form a leaf, and eight boxes form a node, up to one
+/// root. It is a packed tree [KF93] with implicit indices: it needs no pointers, and every level is built in
 /// parallel. Balls of different size are in different parts of the order, because one large ball among small
-/// ones would enlarge their box. Building is one sort and one pass over the balls; the result has the same
+/// ones would enlarge their box. Building needs one sort and one pass over the balls. The result has the same
 /// bits for any number of workers.
 ///
-/// Threads: build() by one thread at a time; reading by any.
+/// Threads: one thread at a time may call build(); any thread may call const functions.
 #pragma once
 
 #include "foundation/tasks/task_runner.h"
@@ -22,7 +22,7 @@
 
 namespace fx::render {
 
-/// Element of the tree.
+/// A ball as input of BallTree::build().
 struct TraceBall
 {
     glm::dvec3 center; ///< [m] finite
@@ -32,9 +32,9 @@ struct TraceBall
 class BallTree
 {
 public:
-    static constexpr uint32_t kWidth = 8; ///< balls of a leaf, children of a node
+    static constexpr uint32_t kWidth = 8; ///< number of balls of a leaf, and of children of a node
 
-    /// Eight balls. Unused places have a hugely negative radius, by which every test leaves them out.
+    /// Eight balls. Unused elements have a large negative radius, so that no test finds them.
     struct alignas(64) Leaf
     {
         double x[kWidth]; ///< [m] relative to the tree's origin
@@ -47,7 +47,7 @@ public:
     struct alignas(64) Node
     {
         float center[3][kWidth]; ///< [m] relative to the tree's origin
-        float extent[3][kWidth]; ///< [m] half the edge; a large negative value for missing children
+        float extent[3][kWidth]; ///< [m] half the side; a large negative value for missing children
     };
 
     /// @param origin [m] origin of rays and results, preferably the eye, so that the picture does not depend
@@ -56,12 +56,12 @@ public:
 
     uint32_t count() const { return count_; }
     const glm::dvec3& origin() const { return origin_; }
-    /// Index, in the list passed to build(), of the ball at a position of the tree's order. Position 8 i + k
-    /// is element k of leaf i.
+    /// Index in the list passed to build() of the ball at a place, that is an index in the order of the tree.
+    /// Place 8 i + k is element k of leaf i.
     uint32_t ballAt(uint32_t place) const { return order_[place].index; }
     std::span<const Leaf> leaves() const { return leaves_; }
-    /// Nodes of one level. Child k of node i is node 8 i + k one level lower, and leaf 8 i + k on level 0.
-    /// The highest level has one node. 0 without balls.
+    /// Number of levels; 0 without balls. The highest level has one node. Child k of node i is node 8 i + k
+    /// one level lower; on level 0 it is leaf 8 i + k.
     uint32_t levels() const { return uint32_t(levelBegin_.size()); }
     const Node& node(uint32_t level, uint32_t index) const { return nodes_[levelBegin_[level] + index]; }
 
@@ -79,12 +79,12 @@ private:
     std::vector<KeyedIndex> scratch_;
 };
 
-/// A node to be visited.
+/// A node that a traversal has to visit.
 struct TreePosition
 {
     uint32_t level, index;
 };
-/// Room for the nodes that a walk has put off: each level adds at most seven, and 11 levels hold 2^36 balls.
+/// Size of the stack of a traversal. Each level adds at most seven nodes, and 11 levels contain 2^36 balls.
 constexpr size_t kTreeStack = 11 * BallTree::kWidth;
 
 } // namespace fx::render

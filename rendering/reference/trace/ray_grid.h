@@ -1,5 +1,5 @@
 /// @file ray_grid.h
-/// The rays of a picture, and the part of space that those of a rectangle of pixels can reach.
+/// The rays of a picture, and the part of space that the rays of a rectangle of pixels can reach.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,7 +9,8 @@
 
 namespace fx::render {
 
-/// A ray from which distances are measured. Coordinates are those of the tree it is traced through.
+/// A ray. Its parameter is the distance from the origin. Coordinates are those of the tree through which it
+/// is traced.
 struct TraceRay
 {
     glm::dvec3 origin;    ///< [m]
@@ -25,19 +26,20 @@ struct PixelRect
 /// All rays of a perspective or orthographic picture. Row 0 is at the top.
 struct RayGrid
 {
-    glm::dvec3 origin{0.0};     ///< [m] of the ray through the corner (0, 0)
-    glm::dvec3 originX{0.0};    ///< [m] its change for one pixel to the right
-    glm::dvec3 originY{0.0};    ///< [m] for one pixel down
-    glm::dvec3 direction{0.0};  ///< of the ray through (0, 0); its component along the view axis is 1
-    glm::dvec3 directionX{0.0}; ///< change for one pixel to the right
-    glm::dvec3 directionY{0.0};
+    glm::dvec3 origin{0.0};  ///< [m] origin of the ray through the corner (0, 0)
+    glm::dvec3 originX{0.0}; ///< [m] change of origin per pixel to the right
+    glm::dvec3 originY{0.0}; ///< [m] change of origin per pixel down
+    /// Direction of the ray through (0, 0); its component along the view axis is 1.
+    glm::dvec3 direction{0.0};
+    glm::dvec3 directionX{0.0}; ///< change of direction per pixel to the right
+    glm::dvec3 directionY{0.0}; ///< change of direction per pixel down
 
-    /// The ray through position (x, y). @param outLengthPerDepth receives the ray parameter per distance
-    /// along the view axis
+    /// The ray through position (x, y).
+    /// @param outLengthPerDepth receives the ray parameter per distance along the view axis
     TraceRay ray(double x, double y, double* outLengthPerDepth = nullptr) const;
 };
 
-/// Half-spaces n . x + d >= 0 whose common part contains every point of the rays through a rectangle.
+/// Half-spaces n . x + d >= 0 whose intersection contains all points of the rays through a rectangle.
 struct TileFrustum
 {
     struct Plane
@@ -49,7 +51,7 @@ struct TileFrustum
     std::array<Plane, kPlanes> planes; ///< left, right, top, bottom, near, far
 };
 
-/// @param farthest [m] ray parameter beyond which hits are ignored, may be +inf
+/// @param farthest [m] ray parameter beyond which hits are ignored; may be +inf
 TileFrustum frustumOf(const RayGrid& grid, const PixelRect& rect, double farthest);
 
 } // namespace fx::render

@@ -8,12 +8,12 @@
 
 namespace fx::render {
 
-/// Columns with one entry a ball, by rising place until sort() is called. The columns are longer than size(),
-/// so that vectors can be stored whole.
+/// Columns with one entry per ball, sorted by ascending place until sort() is called. A place is an index in
+/// the order of the tree. The columns are longer than size(), so that whole vectors can be stored.
 class RayHits
 {
 public:
-    static constexpr size_t kSlack = 8; ///< entries behind the last one that may be overwritten
+    static constexpr size_t kSlack = 8; ///< number of entries after the last one that may be overwritten
 
     size_t size() const { return size_; }
     void clear() { size_ = 0; }
@@ -27,10 +27,10 @@ public:
     /// Sorts by `enter`, then by `place`, so that the result does not depend on the order of insertion.
     void sort();
 
-    std::vector<double> enter;   ///< [m] ray parameter where the ray enters; may lie before the ray's start
-    std::vector<double> nearest; ///< [m] ray parameter of the point nearest to the center
+    std::vector<double> enter;       ///< [m] ray parameter of the entry; may be before the ray's begin
+    std::vector<double> nearest;     ///< [m] ray parameter of the point nearest to the center
     std::vector<double> chordSquare; ///< [m2] square of half the chord, > 0
-    std::vector<uint32_t> place;     ///< of the ball in the order of its tree
+    std::vector<uint32_t> place;     ///< place of the ball
 
 private:
     void grow(size_t capacity);

@@ -1,5 +1,5 @@
 /// @file ray_query.h
-/// The balls that a single ray meets, for rays that no tile holds: shadow rays, probes.
+/// The balls that a single ray meets, for rays that are not part of a tile, such as shadow rays.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"
@@ -8,8 +8,8 @@
 
 namespace fx::render {
 
-/// Replaces `out` by all balls that `ray` meets between the parameters `begin` and `end`, by the same test as
-/// TileCandidates::hits(). By rising place.
+/// Replaces `out` by all balls that `ray` meets between the parameters `begin` and `end`, sorted by place.
+/// The test is that of TileCandidates::hits().
 void findHits(const BallTree& tree, const TraceRay& ray, double begin, double end, RayHits& out);
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file tile_candidates.h
-/// Candidate balls of all rays of a tile. A large tile traverses the tree; its parts filter the list of the
-/// large tile; each ray tests the list of its part. Lists are in the order of the tree.
+/// Candidate balls of all rays of a tile. A large tile traverses the tree. Smaller tiles filter the list of
+/// the large tile. A ray tests the list of its tile. Lists are in the order of the tree.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"
@@ -12,26 +12,26 @@
 
 namespace fx::render {
 
-/// Columns of candidates; padded beyond size() with entries that no ray hits. Keeps its memory.
+/// Columns of candidates, padded after size() with entries that no ray hits. The memory is kept.
 class TileCandidates
 {
 public:
-    /// All balls of `tree` that reach into `frustum`.
+    /// Collects all balls of `tree` that intersect `frustum`.
     void collect(const BallTree& tree, const TileFrustum& frustum);
-    /// Those of `from` that reach into `frustum`.
+    /// Collects the candidates of `from` that intersect `frustum`.
     void narrow(const TileCandidates& from, const TileFrustum& frustum);
 
     /// Replaces `out` by the candidates that `ray` meets between the parameters `begin` and `end`.
     ///
-    /// A ball is met when the distance of its center from the ray, taken from the vector across the ray, is
-    /// less than its radius, and it is not left before `begin` nor entered behind `end`. In double
-    /// throughout, the same bits for every instruction set. [any thread]
+    /// A ray meets a ball if the distance of the center from the ray is less than the radius, and if the ray
+    /// neither leaves the ball before `begin` nor enters it after `end`. See formula ball-chord. All
+    /// instruction sets give the same bits. Any thread may call this.
     void hits(const TraceRay& ray, double begin, double end, RayHits& out) const;
 
     size_t size() const { return size_; }
     const uint32_t* places() const { return place_.data(); }
 
-    // For the loops in tile_candidates.cpp.
+    // For tile_candidates.cpp:
     enum Column
     {
         X, ///< [m] relative to the tree's origin

@@ -1,6 +1,6 @@
 /// @file tile_walk.h
-/// Visits all rays of a part of a picture, each with the balls that it meets: large tiles find candidates,
-/// smaller ones narrow them, down to the size of the balls as seen.
+/// Visits all rays of a part of a picture, each with the balls that it meets. Large tiles find candidates in
+/// the tree, and smaller tiles filter the candidates of larger ones.
 #pragma once
 
 #include "rendering/reference/trace/tile_candidates.h"
@@ -12,28 +12,28 @@
 
 namespace fx::render {
 
-/// Pixels [x0, x1) x [y0, y1).
+/// The pixels [x0, x1) x [y0, y1).
 struct PixelBlock
 {
     int x0, y0, x1, y1;
 };
 
-/// Where rays begin and end.
+/// Begin and end of rays.
 struct RayLimits
 {
-    double nearDepth = 0.0;                                    ///< [m] along the view axis
-    double farthest = std::numeric_limits<double>::infinity(); ///< [m] ray parameter, of every ray
+    double nearDepth = 0.0;                                    ///< [m] begin, as distance along the view axis
+    double farthest = std::numeric_limits<double>::infinity(); ///< [m] end, as ray parameter
 };
 
-/// Keeps its memory from call to call: one for each thread.
+/// Keeps its memory from call to call. Each thread needs its own object.
 class TileWalk
 {
 public:
-    static constexpr int kLargest = 32; ///< [pixel] edge of the tiles that walk the tree
+    static constexpr int kLargest = 32; ///< [pixel] side of the tiles that traverse the tree
 
-    /// Calls leaf(block, candidates) for blocks of at most `edge` x `edge` pixels, edge a power of two of at
-    /// most kLargest, that cover `block` once. Candidates are all balls that rays through the block's area
-    /// can meet.
+    /// Divides `block` into blocks of at most `edge` x `edge` pixels, and calls leaf(block, candidates) once
+    /// for each. Candidates are all balls that rays through the area of the block can meet.
+    /// @param edge [pixel] a power of two, at most kLargest
     template <class Leaf>
     void visit(const BallTree& tree, const RayGrid& grid, const PixelBlock& block, double farthest, int edge,
                Leaf&& leaf)
@@ -47,7 +47,7 @@ public:
             }
     }
 
-    /// Calls ray(x, y, hits) once for the ray through the middle of each pixel of `block`.
+    /// Calls ray(x, y, hits) once for the ray through the center of each pixel of `block`.
     template <class Ray>
     void run(const BallTree& tree, const RayGrid& grid, const PixelBlock& block, const RayLimits& limits,
              Ray&& ray)
@@ -65,8 +65,8 @@ public:
     }
 
 private:
-    static constexpr int kLevels = 6; ///< 32, 16, 8, 4, 2, 1
-    static constexpr size_t kFew = 8; ///< candidates that are not worth narrowing
+    static constexpr int kLevels = 6; ///< tile sizes 32, 16, 8, 4, 2, 1
+    static constexpr size_t kFew = 8; ///< lists of at most this size are not filtered
 
     static PixelRect rectOf(const PixelBlock& block)
     {

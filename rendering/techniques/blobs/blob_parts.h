@@ -1,5 +1,5 @@
 /// @file blob_parts.h
-/// Parts of the description of spherical billboards: their light and their scalability levels.
+/// Parts of the description of the blob technique: lights and scalability levels.
 #pragma once
 
 #include "rendering/lights/effect_lights.h"
@@ -7,7 +7,7 @@
 
 namespace fx::render {
 
-/// Light of glowing media: formula light-of-media.
+/// Lights of glowing media, by formula light-of-media.
 extern const LightSource kBlobLights;
 
 extern const ScalabilitySettings kBlobScalability;

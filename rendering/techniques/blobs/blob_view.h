@@ -1,5 +1,5 @@
 /// @file blob_view.h
-/// The blobs of one view and the pictures of its far effects.
+/// The blobs of one view, and the impostors of far effects.
 #pragma once
 
 #include "rendering/gl/gl_buffer.h"
@@ -42,18 +42,18 @@ private:
     GlDevice& device_;
     FrameBuilder builder_;
     BlobSource blobs_;
-    BlobSource takenBlobs_; ///< of pictures that are taken
+    BlobSource takenBlobs_; ///< blobs of impostors that are rendered in this frame
     DrawBatch takenBatch_;
     ImpostorSource impostors_;
     GlBuffer blobBuffer_;  ///< persistent, so that its content is reused in the next frame
-    GlBuffer lightBuffer_; ///< lights of the blobs, persistent as well
+    GlBuffer lightBuffer_; ///< lights of the blobs; also persistent
     GlBuffer impostorBuffer_;
-    GlTexture impostorAtlas_;      ///< pictures of effects; nothing before the first
+    GlTexture impostorAtlas_;      ///< created with the first impostor
     bool isKept_ = false;          ///< lists and buffers are those of the last frame
     uint32_t blobsUnused_ = 0;     ///< consecutive frames without blobs
     uint32_t impostorsUnused_ = 0; ///< consecutive frames without impostors
     uint32_t restingFrames_ = 0;   ///< consecutive frames at rest
-    ResourceId overdraw_;          ///< of the last frame; invalid: not counted
+    ResourceId overdraw_;          ///< count of the last frame; invalid: not counted
     int layerWidth_ = 0, layerHeight_ = 0;
 };
 

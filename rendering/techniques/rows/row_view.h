@@ -1,6 +1,6 @@
 /// @file row_view.h
-/// All rows of particles of one view. Techniques that describe themselves by a RowTechnique share it, so that
-/// their groups share batches, orders and buffers.
+/// All rows of particles of one view. Techniques with a RowTechnique share this state, so that their groups
+/// share batches, orders and buffers.
 #pragma once
 
 #include "rendering/particle_rows/group_merger.h"
@@ -38,7 +38,7 @@ private:
     base::Status add(Rows& rows, const ParticleFrameInputs& inputs, const UploadRevisions& of,
                      const base::AssetTable* assets, GatheredFrame& io);
     void addCasters(const GatherInputs& in, std::pmr::vector<MediumCaster>& io) const;
-    /// By group of the newer snapshot: 1 where it is drawn as part of a merged one.
+    /// By group of the newer snapshot: 1 if it is drawn as part of a merged group.
     std::span<const uint8_t> taken() const
     {
         return isMerged_ ? merger_.taken() : std::span<const uint8_t>();
@@ -47,11 +47,11 @@ private:
     std::pmr::vector<const RowTechnique*> techniques_;
     GroupMerger merger_;
     Rows single_; ///< groups that are not merged
-    Rows joined_; ///< small groups that are drawn alike
+    Rows joined_; ///< merged groups
     std::pmr::vector<ParticleBatch> batches_;
     BatchSource source_;
     bool isKept_ = false;
-    bool isMerged_ = true; ///< small groups are joined
+    bool isMerged_ = true; ///< small groups are merged
 };
 
 } // namespace fx::render

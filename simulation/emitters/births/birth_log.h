@@ -1,5 +1,5 @@
 /// @file birth_log.h
-/// Which particle was born when, remembered as runs of even births instead of one entry each.
+/// Birth ticks of particles, stored as runs of evenly spaced births instead of one entry per birth.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -14,15 +14,15 @@
 namespace fx::sim {
 
 __extension__ typedef __int128 WideInt;           ///< holds rate times time exactly
-__extension__ typedef unsigned __int128 WideWord; ///< holds a fraction of 96 bits times 2^32
+__extension__ typedef unsigned __int128 WideWord; ///< holds the product of a 96-bit fraction and 2^32
 
-/// Receives births in order of their indices from BirthSchedule. Keeps those of a window of time.
+/// Receives births from BirthSchedule in the order of their indices. Keeps the births of a window of time.
 class BirthLog
 {
 public:
     explicit BirthLog(std::pmr::memory_resource* memory) : runs_(memory) { runs_.reserve(8); }
 
-    /// Births at a constant rate: number j at the tick begin + floor((j * one + sought) / rate).
+    /// Adds births at a constant rate: birth j at the tick begin + floor((j * one + sought) / rate).
     /// @param sought >= 0  @param one, rate > 0, see birth-ticks
     void addRate(uint64_t first, uint64_t count, base::Ticks begin, WideInt sought, WideInt one,
                  WideInt rate);
@@ -54,7 +54,7 @@ private:
         WideWord fraction;
         WideWord rest;
 
-        // Its parameters, to detect whether births continue unchanged. rate 0: a burst.
+        // Parameters of the run, to detect whether births continue unchanged. rate 0: a burst.
         base::Ticks begin;
         WideInt sought, one, rate;
 

@@ -1,36 +1,37 @@
 /// @file birth_schedule.h
-/// When particles are born: integers only, so that no frame rate gains or loses one.
+/// Birth times of particles, in integer arithmetic, so that the number of births does not depend on the frame
+/// rate.
 ///
 /// @formula birth-ticks
-/// The tick at which a rate emitter gives birth to its particle i, and how many are born before a tick.
+/// The birth tick of particle i of a rate emitter, and the number of births before a tick.
 ///
 /// symbol   unit     meaning
 ///   r       1/s      birth rate, a whole multiple of 2^-32
 ///   F       1/s      ticks per second
 ///   psi     1        phase in [0, 1), a whole multiple of 2^-24, drawn from the instance's seed
-///   D       1        one particle: 2^32 F, or 2^48 F where the rate changes
-///   q       1        what the first tick of a piece of time adds
-///   m       1        by how much each tick adds more than the one before it, 0 for a constant rate
-///   R       1        progress at the beginning of a piece minus what has been born, -D < R <= 0
+///   D       1        progress per particle: 2^32 F, or 2^48 F if the rate changes
+///   q       1        progress in the first tick of a piece of time
+///   m       1        increase of the progress per tick from one tick to the next, 0 for a constant rate
+///   R       1        progress at the beginning of a piece minus D per particle born, -D < R <= 0
 ///   L       1        ticks of a 64th of the duration
 /// @derivation
 ///   Particle i is born at the tick floor((i + psi) F / r), which lies in [0, T) when i + psi < r T / F (1)
-///   so ceil(r T / F - psi) particles are born before tick T (2) In integers, with progress P(0) = -psi D,
-///   and n ticks of a piece adding
+///   so ceil(r T / F - psi) particles are born before tick T                                 (2)
+///   In integers, the progress begins at P(0) = -psi D, and n ticks of a piece add
 ///       S(n) = q n + m n (n - 1) / 2,   q = 2^32 r                                              (3)
-///   births of the piece before its tick n = ceil((R + S(n)) / D), and its birth j happens at the largest n
-///   with
+///   The number of births of the piece before its tick n is ceil((R + S(n)) / D). Its birth j is at the
+///   largest n with
 ///       S(n) <= j D - R,   for m = 0 that is floor((j D - R) / q)                               (4)
-///   Where the rate runs straight from ra to rb over L ticks, with D = 2^48 F,
+///   If the rate changes linearly from ra to rb over L ticks, with D = 2^48 F,
 ///       q = 2^48 ra + m k at tick k of it,   m = 2^48 (rb - ra) / L rounded towards 0           (5)
-///   Progress is a sum of integers, and S(k + n) = S(k) + S(n) of the piece that begins at k: any partition
-///   of time into steps gives the same births. At a constant rate no birth comes within floor(-R / q) ticks
-///   of a moment: windows that end by then are put together and their progress is added later.           (6)
+///   Progress is a sum of integers, and S(k + n) = S(k) + S(n) of the piece that begins at k. Therefore any
+///   partition of time into steps gives the same births. At a constant rate there is no birth within
+///   floor(-R / q) ticks of a moment. Windows that end within that time are merged, and their progress is
+///   added later                                                                                   (6)
 /// @source    elementary
 /// @deviation none
-/// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); a rate that changes over more
-/// than
-///            1e6 s is taken as constant; 128-bit products below 2^126
+/// @valid     r <= 1e9 /s (larger rates are limited to it; NaN and negative rates count as 0); a rate that
+///            changes over more than 1e6 s is taken as constant; 128-bit products below 2^126
 /// @accuracy  exact for the rounded rate, whose relative error is <= 2^-33 / r; (5) loses up to L 2^-48 /s
 /// @tests     tests/simulation/test_birth_schedule.cpp
 ///            tests/simulation/particles/modules/test_birth_rates.cpp
@@ -50,14 +51,14 @@
 
 namespace fx::sim {
 
-/// Births of a step: their number, and the number of stored ones, which are the first.
+/// Births of a step: their total number, and the number of stored ones, which come first.
 struct BirthCount
 {
     uint64_t total = 0;
     uint64_t stored = 0;
 };
 
-/// An interval of local time and the host's parameters in it.
+/// An interval of local time, with the host's parameters during it.
 struct BirthWindow
 {
     base::Ticks begin;
@@ -66,13 +67,13 @@ struct BirthWindow
     bool emitting = true; ///< false: births of the window are discarded
 };
 
-/// Births at a constant rate, one after another, found without dividing: (4) of birth-ticks.
+/// Evenly spaced births at a constant rate, computed without division: (4) of birth-ticks.
 struct EvenBirths
 {
-    base::Ticks tick = kForever; ///< of the next
-    base::Ticks stride = 0;      ///< whole ticks from one to the next
+    base::Ticks tick = kForever; ///< tick of the next birth
+    base::Ticks stride = 0;      ///< whole ticks between births
     uint64_t rest = 0;           ///< remainder of the division for `tick`
-    uint64_t more = 0;           ///< by which it grows from one to the next
+    uint64_t more = 0;           ///< increase of `rest` from birth to birth
     uint64_t rate = 1;           ///< q, the divisor
 
     void goOn()
@@ -86,23 +87,25 @@ struct EvenBirths
     }
 };
 
-/// Rate and bursts of one emitter, advanced window by window without gaps. Ties: bursts by declaration, then
-/// rate.
+/// Rate and bursts of one emitter, advanced window by window without gaps. Births at the same tick are
+/// ordered: bursts by declaration, then the rate.
 class BirthSchedule
 {
 public:
-    /// @param emission its `start` delays rate and bursts alike; bursts for ever end with its duration
+    /// @param emission its `start` delays rate and bursts; endless bursts end with its duration
     BirthSchedule(const Emission& emission, std::pmr::memory_resource* memory);
 
-    /// Draws the phase. Before the first advance.
+    /// Sets the random phase. Called before the first advance.
     void setPhase(float phase);
     /// Sets the random key of bursts with a probability below 1. Called before the first advance.
     void setSeed(uint64_t seed, uint32_t solverIndex);
-    /// Receives all births of constant rates from now on; null for none. It must outlive its use.
+    /// Sets the log that receives all births at constant rates; null for none. It must outlive its use.
     void setLog(BirthLog* log) { log_ = log; }
-    /// All births of the window in order; those that do not fit into `out` are counted and keep their index.
+    /// Gives all births of the window in order. Births that do not fit into `out` are counted and use up an
+    /// index.
     BirthCount advance(const BirthWindow& window, std::span<Birth> out);
-    /// The same, but births are handed over whenever `room` is full and at the end, up to `most` of them.
+    /// As above, but births are passed to `take` whenever `room` is full and at the end, up to `most` of
+    /// them.
     /// @param take called as take(std::span<const Birth>)
     template <class Take>
     BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, Take&& take)
@@ -113,7 +116,7 @@ public:
         base::Ticks end;
         return advanceTo(window, {room, most, call, &take}, end);
     }
-    /// The same for about `wanted` births, at least one.
+    /// As above, but stops after about `wanted` births, at least one.
     /// @param outReached begin of the next window: the end of this one or earlier, possibly between births of
     ///         the same tick
     template <class Take>
@@ -125,8 +128,8 @@ public:
         };
         return advanceTo(window, {room, most, call, &take, wanted}, outReached);
     }
-    /// No births before this local time, as long as the conditions of the last window hold; 0 when unknown.
-    /// Windows up to it may be skipped.
+    /// Local time before which there are no births, as long as the conditions of the last window do not
+    /// change; 0 when unknown. Windows up to that time may be skipped.
     base::Ticks quietUntil() const { return quiet_.until; }
     /// Skips windows up to `tick`; does nothing when the schedule has passed `tick` already.
     void passTo(base::Ticks tick)
@@ -135,13 +138,13 @@ public:
             quiet_.to = tick;
     }
     /// All births from `tick`, the end of the last window, until end(), as long as the host's parameters do
-    /// not change; none unless they come at a constant rate of at least 1e-3 /s by now.
+    /// not change. Empty unless births then have a constant rate of at least 1e-3 /s.
     std::optional<EvenBirths> evenBirths(base::Ticks tick, double intensity, bool emitting) const;
-    base::Ticks end() const { return end_; } ///< of the rate
+    base::Ticks end() const { return end_; } ///< end of the rate
     /// True when nothing can be born from `tick` on.
     bool exhausted(base::Ticks tick) const;
-    /// No births from `tick`, the end of the last window, until then, as long as the host's parameters do not
-    /// change. A lower bound.
+    /// Lower bound of the time of the next birth after `tick`, the end of the last window, as long as the
+    /// host's parameters do not change.
     base::Ticks quietUntil(base::Ticks tick, double intensity, bool emitting) const;
 
     /// Saves the progress of births; rate and bursts belong to the definition.
@@ -152,20 +155,20 @@ public:
 private:
     struct ScheduledBurst
     {
-        base::Ticks tick;     ///< of the first cycle
+        base::Ticks tick;     ///< tick of the first cycle
         base::Ticks interval; ///< between cycles
         uint64_t cycles;
         uint32_t count;
         float probability;
-        uint64_t next = 0;  ///< cycle
-        uint32_t given = 0; ///< births of it
+        uint64_t next = 0;  ///< next cycle
+        uint32_t given = 0; ///< births of that cycle so far
 
         base::Ticks nextTick() const
         {
             return next < cycles ? tick + base::Ticks(next) * interval : kForever;
         }
     };
-    /// A stretch of time over which the rate runs straight.
+    /// A time interval in which the rate is linear.
     struct Piece
     {
         base::Ticks begin, end;
@@ -175,23 +178,23 @@ private:
         WideInt sum(base::Ticks n) const; ///< S
         base::Ticks tickOf(WideInt sum) const;
     };
-    /// Where births go.
+    /// Destination of births.
     struct Outlet
     {
         std::span<Birth> room;
-        uint64_t most;                                    ///< births that are wanted
-        void (*take)(void* user, std::span<const Birth>); ///< null: they stay in `room`
+        uint64_t most;                                    ///< maximum number of births to pass on
+        void (*take)(void* user, std::span<const Birth>); ///< null: births stay in `room`
         void* user;
-        uint64_t wanted = UINT64_MAX; ///< births after which it may end before the window does
+        uint64_t wanted = UINT64_MAX; ///< number of births after which the window may end early
     };
     struct Writer;
 
-    /// Windows without births whose progress has not been added yet.
+    /// Skipped windows without births, whose progress has not been added yet.
     struct Quiet
     {
         base::Ticks from = 0;
-        base::Ticks to = 0;    ///< they are [from, to)
-        base::Ticks until = 0; ///< no births before this under the same conditions
+        base::Ticks to = 0;    ///< the windows cover [from, to)
+        base::Ticks until = 0; ///< no births before this time under the same conditions
         double intensity = 0;
         bool emitting = false;
         WideInt rate = 0; ///< q
@@ -214,7 +217,7 @@ private:
     base::Ticks end_;
     base::ScalarCurve shape_;
     bool curved_;
-    std::pmr::vector<ScheduledBurst> bursts_; ///< by declaration
+    std::pmr::vector<ScheduledBurst> bursts_; ///< in the order of declaration
     uint64_t seed_ = 0;
     uint32_t solverIndex_ = 0;
     WideInt progress_ = 0; ///< R

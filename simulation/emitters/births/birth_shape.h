@@ -10,7 +10,7 @@
 ///   alpha   rad    half angle of the cone
 /// @derivation
 ///   direction with z = cos: c = 1 - u1 (1 - cos alpha), azimuth u2 turns; alpha = pi is the sphere   (1)
-///   radius in the ball R u^(1/3), in the disc R u^(1/2): the volume, area below r grows uniformly       (2)
+///   radius in the ball R u^(1/3), in the disc R u^(1/2): volume and area below r are uniform            (2)
 /// @source    elementary (inversion of the distribution function)
 /// @deviation none
 /// @valid     R = 0 gives the center; alpha is clamped to [0, pi]
@@ -24,7 +24,7 @@
 
 namespace fx::sim {
 
-/// How a particle begins, in the instance's local space.
+/// Initial position and direction of a particle, in the instance's local space.
 struct BirthPlace
 {
     glm::vec3 position;  ///< [m]

@@ -1,29 +1,28 @@
 /// @file moved_space.h
-/// The space that particles stay in when their instance moves away from them.
+/// Space in which particles stay when their instance moves.
 ///
 /// @formula moved-births
-/// Where a particle is born, and how fast, when the host has moved the instance in this step.
+/// Position and velocity of a birth when the host has moved the instance in this step.
 ///
 /// symbol   unit   meaning
-///   H               space of the instance when the emitter began; particles keep to it
-///   A, B            from the instance's space to H, at the begin and at the end of the step
+///   H               space of the instance at the start of the emitter; particles stay in it
+///   A, B            transforms from the instance's space to H, at the begin and at the end of the step
 ///   t        1      share of the step at which the birth happens, 0..1
 ///   T        s      length of the step
-///   p, v     m, m/s place and velocity of the birth as the shape gives them, in the instance's space
+///   p, v     m, m/s position and velocity of the birth from the shape, in the instance's space
 ///   k        1      share of the instance's velocity that is inherited
 /// @derivation
-///   The host tells where the instance is, not how it got there; each of its points is taken to go straight
+///   The host sets placements without paths between them. Each point is assumed to move on a straight line
 ///       x = (1 - t) A p + t B p                                                             (1)
-///   so that births of one step lie evenly along the way, and the point's own velocity is
+///   so births of one step are evenly spaced along the path, and the velocity of the point is
 ///       w = (B p - A p) / T                                                                 (2)
-///   Directions turn alike, without their own motion
+///   Directions are interpolated in the same way, without their own motion
 ///       u = (1 - t) A' v + t B' v + k w,    A' and B' without their offsets                 (3)
-///   A, B are rigid motions with the change of scale; while nothing has moved they are left out, so that
-///   nothing is rounded.
+///   A and B consist of rigid motion and scale. They are not applied if nothing has moved, to avoid rounding.
 /// @source    elementary
-/// @deviation a turn within a step takes chords for arcs: (3) is shorter by 1 - cos(half the angle)
+/// @deviation a rotation within a step uses chords instead of arcs: (3) is shorter by 1 - cos(half the angle)
 /// @valid     any placements; T > 0
-/// @accuracy  float rounding of the distance from where the emitter began
+/// @accuracy  float rounding of the distance from the start of the emitter
 /// @tests     tests/simulation/particles/events/test_moved_emitters.cpp
 #pragma once
 
@@ -33,15 +32,15 @@
 
 namespace fx::sim {
 
-/// Linear interpolation by `share`; the bits depend on the arguments only.
+/// Linear interpolation by `share`; the bits depend only on the arguments.
 base::Placement between(const base::Placement& from, const base::Placement& to, float share);
 
 class MovedSpace
 {
 public:
-    /// The emitter begins here.
+    /// Sets the placement at the start of the emitter.
     void begin(const base::Placement& placement);
-    /// A step begins, at whose end the instance has gone `share` of the way to `placement`.
+    /// Begins a step, at the end of which the instance has moved by `share` of the way to `placement`.
     void moveTo(const base::Placement& placement, float share = 1.0f);
     /// Sets the placement without a path to it.
     void jumpTo(const base::Placement& placement);
@@ -49,13 +48,13 @@ public:
     bool stands(const base::Placement& placement) const;
 
     const base::Placement& home() const { return home_; }
-    /// (1) to (3) of a birth that the clock gave.
+    /// Applies (1) to (3) to a birth by rate or burst.
     void carry(float share, float seconds, float inherit, glm::vec3& ioPosition, glm::vec3& ioVelocity) const;
-    /// A point at the begin of the step. (1) at t = 0
+    /// Transforms a point at the begin of the step: (1) at t = 0.
     glm::vec3 placed(const glm::vec3& point) const;
-    /// A vector at the end of the step. (3) at t = 1
+    /// Transforms a vector at the end of the step: (3) at t = 1.
     glm::vec3 turned(const glm::vec3& vector) const;
-    /// From the world's axes to those of H.
+    /// Rotates a vector from the axes of the world to those of H.
     glm::vec3 fromWorld(const glm::vec3& vector) const { return glm::conjugate(home_.rotation) * vector; }
 
     void save(StateWriter& writer) const;

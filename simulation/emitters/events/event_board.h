@@ -1,5 +1,6 @@
 /// @file event_board.h
-/// Requests for births that events of one emitter make in other emitters of the effect, within one step.
+/// Collects requests for births that events of one emitter cause in other emitters of the effect, in one
+/// step.
 #pragma once
 
 #include "foundation/memory/arena.h"
@@ -17,18 +18,18 @@ constexpr uint32_t kMinEventBirths =
 /// Requests for births in one emitter.
 struct EventRequests
 {
-    std::span<const EventBirth> births; ///< in the order in which they are answered, those that find room
-    uint64_t asked = 0;                 ///< births, those included that do not
+    std::span<const EventBirth> births; ///< in the order of processing; only those that fit
+    uint64_t asked = 0;                 ///< number of all requested births, including those that do not fit
 };
 
-/// Keeps only as many requests for an emitter as its capacity allows: the first ones in processing order,
-/// independent of the order of posting. Memory and time are proportional to the capacity. Its lifetime is
-/// that of the step's scratch memory. Threads: one at a time.
+/// Keeps for each emitter only as many requests as its capacity allows: the first ones in processing order,
+/// independent of the order of posting. Memory and time are proportional to the capacity. It lives in the
+/// scratch memory of the step. Threads: one at a time.
 class EventBoard
 {
 public:
-    /// @param number     another one for each board of a world
-    /// @param capacityOf called with the number of a solver: particles that can be alive in it
+    /// @param number     unique number of the board in its world
+    /// @param capacityOf called with the index of a solver; returns the capacity of the solver
     template <class F>
     EventBoard(base::Arena& scratch, uint64_t number, size_t solvers, F&& capacityOf)
         : scratch_(&scratch), number_(number), notes_(scratch.allocate<Note>(solvers))
@@ -60,7 +61,7 @@ public:
         }
     }
 
-    /// Sorts the requests for `target` after all have been posted, within the work budget.
+    /// Sorts the requests for `target` within the work budget. All requests must have been posted.
     /// @return whether they are sorted
     bool order(uint32_t target, base::WorkBudget& work)
     {
@@ -73,7 +74,7 @@ public:
         }
         return true;
     }
-    /// After order().
+    /// The sorted requests; requires order().
     EventRequests read(uint32_t target) const
     {
         const Note& note = notes_[target];
@@ -83,16 +84,16 @@ public:
 private:
     struct Note
     {
-        std::span<EventBirth> kept; ///< the first `size`: a heap whose front is answered last
+        std::span<EventBirth> kept; ///< the first `size` elements are a heap, whose front is processed last
         size_t size;
         size_t ordered;  ///< number of requests at the end that are already sorted
         uint64_t wanted; ///< births of the kept requests
         uint64_t asked;  ///< births of all posted requests
-        uint64_t room;   ///< largest number of attempted births
+        uint64_t room;   ///< maximum number of attempted births
 
         std::span<EventBirth>::iterator end() const { return kept.begin() + ptrdiff_t(size); }
     };
-    static constexpr uint64_t kOrdered = 2; ///< [unit] of base::WorkBudget, of each
+    static constexpr uint64_t kOrdered = 2; ///< [unit] of base::WorkBudget, for each request
     void grow(Note& note)
     {
         const std::span<EventBirth> larger =

@@ -1,27 +1,27 @@
 /// @file event_scan.h
-/// Finds the events of an emitter's particles in a step for which it has rules.
+/// Finds those events of an emitter's particles in a step to which its rules apply.
 ///
 /// @formula particle-event-ticks
-/// At which tick a particle is born, reaches an age and dies.
+/// The ticks at which a particle is born, reaches an age and dies.
 ///
 /// symbol   unit   meaning
 ///   b        tick   birth
-///   g        tick   an age that a rule names, or that it repeats
-///   d        tick   death: the first tick at which the particle no longer lives
+///   g        tick   an age of a rule, or a multiple of it
+///   d        tick   death: the first tick at which the particle is dead
 ///   s, e     tick   begin and end of the step
 /// @derivation
-///   Birth happens at b, which lies in the step's own births; the age at b + g when
+///   The event of birth is at b, among the births of the step. The event of an age is at b + g if
 ///       s < b + g <= e and b + g < d                                                        (1)
-///   death when the particle lives at max(s, b) and no longer at e, at the first tick that it does not
-///   live at; life only ends once, so halving the interval finds it                          (2)
-///   Intervals that are open at their begin and closed at their end meet without gap or overlap, and a
-///   particle that is dead at the end of a step has been seen before its row is forgotten    (3)
-///   Place and velocity at that tick are the closed form of ballistic-motion; where motion is integrated,
-///   the place lies on the straight way of the step, in proportion to time, with the velocity of its end (4)
+///   The event of death is in the step if the particle is alive at max(s, b) and dead at e. Its tick is the
+///   first at which the particle is dead, found by bisection, because a particle dies only once      (2)
+///   Intervals that are open at their begin and closed at their end leave no gap and do not overlap. A
+///   particle that dies in a step is found in that step, before its row is reused                         (3)
+///   Position and velocity at that tick follow from the closed form of ballistic-motion. If motion is
+///   integrated, the position is interpolated in time along the path of the step, with the final velocity (4)
 /// @source    elementary
 /// @deviation none
-/// @valid     g > 0; a particle that lives less than a step whose row is reused within it, where motion is
-///            integrated, has an event of birth only
+/// @valid     g > 0; if motion is integrated, a particle that lives less than a step and whose row is reused
+///            within it has only the event of birth
 /// @accuracy  ticks exact, for any partition into steps; places as ballistic-motion, or (4)
 /// @tests     tests/simulation/particles/events/test_emitter_events.cpp
 #pragma once
@@ -40,38 +40,39 @@
 
 namespace fx::sim {
 
-/// [1] linear Rec. 709: the color over life of the particle in `row`, or its albedo where it is a medium, at
-/// `tick`, including inherited color, without brightness.
+/// [1] linear Rec. 709: the color over life of the particle in `row` at `tick`, including inherited color,
+/// without brightness. For a medium: its albedo.
 glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
 
-constexpr uint32_t kMaxParticleContacts = 10; ///< in one step: obstacles', the host's, the ground's
+/// maximum in one step, over obstacles, the host's geometry and the ground
+constexpr uint32_t kMaxParticleContacts = 10;
 
-/// Properties of particles that the rules of an emitter need.
+/// The kinds of events and the properties of particles that the rules of an emitter need.
 class EventInterest
 {
 public:
-    /// @param longest [tick] no particle becomes older
+    /// @param longest [tick] upper bound of the age of particles
     EventInterest(std::span<const EventRule> rules, base::Ticks longest);
 
     bool in(EventKind kind) const { return kinds_[size_t(kind)]; }
-    bool inColor() const { return colors_; } ///< of the particle
+    bool inColor() const { return colors_; } ///< whether a rule needs the color of the particle
     std::span<const base::Ticks> ages() const
     {
         return ages_;
-    } ///< ascending, each once, at most kMaxEventAges
-    /// Number of the first age beyond `age`.
+    } ///< ascending, without duplicates, at most kMaxEventAges
+    /// Index of the first age greater than `age`.
     uint32_t firstAfter(base::Ticks age) const
     {
         return uint32_t(std::upper_bound(ages_.begin(), ages_.end(), age) - ages_.begin());
     }
-    /// Events that one particle can have in one step.
+    /// Maximum number of events of one particle in one step.
     uint32_t mostOfOne() const
     {
         return 3 + uint32_t(ages_.size()) + (in(EventKind::Collision) ? kMaxParticleContacts : 0);
     }
     /// True when `rule` applies to an event.
     bool answers(const EventRule& rule, const ParticleEvent& event) const;
-    /// True when some rule may be about a contact.
+    /// True when a rule may apply to the contact.
     bool counts(const TileContact& contact) const
     {
         return contact.speed >= (contact.isLast ? leastLastSpeed_ : leastSpeed_);
@@ -80,14 +81,14 @@ public:
 private:
     std::array<bool, 5> kinds_{};
     bool colors_ = false;
-    /// [m/s] smallest threshold of rules for contacts.
+    /// [m/s] Smallest speed threshold of the rules for contacts.
     float leastSpeed_ = std::numeric_limits<float>::infinity();
     float leastLastSpeed_ = leastSpeed_;
     std::vector<base::Ticks> ages_;
 };
 
-/// Lists of events, one a tile, so that threads need not meet. Its memory is limited: where many tiles have
-/// many events in one step, some find no room, the same for any number of threads.
+/// Lists of events, one per tile, so that threads do not share lists. Their memory is limited: if many tiles
+/// have many events in one step, some events are dropped, the same ones for any number of threads.
 class EventRoom
 {
 public:
@@ -99,20 +100,20 @@ private:
     std::span<EventList> lists_;
 };
 
-/// Looks at particles whose motion has a closed form, or that have not moved yet.
+/// Finds events of particles whose motion has a closed form, or that have not moved yet.
 struct EventScan
 {
     const EventInterest& interest;
     const ParticleStore& store;
     AppearanceJob job;
     uint32_t emitter;
-    base::Ticks begin; ///< of the step
+    base::Ticks begin; ///< begin of the step
     base::Ticks end;
 
-    /// Finds ages and deaths of particles that live at the begin of the step, in the tile at `row`.
+    /// Finds ages and deaths of particles that are alive at the begin of the step, in the tile at `row`.
     void scanTile(uint32_t row, EventList& out) const;
     /// Finds all events of a particle that is born in this step, if it has a row.
-    /// @param fed its birth was caused by an event
+    /// @param fed whether its birth was caused by an event
     void scanBirth(uint64_t index, bool fed, bool birthOnly, EventList& out) const;
 
 private:
@@ -120,7 +121,7 @@ private:
     void scanAges(uint32_t row, base::Ticks from, EventList& out) const;
 };
 
-/// Looks at particles whose motion is integrated.
+/// Finds events of particles whose motion is integrated.
 class EventWatch final : public TileWatch
 {
 public:

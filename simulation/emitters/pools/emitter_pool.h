@@ -1,11 +1,11 @@
 /// @file emitter_pool.h
-/// Small emitters of one definition that share the rows of one store.
+/// A pool of small emitters of one definition, which share the rows of one store.
 ///
-/// Rows are in the order of birth over all members, so a pass has full vectors of particles of similar age
-/// without empty rows, also for members with few particles. A member costs nothing in a step without births
-/// or deaths. Results are the same bits as without a pool: random numbers are those of the member's seed,
-/// ages are differences of ticks, and a birth is dropped if its row in the member's own store would be
-/// occupied. Only if memory for more rows is exhausted, additional births are dropped and counted.
+/// Rows are in the order of birth over all members. A pass therefore has full vectors of particles of similar
+/// age without empty rows, also for members with few particles. A member costs nothing in a step in which it
+/// has no births or deaths. Results have the same bits as without a pool: random numbers use the seed of the
+/// member, ages are differences of ticks, and a birth is dropped if its row in the member's own store would
+/// be occupied. Further births are dropped, and counted, only if memory for more rows is exhausted.
 #pragma once
 
 #include "simulation/emitters/births/birth_schedule.h"
@@ -27,10 +27,10 @@ struct PoolEntry
 {
     PooledEmitter* emitter;
     uint32_t user;      ///< identifies the emitter for the owner of the pool
-    uint64_t seed;      ///< of its instance
+    uint64_t seed;      ///< seed of its instance
     base::Ticks offset; ///< its local time minus the pool's
     EvenBirths births;  ///< local time
-    base::Ticks end;    ///< no births from then on, local time
+    base::Ticks end;    ///< local time from which there are no births
 };
 
 /// Threads: one at a time (the scene thread); large publications run in parallel on the task runner.
@@ -46,7 +46,7 @@ public:
     uint32_t members() const { return taken_; }
     bool empty() const { return taken_ == 0; }
     base::Ticks now() const { return now_; }
-    /// Number of emitters, including this one, that requested to join in step `number`.
+    /// Registers a request to join in step `number`. Returns the number of requests in that step.
     uint32_t offer(uint64_t number)
     {
         offers_ = offered_ == number ? offers_ + 1 : 1;
@@ -61,17 +61,17 @@ public:
     static constexpr uint32_t kNoMember = ~0u;
     /// Removes a member and its particles.
     void forget(uint32_t member);
-    /// Writes the present state of a member into its emitter; it stays a member.
+    /// Copies the present state of a member into its emitter. The emitter remains a member.
     void write(uint32_t member) const;
 
-    /// Executes all births and deaths up to `to`. Members without particles or without further births are
-    /// removed.
-    /// @param outLeft receives their users
+    /// Computes all births and deaths up to `to`. Removes members without particles or without further
+    /// births.
+    /// @param outLeft receives the `user` numbers of removed members
     void step(base::Ticks to, StepCounters& counters, std::vector<uint32_t>& outLeft);
-    /// Members keep their numbers as long as they stay.
+    /// Publishes all members. The number of a member does not change while it is in the pool.
     void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
 
-    /// Calls f(emitter, user) for all members; f may dismiss them.
+    /// Calls f(emitter, user) for all members; f may remove members.
     template <class F>
     void forEach(F&& f)
     {
@@ -94,9 +94,9 @@ private:
         EvenBirths births;   ///< the pool's time
         base::Ticks end = 0; ///< tick from which there are no births
         uint64_t next = 0;   ///< birth index
-        uint64_t front = 0;  ///< the oldest index that lives
+        uint64_t front = 0;  ///< oldest living index
         base::Ticks frontUntil = 0;
-        uint32_t nextRow = 0; ///< in its own store
+        uint32_t nextRow = 0; ///< row of the next birth in the member's own store
         uint32_t frontRow = 0;
         uint32_t rows = 0; ///< occupied rows in its own store
         uint32_t highWater = 0;
@@ -107,7 +107,7 @@ private:
 
     size_t placeOfName(uint32_t name) const { return placeOf(name >> 8, name & 0xFF); }
     size_t placeOf(uint32_t member, uint32_t row) const { return size_t(member) * each_ + row; }
-    /// Whether the particle of the place is alive at `tick`; then `outRow` is its row.
+    /// Whether the particle with this serial number is alive at `tick`; then `outRow` is its row.
     bool lives(uint64_t serial, base::Ticks tick, uint32_t& outRow) const;
     void makeRoom(uint32_t member, uint64_t rows);
     void rebuild(uint64_t rows);
@@ -125,19 +125,20 @@ private:
     uint32_t each_; ///< rows of the own store of each member
     uint64_t& revision_;
     std::pmr::memory_resource* memory_;
-    ParticleStore store_;           ///< a ring of all births; its indices are serial numbers
-    std::vector<uint32_t> owner_;   ///< by row: member and row of its own store, see base::PooledRows
-    std::vector<uint64_t> index_;   ///< by row: birth index in the member
-    std::vector<uint64_t> serial_;  ///< by row of its own store: the particle last born there, or kNoParticle
+    ParticleStore store_;         ///< a ring of all births; its indices are serial numbers
+    std::vector<uint32_t> owner_; ///< by row: member and row of its own store, see base::PooledRows
+    std::vector<uint64_t> index_; ///< by row: birth index in the member
+    /// by row of the member's own store: serial number of its last particle, or kNoParticle
+    std::vector<uint64_t> serial_;
     std::vector<base::Ticks> wake_; ///< by member: first tick at which a step has births or deaths
     std::vector<uint32_t> counts_;  ///< by member: count of its group
     std::vector<Member> members_;
     std::vector<uint32_t> free_;
     std::vector<uint32_t> due_;
     std::vector<PooledBirth> births_; ///< pending births, from store_.next() on
-    uint64_t number_ = 0;             ///< of this order of rows, see base::PooledRows::writer
+    uint64_t number_ = 0;             ///< number of this order of rows, see base::PooledRows::writer
     uint64_t rowsInUse_ = 0;
-    uint32_t taken_ = 0; ///< members
+    uint32_t taken_ = 0; ///< number of members
     base::Ticks now_ = 0;
     uint64_t offered_ = 0;
     uint32_t offers_ = 0;

@@ -1,5 +1,5 @@
 /// @file emitter_pools.h
-/// The pools of a world.
+/// All emitter pools of a world.
 #pragma once
 
 #include "simulation/emitters/pools/emitter_pool.h"
@@ -11,7 +11,7 @@
 
 namespace fx::sim {
 
-/// An emitter that has been stepped to `now` and may join a pool.
+/// A request of an emitter, which has been stepped to `now`, to join a pool.
 struct PoolRequest
 {
     uint32_t user;      ///< see PoolEntry
@@ -20,7 +20,8 @@ struct PoolRequest
     base::Ticks offset; ///< local time minus the pool's
 };
 
-/// For longer steps, emitters are stepped separately, because ages must fit into 32 bits.
+/// [tick] Longest step of pools. In longer steps, emitters are stepped separately, because ages must fit into
+/// 32 bits.
 constexpr base::Ticks kLongestPoolStep = base::kTicksPerSecond / 16;
 
 /// Threads: one at a time.
@@ -36,15 +37,15 @@ public:
     base::Ticks now() const { return now_; } ///< end of the last step
     /// Publishes all pools that have members.
     void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
-    size_t indexOf(const EmitterPool& pool) const; ///< among those
+    size_t indexOf(const EmitterPool& pool) const; ///< index among the pools with members
 
-    /// The pool that an emitter may join now: one with members, or one that enough emitters request in this
-    /// step. Null without such a pool or without memory.
+    /// The pool that an emitter may join now: a pool with members, or a new one if enough emitters request it
+    /// in this step. Null without such a pool or without memory.
     EmitterPool* offer(const std::shared_ptr<const ParticleProgram>& program, const glm::vec3& pull,
                        uint64_t step);
     /// @param outLeft see EmitterPool::step()
     void step(base::Ticks to, StepCounters& counters, std::vector<uint32_t>& outLeft);
-    /// Calls f(emitter, user) for all members; f may let them leave.
+    /// Calls f(emitter, user) for all members; f may remove members.
     template <class F>
     void forEach(F&& f)
     {

@@ -1,5 +1,5 @@
 /// @file pooled_emitter.h
-/// Interface of small emitters for pools and spawn batches.
+/// Interface of small emitters to pools and spawn batches.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -17,33 +17,33 @@ struct ParticleProgram;
 struct PoolRequest;
 struct StepCounters;
 
-/// An emitter whose particles a pool may compute, and whose births and publication a spawnBatch may. See
-/// Solver::pooledEmitter().
+/// An emitter whose particles may be computed by a pool, and whose births and publication may be computed by
+/// a SpawnBatch. See Solver::pooledEmitter().
 class PooledEmitter
 {
 public:
-    /// Joins a pool of emitters, which computes it from then on until it leaves: meanwhile it is neither
-    /// stepped nor published, and all other questions are answered as ever. @return whether it has joined
+    /// Joins a pool, which then computes the emitter until it leaves the pool. Meanwhile the emitter is
+    /// neither stepped nor published; all its other functions work as usual. @return whether it has joined
     virtual bool joinPool(EmitterPools& pools, const PoolRequest& request) = 0;
-    /// Copies its state from the pool and leaves the pool; it is then stepped separately. Does nothing
+    /// Copies the state from the pool and leaves it; the emitter is then stepped separately. Does nothing
     /// without a pool.
     virtual void leavePool() = 0;
-    virtual const EmitterPool* pool() const = 0; ///< that computes it now, null for none
-    virtual uint32_t member() const = 0;         ///< its number in that pool
-    /// Solver::publish(), but the columns may be filled later by `spawnBatch`. @return false without any
-    /// change when the emitter does not support it
+    virtual const EmitterPool* pool() const = 0; ///< pool that computes it; null for none
+    virtual uint32_t member() const = 0;         ///< its number in the pool
+    /// As Solver::publish(), but `spawnBatch` may fill the columns later. @return false, without any change,
+    /// if the emitter does not support this
     virtual bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                                  SpawnBatch& spawnBatch) const = 0;
 
     virtual ParticleStore& store() = 0;
     virtual const ParticleProgram& program() const = 0;
-    virtual uint32_t highWater() const = 0; ///< the most rows that were in use after a step
-    virtual uint64_t dropped() const = 0;   ///< births that found their row taken
-    /// The pool has written the rows of `now`, local time, into the store; the rest of the state follows.
+    virtual uint32_t highWater() const = 0; ///< maximum number of rows in use after a step
+    virtual uint64_t dropped() const = 0;   ///< number of births whose row was occupied
+    /// Sets the state that is not in the store. The pool has already written the rows of local time `now`.
     virtual void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped) = 0;
-    /// Number of births whose row was occupied.
+    /// Counts births that were dropped because their row was occupied.
     virtual void refuse(uint64_t births, StepCounters& counters) = 0;
-    /// All births of the open step are in their rows.
+    /// Ends the open step after all its births have been written to their rows.
     virtual void endStep(StepCounters& counters) = 0;
 
 protected:

@@ -1,7 +1,7 @@
 /// @file spawn_batch.h
-/// Births and publications of many small emitters in one batch. Results are the same bits as for separate
-/// emitters; a batch fills the lanes of random-number vectors and shares the fixed cost of a pass over
-/// particles.
+/// Computes births and publications of many small emitters in one batch. Results have the same bits as for
+/// separate emitters. A batch fills the lanes of random-number vectors and shares the fixed cost of a pass
+/// over particles.
 #pragma once
 
 #include "simulation/emitters/pools/pooled_emitter.h"
@@ -23,22 +23,22 @@ public:
     // ---- a step ----
     static constexpr size_t kMaxDeferredBirths =
         256; ///< largest number of deferred births of one emitter; more fill vectors without a batch
-    /// `births` of `emitter`, up to kMaxDeferredBirths and up to its rows, are made by close() at the latest,
-    /// and its step is ended then.
+    /// Defers `births` of `emitter`, at most kMaxDeferredBirths and at most its rows, and the end of its
+    /// step. close() executes both at the latest.
     void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
-    /// Whether its step is still to be ended.
+    /// Whether the end of the emitter's step is deferred.
     bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
-    /// After an exception: discards pending births.
+    /// Discards pending births; called after an exception.
     void forget();
-    /// Makes the deferred births.
+    /// Computes the deferred births.
     void makeBirths();
-    /// Makes all pending births and ends the steps of their emitters. Must precede any read of them.
+    /// Computes all pending births and ends the steps of their emitters. Must precede any access to them.
     void close();
 
     // ---- a publication ----
     void beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks);
-    /// Adds the last group of the snapshot, whose columns and bounds are to be filled. @return its job, to be
-    /// filled in
+    /// Adds the last group of the snapshot; its columns and bounds are computed later. @return its job, which
+    /// the caller fills in
     AppearanceJob& add(base::SnapshotGroup& group)
     {
         if (partCount_ == kMaxParts)
@@ -48,15 +48,15 @@ public:
         part.group = snapshot_->groupCount() - 1;
         return part.job;
     }
-    /// @return [unit] of base::WorkBudget that it counts
+    /// @return [unit] of base::WorkBudget spent
     uint64_t endPublication();
 
 private:
-    /// Whose a birth is.
+    /// The emitter of a birth.
     struct Owner
     {
         PooledEmitter* emitter;
-        const ParticleProgram* program; ///< null: made
+        const ParticleProgram* program; ///< null: already computed
         uint32_t solver;
     };
     void makeRoom();
@@ -64,16 +64,16 @@ private:
     void writeParts();
 
     std::pmr::vector<ScatteredBirth> births_;
-    std::pmr::vector<Owner> owners_; ///< of the births
+    std::pmr::vector<Owner> owners_; ///< owners of the births
     std::pmr::vector<ScatteredBirth> alike_;
     std::pmr::vector<PooledEmitter*> alikeOwners_;
     std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
     StepCounters* counters_ = nullptr;
 
-    static constexpr size_t kMaxParts = 64; ///< so that they and their inputs fit into the L1 and L2 caches
+    static constexpr size_t kMaxParts = 64; ///< parts and their inputs fit into the L1 and L2 caches
     std::array<AppearancePart, kMaxParts> parts_;
     size_t partCount_ = 0;
-    uint64_t rows_ = 0; ///< of the publication
+    uint64_t rows_ = 0; ///< number of rows of the publication
     base::FrameSnapshot* snapshot_ = nullptr;
     base::TaskRunner* tasks_ = nullptr;
 };

@@ -1,6 +1,6 @@
 /// @file collision_defs.h
-/// Obstacles of particles, and the response to contacts. Particles are points. All lengths in the instance's
-/// local space.
+/// Obstacles of particles, and the response to contacts. Particles are points. All lengths are in the
+/// instance's local space.
 #pragma once
 
 #include "simulation/collision/distance_field.h"
@@ -16,14 +16,14 @@ namespace fx::sim {
 enum class ObstacleKind : uint8_t
 {
     Plane,       ///< through `position` with the normal `axis`; matter below it
-    Sphere,      ///< of radius size.x
-    Box,         ///< of half extents size, its +Y along `axis`
+    Sphere,      ///< sphere of radius size.x
+    Box,         ///< box of half extents size; its +Y is along `axis`
     Mesh,        ///< `field`
-    HeightField, ///< `heights` above the plane through `position`, which is not turned
+    HeightField, ///< `heights` above the plane through `position`, without rotation
     Ground,      ///< the instance's ground plane, if enabled
     Scene,       ///< the host's geometry, if set
-    Hook,        ///< StepContext::contactHook, where the host set one
-    Depth,       ///< surfaces in the depth texture of a view; on the GPU only, without contacts elsewhere
+    Hook,        ///< StepContext::contactHook, if the host has set one
+    Depth,       ///< surfaces in the depth texture of a view; only on the GPU, no contacts on the CPU
 };
 
 enum class ContactResponse : uint8_t
@@ -36,13 +36,13 @@ enum class ContactResponse : uint8_t
 struct CollisionDef
 {
     ObstacleKind kind = ObstacleKind::Plane;
-    glm::vec3 position{0.0f};         ///< [m] center, or of the mesh's or grid's own origin
-    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< of any length > 0
+    glm::vec3 position{0.0f};         ///< [m] center, or origin of the mesh or grid
+    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< direction, of any length > 0
     glm::vec3 size{1.0f};             ///< [m]
     bool isHollow = false;            ///< sphere and box: particles are kept inside
-    float margin = 0.0f;              ///< [m] distance kept from planes, spheres, boxes, heights and depth
-    float thickness = 0.5f;           ///< [m] Depth: assumed thickness of surfaces along the ray
-    std::shared_ptr<const DistanceField> field; ///< of the mesh
+    float margin = 0.0f; ///< [m] distance that particles keep from planes, spheres, boxes, heights and depth
+    float thickness = 0.5f;                     ///< [m] Depth: assumed thickness of surfaces along the ray
+    std::shared_ptr<const DistanceField> field; ///< distance field of the mesh
     std::shared_ptr<const FieldGrid> heights;   ///< [m] one channel, one node along y
 
     ContactResponse response = ContactResponse::Bounce;

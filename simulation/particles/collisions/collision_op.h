@@ -1,8 +1,8 @@
 /// @file collision_op.h
-/// All obstacles of an emitter as one module of a tile.
+/// Module of a tile that contains all obstacles of an emitter.
 ///
-/// It is one module for all obstacles, because the order of contacts determines the motion, and resolving one
-/// contact must not push a particle into another obstacle.
+/// There is one module for all obstacles, because the order of contacts determines the motion, and because
+/// the response to one contact must not push a particle into another obstacle.
 #pragma once
 
 #include "simulation/particles/collisions/collision_defs.h"
@@ -13,7 +13,7 @@
 
 namespace fx::sim {
 
-/// @param defs at most kMaxObstacles are used
+/// @param defs obstacles; only the first kMaxObstacles are used
 std::unique_ptr<TileOp> makeCollisionOp(std::span<const CollisionDef> defs);
 
 } // namespace fx::sim

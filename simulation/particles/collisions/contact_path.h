@@ -1,29 +1,29 @@
 /// @file contact_path.h
-/// A particle's way through a step, around all obstacles.
+/// A particle's path through a step with contacts with all obstacles.
 ///
 /// @formula contact-path
-/// Motion in the rest of a step after each contact.
+/// Motion after each contact in a step.
 ///
 /// symbol   unit   meaning
-///   x0, x1   m      where the step began, and where it would end freely
-///   v1       m/s    velocity at its free end
+///   x0, x1   m      position at the begin of the step, and at its end without contacts
+///   v1       m/s    velocity at its end without contacts
 ///   T        s      length of the step
 ///   n        1      normal of the obstacle, towards the particle
 ///   e, c     1      restitution, friction
 ///   l        m      lift, 2^-20 of the largest coordinate and at least 1e-6 m
 /// @derivation
-///   The way is taken as the parabola through x0 and x1 with v1 at its end:
+///   The path without contacts is taken as the parabola through x0 and x1 with v1 at its end:
 ///       v0 = 2 (x1 - x0) / T - v1,   a = (v1 - v0) / T                                      (1)
-///   which free flight under a constant acceleration is. At a contact after t
+///   which is exact for a constant acceleration. At a contact after t
 ///       v = v0 + a t,   v' = v - (1 + e) (v.n) n - c (v - (v.n) n)                           (2)
-///   and the rest T - t goes on from there with v' and a, l above the obstacle. After kMaxContacts of them,
-///   or where v.n is too small to leave again within the rest, the particle slides:
+///   and the motion continues for the rest T - t with v' and a, from l above the obstacle. After kMaxContacts
+///   contacts, or if v.n is too small for another flight within the rest, the particle slides:
 ///       v' <- v' - min(v'.n, 0) n,   a <- a - min(a.n, 0) n                                  (3)
-///   What ends inside of matter in spite of all that goes back to the beginning of its last leg   (4)
+///   If the end is inside of matter in spite of that, it is set back to the beginning of the last leg  (4)
 /// @source    elementary
-/// @deviation the order of contacts of a way that bends is that along its chords, but for planes
+/// @deviation contacts of curved paths are ordered along their chords, except those with planes
 /// @valid     T > 0; finite numbers
-/// @accuracy  a way that begins outside of matter ends outside; on a plane without friction, a drop from h
+/// @accuracy  a path that begins outside of matter ends outside; on a plane without friction, a drop from h
 ///            rises to e^2 h for any T
 /// @tests     tests/simulation/particles/modules/test_contact_path.cpp
 #pragma once
@@ -47,7 +47,7 @@ struct ObstacleEntry
     float friction;
 };
 
-/// A particle at the end of a step.
+/// State of a particle at the end of a step.
 struct ContactState
 {
     glm::vec3 position; ///< [m]
@@ -55,20 +55,20 @@ struct ContactState
     bool isHit = false;
     bool isKilled = false;
     bool isStuck = false;
-    float contact = 1.0f; ///< [1] of the step, of the first contact, or of the one that kills
+    float contact = 1.0f; ///< [1] share of the step at the first contact, or at the killing contact
 };
 
-constexpr int kMaxContacts = 8;      ///< of one particle in one step
-constexpr size_t kMaxObstacles = 16; ///< of one emitter
+constexpr int kMaxContacts = 8;      ///< maximum for one particle in one step
+constexpr size_t kMaxObstacles = 16; ///< maximum for one emitter
 
-/// Contacts that begin in a step, selected by (2) of event-ticks.
+/// Contacts that begin in a step, selected by rule (2) of event-ticks.
 struct ContactList
 {
     std::array<TileContact, kMaxContacts + 1> contacts;
     uint32_t count = 0;
 };
 
-/// @param state free end of the step
+/// @param state state at the end of the step without contacts
 /// @param seconds length of the step, > 0
 /// @param list receives the contacts; null: none are collected
 ContactState followPath(std::span<const ObstacleEntry> obstacles, const StepContext& step,

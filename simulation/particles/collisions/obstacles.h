@@ -1,30 +1,31 @@
 /// @file obstacles.h
-/// Obstacles that particles are swept against.
+/// Obstacles, with intersection tests for paths of particles.
 ///
 /// @formula swept-contact
-/// First place and time at which a way meets an obstacle.
+/// First position and time at which a path meets an obstacle.
 ///
 /// symbol   unit   meaning
-///   p(t)     m      way; p0, v, a: where it begins, its velocity and acceleration there
+///   p(t)     m      path; p0, v, a: its beginning, velocity and acceleration there
 ///   T        s      its duration
 ///   n, d     1, m   normal of a plane, distance from it
 ///   m, w     m      from the center to p0, from p0 to p(T)
-///   s        1      share of the straight way, 0..1
+///   s        1      share of the straight path, 0..1
 ///   R, H     m      radius, half extents
 ///   h(x,z)   m      height
 /// @derivation
-///   Plane, met by the parabola itself: the first t in [0, T] with
-///       d + (v.n) t + (a.n) t^2 / 2 = 0 and falling distance                                  (1)
-///   All others are met by the straight way p0 + s w.
+///   Plane and parabola: the first t in [0, T] with
+///       d + (v.n) t + (a.n) t^2 / 2 = 0 and decreasing distance                               (1)
+///   All other obstacles are intersected with the straight path p0 + s w.
 ///   Sphere: |m + s w|^2 = R^2; the smaller root from outside, the larger one from inside       (2)
-///   Box, with m and w turned into its frame: s is in [max of (-+H - m) / w, min of (+-H - m) / w] over the
-///   axes while inside; the beginning from outside, the end from inside                         (3)
-///   Heights: within one cell of the grid p0.y + s w.y - h is a polynomial of second degree in s; cells are
-///   visited in the order in which the way crosses them, the first root that leads below ends it  (4)
+///   Box, with m and w rotated into its frame: the path is inside while s is in the interval
+///   [max of (-+H - m) / w, min of (+-H - m) / w] over the axes. From outside, the contact is its beginning;
+///   from inside, its end                                                                            (3)
+///   Heights: within one cell of the grid, p0.y + s w.y - h is a quadratic polynomial in s. Cells are visited
+///   in the order in which the path crosses them. The first root that leads below is the contact     (4)
 /// @source    (2) and (3) as in [ERI05] sections 5.3.2 and 5.3.3; the rest is elementary
 /// @deviation none
-/// @valid     a way that begins on the wrong side is met at its beginning when it leads farther in
-/// @accuracy  double precision; nothing is skipped whatever the speed
+/// @valid     a path that begins on the wrong side and leads farther in has its contact at its beginning
+/// @accuracy  double precision; no contact is missed at any speed
 /// @tests     tests/simulation/particles/modules/test_obstacles.cpp
 #pragma once
 
@@ -40,16 +41,16 @@ class GpuModules;
 
 namespace fx::sim {
 
-/// Immutable. Any thread; allocates nothing.
+/// Immutable. [any thread]; allocates nothing.
 class Obstacle
 {
 public:
     virtual ~Obstacle() = default;
-    /// False when the obstacle does not exist in this step.
+    /// False if the obstacle does not exist in this step, for example without geometry of the host.
     virtual bool isThere(const StepContext&) const { return true; }
     virtual Clearance clearance(const StepContext& step, const glm::vec3& p) const = 0;
     virtual LegContact meet(const StepContext& step, const ContactLeg& leg) const = 0;
-    /// A bound that rejects particles far from it, many at once.
+    /// A simple bound by which many distant particles are rejected at once.
     struct Outline
     {
         enum Form : uint8_t
@@ -58,19 +59,19 @@ public:
             Plane,
             Ball
         } form = Everywhere;
-        glm::vec3 center{0.0f}; ///< of the ball, or of the plane's normal
+        glm::vec3 center{0.0f}; ///< center of the ball, or normal of the plane
         float size = 0.0f;      ///< [m] radius, or distance of the plane from the origin along its normal
         bool isHollow = false;  ///< points inside of the ball may be close to the surface
     };
     virtual Outline outline(const StepContext&) const { return {}; }
-    /// As GpuModuleSource::describe(): a module whose numbers go on with the response, restitution and
+    /// As GpuModuleSource::describe(). The module's numbers are followed by response, restitution and
     /// friction.
     virtual bool describe(base::GpuModules&) const { return false; }
 };
 
 std::unique_ptr<Obstacle> makeObstacle(const CollisionDef& def);
 
-// One file each.
+// Each function has its own file.
 std::unique_ptr<Obstacle> makePlaneObstacle(const CollisionDef& def); ///< Ground as well
 std::unique_ptr<Obstacle> makeSphereObstacle(const CollisionDef& def);
 std::unique_ptr<Obstacle> makeBoxObstacle(const CollisionDef& def);

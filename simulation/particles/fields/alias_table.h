@@ -1,19 +1,19 @@
 /// @file alias_table.h
-/// Draws one of many things of different weight in constant time.
+/// Selects one of many items at random, by their weights, in constant time.
 ///
 /// @formula alias-method
-/// A table with one row a thing, whose two entries make the weights even.
+/// A table with one row per item; the two entries of each row distribute the weights evenly over the rows.
 ///
 /// symbol   unit   meaning
-///   n        1      number of things
-///   pi       1      weight of thing i over the sum of weights
-///   qi       1      share of row i that keeps thing i, 0..1
-///   ai       1      the thing that takes the rest of row i
+///   n        1      number of items
+///   pi       1      weight of item i over the sum of weights
+///   qi       1      share of row i that selects item i, 0..1
+///   ai       1      the item that the rest of row i selects
 ///   u, c     1      uniform numbers in [0, 1)
 /// @derivation
-///   A row holds 1 / n of the probability. Rows with n pi < 1 are filled up by things with n pi > 1, which
-///   lose as much, until none is left                                                               (1) The
-///   draw is row i = floor(n u), then i when c < qi, else ai                               (2)
+///   A row holds 1 / n of the probability. Rows with n pi < 1 are filled up from items with n pi > 1, whose
+///   weight is reduced by the same amount, until all rows are full                                      (1)
+///   A draw selects row i = floor(n u), then item i if c < qi, otherwise item ai               (2)
 /// @source    [VOS91] for the linear-time construction
 /// @deviation none
 /// @valid     n >= 1; weights that are negative or not finite count as 0; when all are 0 they are equal
@@ -27,7 +27,7 @@
 
 namespace fx::sim {
 
-/// Immutable. Any thread.
+/// Immutable. [any thread]
 class AliasTable
 {
 public:
@@ -35,7 +35,7 @@ public:
     explicit AliasTable(std::span<const double> weights);
 
     uint32_t size() const { return uint32_t(rows_.size()); }
-    /// @param u in [0, 1), with 48 random bits for large tables @param coin in [0, 1)
+    /// Returns an item. @param u in [0, 1), with 48 random bits for large tables @param coin in [0, 1)
     uint32_t draw(double u, float coin) const
     {
         const uint32_t last = size() - 1;

@@ -1,24 +1,24 @@
 /// @file field_grid.h
-/// Numbers on the nodes of a regular grid: densities, heights and velocities that files bring.
+/// Values on the nodes of a regular grid, from files: densities, heights and velocities.
 ///
-/// A file `*.fxgrid` is a text header and the numbers behind it:
+/// A file `*.fxgrid` is a text header followed by binary numbers:
 ///     fxgrid 1
 ///     nodes NX NY NZ      1..4096 each, at most 2^24 together
-///     channels C          1 or 3 numbers a node
+///     channels C          1 or 3 numbers per node
 ///     low X Y Z           [m] the first node
-///     cell X Y Z          [m] between neighboring nodes, > 0
-///     data                and a line feed
-///     NX * NY * NZ * C binary32 numbers, little endian; channels run fastest, then x, y, z
-/// The members stand in this order, separated by blanks, each on a line that ends with a line feed.
+///     cell X Y Z          [m] distance between neighboring nodes, > 0
+///     data                followed by a line feed
+///     NX * NY * NZ * C binary32 numbers, little endian; channels vary fastest, then x, y, z
+/// The lines of the header have this order. Each ends with a line feed; spaces separate their words.
 ///
 /// @formula trilinear-vectors
-/// Numbers between the nodes of a grid.
+/// Values between the nodes of a grid by trilinear interpolation.
 ///
 /// symbol   unit   meaning
-///   p        m      place
+///   p        m      position
 ///   o, h     m      first node and distance of nodes, along each axis
-///   g        1      place in cells
-///   u        1      place within the cell, 0..1
+///   g        1      position in cells
+///   u        1      position within the cell, 0..1
 ///   fi, wi   any, 1 numbers at the eight corners and their weights
 /// @derivation
 ///   g = (p - o) / h, the cell is floor(g), at most the last one; u = g - floor(g)           (1)
@@ -26,7 +26,7 @@
 /// @source    elementary
 /// @deviation none
 /// @valid     0 <= g <= n - 1 on each axis; an axis of one node has no extent and is constant
-/// @accuracy  fields that are linear in space come out within float rounding
+/// @accuracy  fields that are linear in space are reproduced within float rounding
 /// @tests     tests/simulation/particles/modules/test_field_grid.cpp
 #pragma once
 
@@ -46,9 +46,9 @@ namespace fx::sim {
 
 constexpr uint32_t kMaxGridNodesPerAxis = 4096;
 constexpr size_t kMaxGridNodes = size_t(1) << 24;
-constexpr uint64_t kMaxGridBytes = uint64_t(kMaxGridNodes) * 12 + 1024; ///< of a file
+constexpr uint64_t kMaxGridBytes = uint64_t(kMaxGridNodes) * 12 + 1024; ///< maximum size of a file
 
-/// Immutable once it is shared. Any thread.
+/// Immutable once it is shared. [any thread]
 struct FieldGrid
 {
     glm::uvec3 nodes{1u};
@@ -65,7 +65,7 @@ struct FieldGrid
     glm::vec3 high() const { return low + cell * glm::vec3(nodes - 1u); } ///< [m] last node
 };
 
-/// @return Parse (with the place in bytes), TooLarge, InvalidArgument (a number is not finite)
+/// Parses a file. @return Parse (with the byte offset), TooLarge, InvalidArgument (a number is not finite)
 base::Result<std::shared_ptr<const FieldGrid>> parseFieldGrid(std::string_view bytes);
 
 /// The bytes of a file that parseFieldGrid() reads as `grid`.

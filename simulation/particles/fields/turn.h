@@ -2,19 +2,19 @@
 /// Rotation from +Y onto an axis.
 ///
 /// @formula shortest-turn
-/// The rotation by the smallest angle that takes +Y onto a unit vector.
+/// The rotation by the smallest angle that maps +Y to a unit vector.
 ///
 /// symbol   unit   meaning
 ///   a       1      unit vector
 ///   w       1      +Y x a
-///   v       any    what is turned
+///   v       any    vector to rotate
 /// @derivation
 ///   Rodrigues' formula with the angle's sine |w| and cosine a.y:
 ///       v' = v + w x v + (w x (w x v)) / (1 + a.y)                                            (1)
-///   The turn back is the one onto (-a.x, a.y, -a.z)                                           (2)
+///   The inverse rotation is the one that maps +Y to (-a.x, a.y, -a.z)                         (2)
 /// @source    elementary
-/// @deviation a = -Y, where the turn is open, is half a turn around +X
-/// @valid     |a| = 1; a = +Y leaves v exactly as it is
+/// @deviation for a = -Y the rotation is not unique; half a turn around +X is used
+/// @valid     |a| = 1; a = +Y does not change v
 /// @accuracy  float rounding, growing as 1 / (1 + a.y)
 /// @tests     tests/simulation/particles/modules/test_shapes.cpp
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace fx::sim {
 
-/// A unit vector along `v`, +Y when it has no length.
+/// A unit vector along `v`; +Y if `v` is zero.
 inline glm::vec3 unitOrUp(const glm::vec3& v)
 {
     const float size = glm::length(v);

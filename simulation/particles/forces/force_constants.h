@@ -1,5 +1,5 @@
 /// @file force_constants.h
-/// Numbers derived from the definition of a force, shared by the kernel on the CPU and the module on the GPU.
+/// Constants derived from the definition of a force, shared by the CPU kernel and the GPU module.
 #pragma once
 
 #include "simulation/particles/forces/force_defs.h"
@@ -9,7 +9,7 @@
 
 namespace fx::sim {
 
-/// Of formula attraction.
+/// Constants of formula attraction.
 struct AttractorConstants
 {
     explicit AttractorConstants(const AttractorDef& def)
@@ -26,7 +26,7 @@ struct AttractorConstants
     float factor;    ///< S R^n
 };
 
-/// Of formula vortex-air.
+/// Constants of formula vortex-air.
 struct VortexConstants
 {
     explicit VortexConstants(const VortexDef& def)
@@ -40,7 +40,7 @@ struct VortexConstants
     float along;   ///< [m3/s] R^2 U
 };
 
-/// Where the grid of a vector field lies, for formula trilinear-vectors.
+/// Position of the grid of a vector field, for formula trilinear-vectors.
 struct VectorFieldConstants
 {
     explicit VectorFieldConstants(const VectorFieldDef& def)

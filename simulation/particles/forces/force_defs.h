@@ -1,5 +1,5 @@
 /// @file force_defs.h
-/// Definitions of forces on particles, other than gravity, drag, wind and turbulence. All lengths in the
+/// Definitions of forces on particles, other than gravity, drag, wind and turbulence. All lengths are in the
 /// instance's local space.
 #pragma once
 
@@ -16,8 +16,8 @@ namespace fx::sim {
 /// Wind whose speed varies in time (gusts).
 struct GustDef
 {
-    glm::vec3 strength{0.0f}; ///< [m/s] most that each component gains or loses
-    float period = 1.0f;      ///< [s] between two turns, > 0
+    glm::vec3 strength{0.0f}; ///< [m/s] maximum change of each component
+    float period = 1.0f;      ///< [s] time between two changes, > 0
 };
 
 /// Air that rotates about an axis as a Kaufmann (Scully) vortex: its speed is largest at `radius`,
@@ -25,19 +25,19 @@ struct GustDef
 struct VortexDef
 {
     glm::vec3 position{0.0f};         ///< [m] a point of the axis
-    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< of any length > 0; right-handed turning
+    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< direction, of any length > 0; right-handed rotation
     float radius = 1.0f;              ///< [m] > 0
-    float speed = 0.0f;               ///< [m/s] of the air at `radius`
+    float speed = 0.0f;               ///< [m/s] speed of the air at `radius`
     float lift = 0.0f;                ///< [m/s] along the axis, at the axis
     float pull = 0.0f;                ///< [m/s] towards the axis, at `radius`
     float hold = 0.0f; ///< [1] 0..1 share of the acceleration that keeps a particle on its circle
 };
 
-/// How an attraction changes with distance.
+/// Dependence of an attraction on distance r.
 enum class Falloff : uint8_t
 {
     Spring,        ///< grows as r
-    Constant,      ///< everywhere the same
+    Constant,      ///< independent of r
     Inverse,       ///< falls as 1 / r
     InverseSquare, ///< falls as 1 / r^2
 };
@@ -50,13 +50,13 @@ struct AttractorDef
     Falloff falloff = Falloff::InverseSquare;
     float softening = 0.0f;  ///< [m] >= 0, keeps the acceleration finite at the center
     float reach = 0.0f;      ///< [m] distance beyond which the force is 0; 0: no limit
-    float killRadius = 0.0f; ///< [m] particles that come as near as that die; 0: none
+    float killRadius = 0.0f; ///< [m] particles within this distance die; 0: none
 };
 
 struct VectorFieldDef
 {
-    std::shared_ptr<const FieldGrid> grid; ///< of three channels
-    glm::vec3 position{0.0f};              ///< [m] of the grid's own origin
+    std::shared_ptr<const FieldGrid> grid; ///< grid with three channels
+    glm::vec3 position{0.0f};              ///< [m] origin of the grid
     float scale = 1.0f;                    ///< [1] > 0, of the grid's lengths
     float strength = 1.0f;                 ///< [1] multiplies the vectors
     bool isAcceleration = false;           ///< vectors are [m/s2]; otherwise velocities of the air [m/s]
@@ -70,17 +70,17 @@ enum class SurfaceKind : uint8_t
     Mesh,
 };
 
-/// Particles are drawn to a surface as by a damped spring.
+/// Attraction of particles to a surface by a damped spring.
 struct ConformDef
 {
     SurfaceKind kind = SurfaceKind::Sphere;
-    glm::vec3 position{0.0f};                   ///< [m] center, or of the mesh's own origin
+    glm::vec3 position{0.0f};                   ///< [m] center, or origin of the mesh
     glm::vec3 size{1.0f};                       ///< [m] radius (x) or half extents
-    std::shared_ptr<const DistanceField> field; ///< of the mesh
-    float distance = 0.0f;                      ///< [m] kept from the surface, negative inside
+    std::shared_ptr<const DistanceField> field; ///< distance field of the mesh
+    float distance = 0.0f;                      ///< [m] rest distance from the surface, negative inside
     float stiffness = 0.0f;                     ///< [1/s2] >= 0
     float damping = 0.0f;                       ///< [1/s] >= 0, of the velocity along the normal
-    float reach = 0.0f;                         ///< [m] nothing happens farther away; 0: everywhere
+    float reach = 0.0f;                         ///< [m] distance beyond which the force is 0; 0: no limit
 };
 
 } // namespace fx::sim

@@ -1,5 +1,5 @@
 /// @file force_op.h
-/// The module around a force that is a kernel and its definition.
+/// Template of a module that consists of a force kernel and its definition.
 #pragma once
 
 #include "foundation/simd/instruction_set.h"
@@ -36,8 +36,8 @@ private:
     Kernel kernel_;
 };
 
-/// @param describe see GpuModuleSource  @param kernel see FX_FORCE_KERNEL; the limit of instruction sets is
-/// applied before it is called
+/// @param describe see GpuModuleSource  @param kernel see FX_FORCE_KERNEL; the limit on instruction sets is
+///        applied before the call
 template <class Def>
 std::unique_ptr<TileOp> makeForceOp(const Def& def, const TileBound& bound,
                                     typename ForceOp<Def>::Describe describe,

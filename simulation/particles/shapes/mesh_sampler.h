@@ -1,20 +1,20 @@
 /// @file mesh_sampler.h
-/// Places on triangles and in grids, drawn in proportion to area and to density.
+/// Random positions on triangles and in grids, with probabilities proportional to area and density.
 ///
 /// @formula mesh-and-volume-samples
-/// Even samples of a surface and of a density.
+/// Uniform samples of a surface, and samples of a volume in proportion to its density.
 ///
 /// symbol   unit   meaning
-///   a, b, c  m      corners of the triangle that is drawn
+///   a, b, c  m      corners of the selected triangle
 ///   s, t     1      uniform numbers
-///   i        1      the node that is drawn
-///   h        m      distance of nodes
+///   i        1      selected node
+///   h        m      distance between nodes
 /// @derivation
-///   A triangle is drawn with a probability proportional to its area, and in it, even by the square root,
-///   p = a + r (1 - t) (b - a) + r t (c - a), r = s^(1/2)                                      (1)
-///   A node is drawn in proportion to its density, which fills the box of size h around the node:
+///   A triangle is selected with a probability proportional to its area. The position in it is uniform, due
+///   to the square root:  p = a + r (1 - t) (b - a) + r t (c - a), r = s^(1/2)                    (1)
+///   A node is selected in proportion to its density, which fills the box of size h around the node:
 ///   p = node i + h (s - 1/2, t - 1/2, v - 1/2)                                                (2)
-/// @source    elementary; the draw is alias-method
+/// @source    elementary; the selection is by alias-method
 /// @deviation none
 /// @valid     at least one triangle with an area, one node with a density; negative densities count as 0
 /// @accuracy  float rounding
@@ -49,7 +49,7 @@ struct VolumeSampler
 {
     glm::vec3 low{0.0f};          ///< [m] the first node
     glm::vec3 cell{1.0f};         ///< [m]
-    std::vector<glm::vec3> nodes; ///< [1] in cells from the first node; those with a density only
+    std::vector<glm::vec3> nodes; ///< [1] position in cells from the first node; only nodes with a density
     AliasTable table;
 };
 

@@ -13,23 +13,23 @@ class SplinePath;
 struct MeshSampler;
 struct VolumeSampler;
 
-/// Shapes of births, and the initial directions. Births are uniform in length, area or volume.
+/// Shapes of births, with the initial directions. Births are uniform in length, area or volume.
 enum class ShapeKind : uint8_t
 {
-    Point,  ///< heads everywhere
-    Sphere, ///< in the ball of radius size.x, or on it; heads outwards
-    Box,    ///< in the box of half extents size, or on its faces; heads along the axis, from a face outwards
+    Point,  ///< directions are uniform over the sphere
+    Sphere, ///< in the ball of radius size.x, or on it; direction outwards
+    Box, ///< in the box of half extents size, or on its faces; direction along the axis, from a face outwards
     Cone,   ///< on the disc of radius size.x, heads within `angle` of the axis; with a height, in the cone
             ///< that opens by `angle` above the disc, or on its side, and heads away from its tip
-    Line,   ///< along the axis, size.x to both sides; heads away from the line
-    Disc,   ///< on the disc of radius size.x, or on its rim; heads along the axis
-    Torus,  ///< in the tube of radius `tube` around the circle of radius size.x, or on it; heads outwards
-    Mesh,   ///< on the triangles; heads along their normals
-    Spline, ///< along the curve; heads along it
-    Volume, ///< where the grid has density; heads along the axis
+    Line,   ///< along the axis, size.x to both sides; direction away from the line
+    Disc,   ///< on the disc of radius size.x, or on its rim; direction along the axis
+    Torus,  ///< in the tube of radius `tube` around the circle of radius size.x, or on it; direction outwards
+    Mesh,   ///< on the triangles; direction along their normals
+    Spline, ///< along the curve; direction along its tangent
+    Volume, ///< in the density of the grid; direction along the axis
 };
 
-/// All lengths in the instance's local space.
+/// All lengths are in the instance's local space.
 struct ShapeDef
 {
     ShapeKind kind = ShapeKind::Point;
@@ -43,7 +43,7 @@ struct ShapeDef
     float tube = 0.0f;                ///< [m] of the torus, 0..size.x
     bool onSurface = false;           ///< on the surface instead of inside
 
-    // Needed by their shapes; relative to `position`, turned by `axis` like all others.
+    // Required by the shape of the same name; relative to `position` and rotated by `axis`.
     std::shared_ptr<const MeshSampler> mesh;
     std::shared_ptr<const SplinePath> spline;
     std::shared_ptr<const VolumeSampler> volume;

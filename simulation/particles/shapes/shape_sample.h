@@ -2,11 +2,11 @@
 /// Position and direction of a birth, as a function of random numbers.
 ///
 /// @formula even-shapes
-/// Even samples of lines, discs, balls, boxes, cones and tori, with and without their inside.
+/// Uniform samples of lines, discs, balls, boxes, cones and tori, of their interior or surface.
 ///
 /// symbol   unit   meaning
 ///   u1..u4   1      independent uniform numbers in [0, 1)
-///   R, k     m, 1   radius, share of it that stays empty
+///   R, k     m, 1   radius, share of the radius that stays empty
 ///   alpha    rad    half angle of the cone
 ///   q, T     m      radius of the torus's tube and of the circle that it surrounds
 ///   H        m      height of the cone
@@ -14,13 +14,13 @@
 ///   direction with z = cos: c = 1 - u1 (1 - cos alpha), azimuth u2 turns; alpha = pi is the sphere   (1)
 ///   radius in the ball R (k^3 + u (1 - k^3))^(1/3), in the disc R (k^2 + u (1 - k^2))^(1/2): the volume or
 ///   area below r grows uniformly; on the surface k = 1                                             (2)
-///   The cone above the disc has radius r = R + z tan(alpha) at height z; its volume below z grows as r^3,
-///   its side as r^2, so these are uniform between their ends; alpha = 0 is the cylinder, z = u H (3) In the
-///   torus the volume at the angle b around the tube is proportional to T + r cos b. With b uniform,
-///   exchanging b by its mirror image, which turns the sign of cos b, with the probability
-///   (1 - (r / T) cos b) / 2 leaves b with the density (T + r cos b) / (2 pi T)                       (4)
-///   where r is drawn as in the disc                                                                (5)
-///   On a box, a face is drawn in proportion to its area                                            (6)
+///   The cone above the disc has radius r = R + z tan(alpha) at height z. Its volume below z grows as r^3,
+///   its lateral area as r^2, so these powers are uniform between their limits. For the cylinder,
+///   alpha = 0, z = u H                                                                             (3)
+///   In the torus the volume at the angle b around the tube is proportional to T + r cos b. b is drawn
+///   uniformly. With the probability (1 - (r / T) cos b) / 2 it is replaced by its mirror image, which
+///   inverts the sign of cos b. Then b has the density (T + r cos b) / (2 pi T)                     (4)
+///   The radius r in the tube is drawn as in the disc                                               (5)
 /// @source    elementary (inversion of the distribution function)
 /// @deviation none
 /// @valid     R = 0 gives the center; alpha is clamped to [0, pi], q to [0, T]
@@ -36,7 +36,7 @@
 
 namespace fx::sim {
 
-/// How a particle begins, in the instance's local space.
+/// Initial position and direction of a particle, in the instance's local space.
 struct ShapePlace
 {
     glm::vec3 position;  ///< [m]
@@ -48,13 +48,13 @@ struct ShapePlace
 ShapePlace sampleShape(const ShapeDef& def, const std::array<float, 4>& place,
                        const std::array<float, 4>& heading);
 
-/// [1] The growth of a cone's radius with its height.
+/// [1] Growth of the cone's radius per height.
 double slopeOf(const ShapeDef& def);
 
-/// The same for many births.
+/// Module that samples the shape for many births at once.
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def);
 
-/// Definition of a shape of makeShapeOp(); null for others.
+/// Definition of a shape made by makeShapeOp(); null for other shapes.
 const ShapeDef* shapeOf(const ShapeOp& shape);
 
 } // namespace fx::sim

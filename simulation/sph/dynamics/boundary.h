@@ -1,5 +1,5 @@
 /// @file boundary.h
-/// Particles at the sides of the domain.
+/// Boundary conditions for particles at the sides of the domain.
 #pragma once
 
 #include "simulation/sph/neighbors/domain.h"
@@ -10,7 +10,7 @@
 
 namespace fx::sim {
 
-/// One axis of a domain in the precision of the particles.
+/// One axis of a domain, in the precision of the particles.
 template <class T>
 struct BoundaryAxis
 {
@@ -30,7 +30,7 @@ std::array<BoundaryAxis<T>, 3> boundaryAxes(const Domain& domain)
     return axes;
 }
 
-/// True when `x` has left its axis.
+/// True when `x` is outside of the domain on this axis.
 template <class T>
 bool hasLeft(const BoundaryAxis<T>& axis, T x)
 {
@@ -39,7 +39,8 @@ bool hasLeft(const BoundaryAxis<T>& axis, T x)
     return x < axis.low || (axis.kind == AxisKind::Periodic ? x >= axis.high : x > axis.high);
 }
 
-/// Brings `x` back: around, or thrown back by the wall. True when the motion along this axis is reversed.
+/// Moves `x` back into the domain, periodically or by reflection. True if the velocity on this axis is
+/// reversed.
 template <class T>
 bool bringBack(const BoundaryAxis<T>& axis, T& x)
 {

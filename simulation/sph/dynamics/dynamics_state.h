@@ -15,29 +15,30 @@
 
 namespace fx::sim {
 
-constexpr double kEndless = 1e30; ///< [s] step of a particle on which no force acts
+constexpr double kEndless = 1e30; ///< [s] step of a particle that no criterion limits
 
-/// After heat input or new particles, step criteria underestimate the roughness of the flow. So the first
-/// steps are shortened by this factor, and doubled each time. Fitted by the energy error of a point blast in
-/// 24^3 particles with block steps: 1.9e-2 for 1, 5e-3 for 1/2, 3.2e-3 for 1/4, 3.0e-3 for 1/8.
+/// After heat input or new particles, step criteria underestimate the changes of the flow. Therefore the
+/// first step is shortened by this factor, and each further step may be twice as long. Fitted by the energy
+/// error of a point blast in 24^3 particles with block steps: 1.9e-2 for 1, 5e-3 for 1/2, 3.2e-3 for 1/4,
+/// 3.0e-3 for 1/8.
 constexpr float kFirstSteps = 0.25f;
 
-/// Heat that arrives later.
+/// Heat that is released at a later time.
 struct DelayedHeat
 {
     double seconds; ///< [s] from the beginning of the next frame
     double joules;
     uint32_t id;
-    uint32_t isGiven; ///< 1 between that moment and the end of the frame
+    uint32_t isGiven; ///< 1 between the release and the end of the frame
 };
 
 /// Neighbor lists of all particles and their validity. They are kept from frame to frame.
 struct ListState
 {
     bool valid = false;
-    double margin = 0;  ///< [1] as built
-    double moved = 0;   ///< [1] farthest way of a particle since, in units of its support
-    double growth = 0;  ///< [1] largest growth of a support since
+    double margin = 0;  ///< [1] margin with which the lists were built
+    double moved = 0;   ///< [1] largest displacement of a particle since the build, in units of its support
+    double growth = 0;  ///< [1] largest growth of a support since the build
     double perStep = 0; ///< [1] `moved` of the last sub-step
 };
 
@@ -46,7 +47,7 @@ struct Advance
 {
     bool isOpen = false;
     double left = 0;  ///< [s] remaining of the requested time
-    double frame = 0; ///< [s] of the frame that is open; 0 between frames
+    double frame = 0; ///< [s] length of the open frame; 0 between frames
     AdvanceReport report;
 };
 
@@ -71,39 +72,41 @@ struct DynamicsState
 
     uint32_t count = 0;
     GasColumns<T> gas;
-    base::Column<uint32_t> slot; ///< of each id
-    bool fresh = false;          ///< particles without a density are among them
-    bool stale =
-        false; ///< accelerations do not belong to the state, because the caller changed the particles
-    bool shaken = false;    ///< changed by heat or new particles: the first steps must be short
-    bool heatedNow = false; ///< heat has arrived at this tick
-    std::pmr::vector<DelayedHeat> delayed; ///< by time
+    base::Column<uint32_t> slot; ///< slot of each id
+    bool fresh = false;          ///< some particles have no density yet
+    /// Accelerations are outdated, because the caller changed the particles.
+    bool stale = false;
+    bool shaken = false;    ///< heat or new particles were added, so the first steps must be short
+    bool heatedNow = false; ///< heat was released at this tick
+    std::pmr::vector<DelayedHeat> delayed; ///< sorted by time
 
     ParticleTree<T> tree;
     bool treeIsSorted = false;
-    bool mustRecoverTree = false; ///< restored: the tree is to be made from sortedX..sortedSupport
+    bool mustRecoverTree = false; ///< restored: the tree must be rebuilt from sortedX..sortedSupport
     NeighborLists<T> lists;
     ListState listState;
-    bool listsServeActive = false;                            ///< every active slot has a list
-    base::Column<T> sortedX, sortedY, sortedZ, sortedSupport; ///< as the tree was sorted by, to sort it again
-    base::Column<T> nowX, nowY, nowZ;                         ///< [m] positions now, for the tree
-    base::Column<T> listX, listY, listZ, listSupport; ///< where `listState` was built, while it is valid
+    bool listsServeActive = false; ///< every active slot has a list
+    /// positions and supports of the last sort, to repeat it
+    base::Column<T> sortedX, sortedY, sortedZ, sortedSupport;
+    base::Column<T> nowX, nowY, nowZ; ///< [m] positions now, for the tree
+    /// values at the build of `listState`, while it is valid
+    base::Column<T> listX, listY, listZ, listSupport;
     /// Records of the particles for their neighbors, at the present time.
     base::Column<GasRecord<T>> records;
-    base::Column<uint32_t> recordRound; ///< the prediction that each record belongs to
+    base::Column<uint32_t> recordRound; ///< number of the prediction that wrote each record
     uint32_t round = 0;                 ///< number of the last prediction
     bool recordsAreComplete = false;    ///< all records belong to the last prediction
 
     uint64_t now = 0;              ///< [tick] of the frame
-    double tick = 0;               ///< [s]
+    double tick = 0;               ///< [s] length of a tick
     base::Column<uint32_t> active; ///< slots whose step ends now, ascending
     uint32_t activeCount = 0;
     base::Column<uint32_t> blockCounts; ///< active slots of each block of kBlock slots
-    base::Column<uint64_t> blockEnds;   ///< [tick] first end after `now` of a step in each block
+    base::Column<uint64_t> blockEnds;   ///< [tick] earliest end after `now` of a step in each block
     base::Column<T> blockSpeeds;        ///< [1/s2] largest (|v| / H)^2 in each block
-    base::Column<uint64_t> blockNow;    ///< [tick] for which nowX..nowZ of each block hold
-    base::Column<uint8_t> blockChanged; ///< 1 where steps in the block have changed since
-    std::atomic<uint64_t> nextEnd{0};   ///< [tick] when the next steps end
+    base::Column<uint64_t> blockNow;    ///< [tick] time of nowX..nowZ of each block
+    base::Column<uint8_t> blockChanged; ///< 1 if steps in the block have changed since the last prediction
+    std::atomic<uint64_t> nextEnd{0};   ///< [tick] earliest end of the next steps
     double fastest = 0;                 ///< [1/s] largest |v| / H
 
     base::Column<uint8_t> wantsReach;
@@ -113,7 +116,7 @@ struct DynamicsState
     base::Column<T> heating;
     base::Column<T> signalSpeed;
     base::Column<T> fastestNeighbor;
-    base::Column<uint8_t> levelLimit; ///< longest step that the neighborhood allows
+    base::Column<uint8_t> levelLimit; ///< level of the longest step that the neighborhood allows
 
     std::atomic<uint64_t> clamped{0};
     uint64_t pairSum = 0;
@@ -121,7 +124,7 @@ struct DynamicsState
     Advance advance;
 };
 
-/// Largest and smallest of values that threads offer; the order in which they come does not matter.
+/// Maximum and minimum over values of several threads; the result does not depend on the order of calls.
 template <class N>
 void raiseTo(std::atomic<N>& largest, N value)
 {
@@ -137,7 +140,7 @@ void lowerTo(std::atomic<N>& smallest, N value)
     }
 }
 
-/// [m5/(kg s2)] Push of a particle on its neighbors.
+/// [m5/(kg s2)] The quantity p of gas-pair-forces.
 template <class T>
 T pushOf(const DynamicsState<T>& s, T correction, T pressure, T density)
 {
@@ -151,7 +154,7 @@ double largestInDomain(const GasDynamicsDef& def);
 
 constexpr uint32_t kBlock = 1024; ///< slots of a block in sums and searches over all particles
 
-/// Lets the next prediction look at the block of `slot` again. Thread-safe.
+/// Makes the next prediction process the block of `slot`. Thread-safe.
 template <class T>
 void markChanged(DynamicsState<T>& s, uint32_t slot)
 {

@@ -1,5 +1,5 @@
 /// @file gas_columns.h
-/// Everything that a gas particle is, as columns in the order of the neighbor tree.
+/// All data of gas particles, as columns in the order of the neighbor tree.
 #pragma once
 
 #include "foundation/memory/column.h"
@@ -12,9 +12,9 @@
 
 namespace fx::sim {
 
-/// All arrays are indexed by slot. During a frame every particle has its own step: velocity and entropy are
-/// those at the middle of the step, the position that at the tick `drifted`, all other columns those at
-/// `begin`. Between frames all columns are synchronous and the ticks are 0.
+/// All arrays are indexed by slot. During a frame every particle has its own step: velocity and entropy refer
+/// to the middle of the step, the position to the tick `drifted`, and all other columns to `begin`. Between
+/// frames all columns refer to the same time, and the ticks are 0.
 template <class T>
 struct GasColumns
 {
@@ -23,7 +23,7 @@ struct GasColumns
     /// Moves the data of index order[slot] to `slot`, for every column.
     void permute(std::span<const uint32_t> order, base::TaskRunner& tasks);
 
-    /// Calls f(column) for every column that lasts from frame to frame.
+    /// Calls f(column) for every column that is kept from frame to frame.
     template <class F>
     void forEachLasting(F&& f)
     {
@@ -32,7 +32,7 @@ struct GasColumns
             f(*column);
     }
 
-    base::Column<uint32_t> id;        ///< the number that the particle was added with
+    base::Column<uint32_t> id;        ///< index with which the particle was added
     base::Column<T> x, y, z;          ///< [m]
     base::Column<T> vx, vy, vz;       ///< [m/s]
     base::Column<T> mass;             ///< [kg]
@@ -54,7 +54,7 @@ struct GasColumns
     base::Column<T> energyRate;       ///< [W/kg]
     base::Column<T> sound;            ///< [m/s]
     base::Column<T> heatToEntropy;    ///< dK per heat
-    base::Column<T> wantedStep;       ///< [s] longest step allowed by the particle and its neighborhood
+    base::Column<T> wantedStep;       ///< [s] longest step that the particle and its neighborhood allow
 
     base::Column<uint64_t> begin, end; ///< [tick] of the particle's step
     base::Column<uint64_t> drifted;    ///< [tick] time of the position

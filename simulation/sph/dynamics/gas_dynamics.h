@@ -3,9 +3,9 @@
 /// support, entropy form, viscosity with a switch, kick-drift-kick with one step for all or a hierarchy of
 /// steps.
 ///
-/// Independent of presets, pictures and verification cases, which all use it. One thread at a time calls a
-/// GasDynamics; it spreads its loops over the task runner it is given, and gives the same bits for any
-/// runner. All memory comes from the resource given at the beginning, except for save().
+/// Independent of presets, pictures and verification cases, which all use it. Threads: one at a time. Loops
+/// run on the given task runner; results have the same bits for any runner. All memory comes from the given
+/// resource, except in save().
 #pragma once
 
 #include "foundation/result/status.h"
@@ -32,10 +32,10 @@ struct DynamicsState;
 enum class StepScheme : uint8_t
 {
     Global, ///< all particles take the smallest step: momentum is conserved to rounding
-    Block   ///< powers of two of a tick, each particle its own
+    Block   ///< each particle has its own step, a power of two of a tick
 };
 
-/// A particle as it enters or leaves.
+/// State of a particle that is added or read.
 struct GasParticle
 {
     glm::dvec3 position{0.0}; ///< [m]
@@ -44,7 +44,7 @@ struct GasParticle
     double energy = 0;        ///< [J/kg] specific internal energy, >= 0, cold curve included
 };
 
-/// The numbers for shocks were chosen on the point blast of `fx verify sedov`, see docs/verification.md.
+/// The values for shocks were chosen by the point blast of `fx verify sedov`, see docs/verification.md.
 struct ViscosityRules
 {
     double alphaMin = 0.05;     ///< [1]
@@ -64,33 +64,33 @@ struct GasDynamicsDef
     ViscosityRules viscosity;
     StepScheme steps = StepScheme::Block;
     double courant = 0.2;        ///< [1] step = 2 courant h / v_sig, h = H / 2
-    double volumeChange = 0.025; ///< [1] largest value of a particle in a step
+    double volumeChange = 0.025; ///< [1] largest relative change of volume of a particle in a step
     double neighborStepRatio =
         4; ///< [1] limiter of steps between neighbors; infinity switches it off (tests)
-    /// false, for a look: block steps take no care of pairs with unlike steps, gas-step, and a support that
-    /// grows faster than lists foresee takes the rest in the next steps: fewer steps and searches, less exact
-    /// energy.
+    /// false: less exact, for visual use. Block steps ignore the rule for pairs with unequal steps
+    /// (gas-step). A support that must grow beyond its list grows further in the next steps. This needs fewer
+    /// steps and searches, and the energy is less exact.
     bool exact = true;
-    uint32_t maxSubSteps = 1u << 30; ///< >= 1, in one advance(); the remaining time is debt
-    double smallestSupport = 0;      ///< [m] 0: a ten-thousandth of the first median
-    double largestSupport = 1e30;    ///< [m] 1e30: two hundred times the first median
+    uint32_t maxSubSteps = 1u << 30; ///< >= 1, limit for one advance(); the remaining time is debt
+    double smallestSupport = 0;      ///< [m] 0: 1e-4 of the median at the start
+    double largestSupport = 1e30;    ///< [m] 1e30: 200 times the median at the start
     Domain domain;
     glm::dvec3 gravity{0.0};    ///< [m/s2]
     double ambientPressure = 0; ///< [Pa] of air that is not simulated
-    bool tension = true; ///< false: gas thinner than the ambient pressure allows is not drawn together; for a
-                         ///< cloud in air that is not simulated: the density sum underestimates the density
-                         ///< at its surface
+    /// false: no attraction where the pressure is below the ambient pressure. This is for a cloud in air that
+    /// is not simulated, because the density sum underestimates the density at its surface.
+    bool tension = true;
 };
 
 /// Work of sub-steps in units of base::WorkBudget.
 namespace gas_work {
 constexpr uint64_t kParts = 16;
-constexpr uint64_t kParticle = 36;   ///< of kParts, for each existing particle: prediction, search
+constexpr uint64_t kParticle = 36;   ///< of kParts, for each existing particle: prediction and search
 constexpr uint64_t kEvaluation = 40; ///< for each particle whose rates are evaluated, without its pairs
 constexpr uint64_t kPair = 15;       ///< of kParts, for each ordered pair
 } // namespace gas_work
 
-/// Sums over all particles, in double, in a fixed order.
+/// Sums over all particles, in double precision, in a fixed order.
 struct GasTotals
 {
     double mass = 0;
@@ -98,24 +98,24 @@ struct GasTotals
     double momentumScale = 0; ///< [kg m/s] sum m |v|
     double kinetic = 0;       ///< [J]
     double thermal = 0;       ///< [J]
-    double potential = 0;     ///< [J] in gravity and against the ambient pressure
+    double potential = 0;     ///< [J] of gravity and of work against the ambient pressure
     double energy() const { return kinetic + thermal + potential; }
 };
 
 struct AdvanceReport
 {
-    double seconds = 0; ///< simulated
+    double seconds = 0; ///< [s] simulated time
     double debt = 0;    ///< [s] requested but not simulated
     uint64_t subSteps = 0;
     uint64_t particleSteps = 0; ///< sum of active particles over sub-steps = force evaluations
     uint64_t pairs = 0;         ///< ordered neighbor pairs in force evaluations
-    uint64_t searches = 0;      ///< times that lists were built
+    uint64_t searches = 0;      ///< number of builds of lists
     uint64_t clamped = 0;       ///< values limited to keep the state finite
 };
 
-/// Columns that outer physics (drag, buoyancy, combustion) may read and change between two calls of advance.
-/// Arrays are indexed by slot, an order that changes with every advance; id[slot] is the index with which the
-/// particle was added. After writing, call edited().
+/// Columns that other physics (drag, buoyancy, combustion) may read and change between two calls of
+/// advance(). Arrays are indexed by slot. The order of slots changes with every advance(); id[slot] is the
+/// index with which the particle was added. After writing, call edited().
 template <class T>
 struct GasView
 {
@@ -135,31 +135,34 @@ struct GasView
     const T* exposure;   ///< [1] 0 deep inside the gas, about 1 on a free surface
 };
 
-/// Refuses a definition that is not finite or out of the ranges stated at its members.
+/// Returns an error for a definition with a value that is not finite or outside the range stated at its
+/// member.
 base::Status checkGasDynamicsDef(const GasDynamicsDef& def);
 
 template <class T>
 class GasDynamics
 {
 public:
-    /// @param def one that checkGasDynamicsDef accepts
+    /// @param def a definition that checkGasDynamicsDef() accepts
     GasDynamics(const GasDynamicsDef& def, std::pmr::memory_resource* memory);
     ~GasDynamics();
 
-    /// Adds particles between two calls of advance. Refuses, with the state unchanged, values that are not
-    /// finite, negative, beyond capacity or outside the domain, masses and energies outside [1e-20, 1e20] kg
-    /// and [0, 1e18] J/kg, positions and speeds beyond 1e9. Ids are given in order from 0.
+    /// Adds particles between two calls of advance(). Ids are assigned in order from 0. Fails, with the state
+    /// unchanged, for values that are not finite or negative, beyond capacity or outside the domain, for
+    /// masses outside [1e-20, 1e20] kg, energies outside [0, 1e18] J/kg, and positions [m] and speeds [m/s]
+    /// beyond 1e9.
     base::Status add(std::span<const GasParticle> particles);
-    /// Solves supports and densities and converts energies to entropies; re-evaluates data that edited(),
-    /// inject() and setEnergy() have invalidated. advance() calls it if needed. Does nothing otherwise.
+    /// Solves for supports and densities and converts energies to entropies. Re-evaluates data that edited(),
+    /// inject() and setEnergy() have invalidated. advance() calls it if needed. Does nothing if all data are
+    /// valid.
     void initialize(base::TaskRunner& tasks);
 
-    /// Steps by `seconds`: 0 changes nothing; NaN, infinite and negative values are refused (the state
-    /// unchanged). All particles are synchronous afterwards. Results that are NaN never enter the state: the
-    /// particle keeps its values, and the report counts it.
-    /// @param work is charged for each sub-step. If it is used up before the end, isAdvancing() is true, and
-    ///         the call must be repeated, before any other, until it is false. The sub-steps are the same,
-    ///         and the last report is that of all of them.
+    /// Advances by `seconds`. 0 changes nothing; NaN, infinite and negative values are errors that leave the
+    /// state unchanged. Afterwards all particles refer to the same time. NaN never enters the state: a
+    /// particle whose result is NaN keeps its values, and the report counts it.
+    /// @param work budget of the sub-steps. If it is used up before the end, isAdvancing() is true, and the
+    ///         call must be repeated, before any other call, until it is false. The sub-steps are those of a
+    ///         single call, and the last report covers all calls.
     base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks, base::WorkBudget& work);
     base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks)
     {
@@ -167,34 +170,34 @@ public:
         return advance(seconds, tasks, unlimited);
     }
     bool isAdvancing() const;
-    /// Leaves the rest of an advance that was begun.
+    /// Discards the rest of an unfinished advance().
     void abandonAdvance();
 
-    /// Gives particle `id` < count() `joules` of heat: exact at constant density; negative heat is refused
-    /// beyond the available energy. Its neighborhood is activated.
+    /// Adds `joules` of heat to particle `id` < count(); exact at constant density. Negative heat beyond the
+    /// available energy is an error. The neighborhood of the particle is activated.
     void inject(uint32_t id, double joules);
-    /// The same after `delay` >= 0 seconds, also in the middle of the particle's step, with a precision of a
-    /// thousandth of the frame.
+    /// As inject(), after `delay` >= 0 seconds, also in the middle of the particle's step. The time is exact
+    /// to a thousandth of the frame.
     void injectLater(uint32_t id, double joules, double delay);
     /// Sets the internal energy of particle `id` [J/kg] at its density.
     void setEnergy(uint32_t id, double energy);
     /// Must be called after a write through view(), unless nudged() is called instead.
     void edited();
-    /// Instead of edited() and setPressureScale(), after small changes: pressure, energy and speed of sound
-    /// follow at once, densities and rates with the next evaluation. So the first half kick of the next steps
-    /// has the forces from before the change, an error of first order in the step, and advance() needs no
-    /// evaluation before it.
+    /// Replaces edited() and setPressureScale() after small changes. Pressure, energy and speed of sound are
+    /// updated at once; densities and rates are updated by the next evaluation. Therefore the first half kick
+    /// of the next steps uses the forces from before the change, an error of first order in the step, and
+    /// advance() needs no evaluation at its beginning.
     void nudged(double pressureScale, base::TaskRunner& tasks);
-    /// Moves particles that have come too close apart, particle-shifting, by at most `longest` spacings each;
-    /// densities follow with the next evaluation. edited() or nudged() has to follow. Does nothing before
-    /// initialize(). Pointers of views are not valid afterwards.
+    /// Moves particles apart that are too close (particle-shifting), by at most `longest` spacings each.
+    /// Densities are updated by the next evaluation. edited() or nudged() must be called afterwards. Does
+    /// nothing before initialize(). Invalidates the pointers of views.
     /// @param strength [1] > 0 @param longest [1] > 0
     void shift(double strength, double longest, base::TaskRunner& tasks);
 
-    /// Reduced speed of sound: pressure forces are multiplied by `scale` in (0, 1] and the speed of sound in
-    /// signal speeds by its square root, so that steps grow. A deviation from physics: flows whose Mach
-    /// number stays below 0.3 with the reduced speed are nearly those of the full one; the kinetic energy
-    /// that expansion gives is multiplied by `scale`, so total energy is not conserved.
+    /// Reduces the speed of sound: pressure forces are multiplied by `scale` in (0, 1], and the speed of
+    /// sound in signal speeds by its square root, so that steps become longer. This deviates from physics.
+    /// Flows whose Mach number stays below 0.3 at the reduced speed are nearly unchanged. The kinetic energy
+    /// from expansion is multiplied by `scale`, so total energy is not conserved.
     void setPressureScale(double scale);
     double pressureScale() const;
 
@@ -207,13 +210,14 @@ public:
     double densityOf(uint32_t id) const;     ///< [kg/m3]
     double pressureOf(uint32_t id) const;    ///< [Pa]
     double supportOf(uint32_t id) const;     ///< [m]
-    double stepOf(uint32_t id) const;        ///< [s] longest step that the particle allows now
+    double stepOf(uint32_t id) const;        ///< [s] longest step that the criteria allow now
     GasTotals totals() const;
-    uint64_t hash() const; ///< of the whole state, by id: equal for equal states
+    uint64_t hash() const; ///< of the whole state, by id; equal for equal states
 
-    /// The whole state as bytes, and back into an object of the same definition: advancing afterwards gives
-    /// the same bits. Bytes that are damaged or do not fit are refused, the state unchanged; forged ones,
-    /// with the right checksum but impossible values, are refused and leave no particles.
+    /// Saves the whole state as bytes, and restores it into an object of the same definition. Advancing
+    /// afterwards gives the same bits. Damaged or unsuitable bytes are an error that leaves the state
+    /// unchanged. Forged bytes, with the right checksum but impossible values, are an error that leaves no
+    /// particles.
     void save(std::vector<std::byte>& out) const;
     base::Status restore(std::span<const std::byte> bytes);
 

@@ -11,29 +11,30 @@
 
 namespace fx::sim {
 
-// Frames from their beginning to their end: frame.cpp.
+// Frames: frame.cpp.
 
-/// Computes supports, densities and entropies of new particles, then evaluates all particles if the caller
-/// has changed any. Does nothing otherwise.
+/// Computes supports, densities and entropies of new particles. If the caller has changed any particle, then
+/// evaluates all particles.
 template <class T>
 void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Steps by `seconds` > 0 within the budget of sub-steps. If `work` is used up before, state.advance stays
-/// open, and the next call continues; the report is that of all calls.
+/// Advances by `seconds` > 0 within the limit of sub-steps. If `work` is used up before the end,
+/// state.advance stays open, and the next call continues. The report covers all calls.
 template <class T>
 AdvanceReport runFrames(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks,
                         base::WorkBudget& work);
 
-// Small changes from outside between two frames, taken in without a new evaluation: nudge.cpp.
+// Small external changes between two frames, without a new evaluation: nudge.cpp.
 
-/// Brings pressure, energy and sound of all particles to their entropies, wanted steps to the speed of sound,
-/// and the account of the lists to the positions. @param pressureScale (0, 1], others are passed over
+/// Updates pressure, energy and speed of sound of all particles from their entropies, their longest steps
+/// from the speed of sound, and the validity of the lists from the positions.
+/// @param pressureScale (0, 1], other values are ignored
 template <class T>
 void acceptNudge(DynamicsState<T>& state, double pressureScale, base::TaskRunner& tasks);
 
 // Validation of particles: particle_check.cpp.
 
-/// Refuses particles outside the ranges that GasDynamics::add states.
+/// Returns an error for particles outside the ranges that GasDynamics::add() states.
 base::Status checkParticle(const GasParticle& particle, const Domain& domain);
 
 /// Appends a particle; it has no density until prepare().
@@ -42,11 +43,12 @@ void appendParticle(DynamicsState<T>& state, const GasParticle& particle);
 
 // The whole state as bytes: state_bytes.cpp.
 
-/// Appends the state between two frames to `out`: a header, then column after column in the order of slots.
+/// Appends the state between two frames to `out`: a header, then one column after another in the order of
+/// slots.
 template <class T>
 void saveState(const DynamicsState<T>& state, std::vector<std::byte>& out);
 
-/// Reads what saveState has written for the same definition. The tree is not saved: it is rebuilt from the
+/// Reads the output of saveState() for the same definition. The tree is not saved; it is rebuilt from the
 /// positions of the last sort.
 template <class T>
 base::Status restoreState(DynamicsState<T>& state, std::span<const std::byte> bytes);

@@ -1,17 +1,17 @@
 /// @file heat_input.h
-/// Heat that comes from outside, now or in the middle of a frame.
+/// External heat input, at once or in the middle of a frame.
 #pragma once
 
 #include "simulation/sph/dynamics/dynamics_state.h"
 
 namespace fx::sim {
 
-/// Gives the particle at `slot` heat: exact for any amount at constant density, whatever its step. Its
-/// viscosity jumps to the largest.
+/// Adds heat to the particle at `slot`: exact for any amount at constant density, at any time within its
+/// step. Its viscosity is set to the largest value.
 template <class T>
 void heatParticle(DynamicsState<T>& state, uint32_t slot, double joules);
 
-/// [tick] when the next delayed heat arrives; the end of the frame if none does.
+/// [tick] time of the next delayed heat; the end of the frame if there is none.
 template <class T>
 uint64_t nextHeat(const DynamicsState<T>& state);
 
@@ -19,11 +19,11 @@ uint64_t nextHeat(const DynamicsState<T>& state);
 template <class T>
 void wakeHeated(DynamicsState<T>& state);
 
-/// Gives out the delayed heat that is due now, to particles whose density is that of now.
+/// Releases the delayed heat that is due now, to particles whose density refers to the present.
 template <class T>
 void giveDelayedHeat(DynamicsState<T>& state);
 
-/// Moves delayed heat nearer by `seconds`.
+/// Reduces the delays of pending heat by `seconds`.
 template <class T>
 void passTime(DynamicsState<T>& state, double seconds);
 

@@ -6,7 +6,7 @@
 
 namespace fx::sim {
 
-/// Whether the order of the particles is still usable; if not, they are sorted at the next evaluation.
+/// True while the order of the particles is usable; otherwise the next evaluation sorts them.
 template <class T>
 bool treeIsGood(const DynamicsState<T>& s)
 {
@@ -19,8 +19,8 @@ bool treeIsGood(const DynamicsState<T>& s)
 template <class T>
 void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Restores the tree of a state whose columns are in the order of a sort by sortedX..sortedSupport, and the
-/// lists that were built at listX..listSupport, if listState has any.
+/// Restores the tree of a state, whose columns are in the order of a sort by sortedX..sortedSupport. If
+/// listState is valid, also restores the lists, which were built at listX..listSupport.
 template <class T>
 void recoverTree(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -33,11 +33,11 @@ void searchNeighbors(DynamicsState<T>& state, std::span<const uint32_t> owners, 
 template <class T>
 void measureWays(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// [1] How much supports may grow with the lists that exist; 0 where they must be searched again.
+/// [1] Share by which supports may grow within the existing lists; 0 if the lists must be rebuilt.
 template <class T>
 double roomOfLists(const DynamicsState<T>& state);
 
-/// [1] Margin of new lists: large if they will be used for several steps.
+/// [1] Margin of new lists. It is large if the lists will be used for several steps.
 template <class T>
 double marginOfLists(const DynamicsState<T>& state);
 

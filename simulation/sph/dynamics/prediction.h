@@ -1,36 +1,38 @@
 /// @file prediction.h
-/// Prediction of particles in the middle of their steps to the present time.
+/// Prediction of all particles, including those within their steps, to the present time.
 #pragma once
 
 #include "simulation/sph/dynamics/dynamics_state.h"
 
 namespace fx::sim {
 
-/// Fills records, positions for the tree, the list of active slots (those whose step ends now) and the next
-/// end of the others. Particles that have left the domain are brought back.
+/// Predicts all particles to the present time. Fills their records, the positions for the tree, the list of
+/// active slots (those whose step ends now) and the next end of the other steps. Particles that have left a
+/// periodic or walled domain are moved back into it.
 ///
-/// Blocks of slots where no step ends, and no particle has moved by more than a hundred thousandth of its
-/// support (double: a million millionth), are passed over. Positions move with the velocity of the middle of
-/// the step, velocity and entropy grow by their rates, pressure and energy by the change of density that the
-/// expansion gives and by heat: all linear in time. The speed of sound of an ideal gas follows its energy.
+/// A block of slots is skipped if no step of the block ends now and no particle has moved by more than 1e-5
+/// of its support (double: 1e-12). Positions move with the velocity at the middle of the step. Velocity and
+/// entropy change by their rates. Pressure and energy change with the density, by the expansion, and with the
+/// heat. All changes are linear in time. The speed of sound of an ideal gas follows from its energy.
 ///
-/// Where few are active, only theirs are filled: fillSeen() has to follow when their lists are known.
+/// If few particles are active, only the records of active particles are filled. Then fillSeen() must be
+/// called when their neighbor lists are known.
 template <class T>
 void predict(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Fills the records that the lists of `owners` show and that the last predict() has left out.
+/// Fills the records of neighbors in the lists of `owners` that the last predict() has not filled.
 template <class T>
 void fillSeen(DynamicsState<T>& state, std::span<const uint32_t> owners, base::TaskRunner& tasks);
 
-/// Factor of the density when the divergence times the time is `change`: positive, and to first order 1 -
-/// change.
+/// Factor by which the density changes if the product of divergence and time is `change`. The factor is
+/// positive, and 1 - change to first order.
 template <class T>
 T thinning(T change)
 {
     return change > 0 ? T(1) / (T(1) + change) : T(1) - change;
 }
 
-/// value + growth, but never less than a tenth of a positive value.
+/// value + growth; a positive value is kept at or above a tenth of itself.
 template <class T>
 T grown(T value, T growth)
 {

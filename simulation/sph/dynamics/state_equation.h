@@ -2,7 +2,7 @@
 /// Equations of state of gases and fluids.
 ///
 /// @formula state-equation
-/// Pressure and internal energy in entropy form: a cold curve, and a part that only heat changes.
+/// Pressure and internal energy in entropy form: the sum of a cold curve and a term that depends on entropy.
 ///
 /// symbol   unit           meaning
 ///   rho     kg/m3          density, > 0
@@ -31,7 +31,8 @@
 
 namespace fx::sim {
 
-/// Ideal gas: only gamma. Stiffened gas: gamma and stiffness. JWL: gamma = 1 + omega and the five others.
+/// Ideal gas: only gamma is used. Stiffened gas: gamma and stiffness. JWL: gamma = 1 + omega and the other
+/// five.
 struct StateEquation
 {
     double gamma = 1.4;          ///< [1] > 1
@@ -43,20 +44,20 @@ struct StateEquation
     double referenceDensity = 1; ///< [kg/m3] rho_0 of the JWL curve
 };
 
-/// Everything about one state.
+/// Quantities of a gas at one density and entropy.
 struct StatePoint
 {
     double pressure;      ///< [Pa]
-    double energy;        ///< [J/kg] internal, cold curve included
-    double thermal;       ///< [J/kg] thermal part of it
+    double energy;        ///< [J/kg] internal energy, including the cold curve
+    double thermal;       ///< [J/kg] thermal part of the internal energy
     double sound;         ///< [m/s]
-    double heatToEntropy; ///< dK = heatToEntropy times heat per mass
+    double heatToEntropy; ///< factor from heat per mass to dK
 };
 
-/// The state of density `rho` and entropy function `entropy`.
+/// The state at density `rho` and entropy function `entropy`.
 StatePoint stateAt(const StateEquation& equation, double rho, double entropy);
 
-/// K of density `rho` and internal energy `energy`; 0 where the energy is below the cold curve.
+/// Entropy function K at density `rho` and internal energy `energy`; 0 if the energy is below the cold curve.
 double entropyOf(const StateEquation& equation, double rho, double energy);
 
 } // namespace fx::sim

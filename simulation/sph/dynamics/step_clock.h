@@ -1,5 +1,5 @@
 /// @file step_clock.h
-/// Integer time inside a frame, so that steps of different lengths end at exactly the same time.
+/// Integer time within a frame. Steps of different lengths can therefore end at exactly the same time.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,11 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kFrameLevel = 40; ///< a frame has 2^40 ticks: its shortest step is 1e-12 of it
+/// a frame has 2^40 ticks; the shortest step, one tick, is 1e-12 of a frame
+constexpr uint32_t kFrameLevel = 40;
 constexpr uint64_t kFrameTicks = uint64_t(1) << kFrameLevel;
 
-/// Level of the longest power of two that is not above `ticks`, in 0 .. `most`.
+/// Binary logarithm of the largest power of two that does not exceed `ticks`, clamped to 0 .. `most`.
 inline uint32_t stepLevel(double ticks, uint32_t most = kFrameLevel)
 {
     if (!(ticks >= 2.0))
@@ -20,14 +21,14 @@ inline uint32_t stepLevel(double ticks, uint32_t most = kFrameLevel)
     return std::min(exponent, most);
 }
 
-/// The longest level, up to `level`, whose steps begin at `now`: a step may only become longer at a multiple
-/// of the longer step.
+/// The largest level up to `level` whose steps may begin at `now`. A step of 2^level ticks begins only at a
+/// multiple of its length.
 inline uint32_t alignedLevel(uint32_t level, uint64_t now)
 {
     return std::min(level, uint32_t(std::countr_zero(now | kFrameTicks)));
 }
 
-/// From the middle of the step [begin, end) to `now`, in ticks; exact.
+/// Ticks from the middle of the step [begin, end) to `now`; exact.
 inline double ticksSinceMiddle(uint64_t now, uint64_t begin, uint64_t end)
 {
     return 0.5 * double(int64_t(2 * now) - int64_t(begin + end));

@@ -1,34 +1,34 @@
 /// @file stepping.h
-/// Kicks, the choice of the next step, and the waking of neighbors.
+/// Kicks, the choice of the next step, and the waking of neighbors with longer steps.
 ///
 /// @formula kick-drift-kick
-/// Every particle is kicked in the middle of its step and drifts between the middles.
+/// The velocity changes at the middles of steps; the position drifts with it between the middles.
 ///
 /// symbol   unit   meaning
 ///   v, K          velocity and entropy function, at the middle of the step
 ///   a, K'         their rates, at the beginning of the step
 ///   b, e   tick   beginning and end of the step
-///   t      tick   now
+///   t      tick   present time
 /// @derivation
-///   at t = e with rates a of now: v(t) = v + (t - (b + e)/2) a                                    (1)
+///   at t = e with the present rates a: v(t) = v + (t - (b + e)/2) a                               (1)
 ///   a new step begins: v = v(t) + (e' - t)/2 a                                                    (2)
 ///   With rates that depend on positions alone (no dissipation) and equal steps this is the leapfrog, which
 ///   is symplectic. A step that is cut short to e'' before its end keeps its rates:
 ///       v += ((b + e'')/2 - (b + e)/2) a                                                          (3)
 ///   The position drifts with v before and after, so it changes at t, not before.
-///   A step is at most r times that of any neighbor: a particle takes at most r times the shortest step among
-///   those it sees, and wakes each neighbor whose step is more than r times its own                 (4)
-///   The step s of the caller has just passed, and in it forces that the sleeper has not felt. Until t - s
-///   the sleeper's old rates hold, from there those of now: its step becomes [t - s, t), and by (1)
+///   A step is at most r times that of any neighbor. A particle takes at most r times the shortest step among
+///   its neighbors, and it wakes each neighbor whose step is more than r times its own                (4)
+///   When a particle wakes a neighbor, the waking particle has just taken a step s, in which the neighbor has
+///   not felt its force. Until t - s the old rates of the neighbor are used, afterwards the present rates:
+///   the step of the neighbor becomes [t - s, t), and by (1)
 ///       v(t) = v + (t - s/2 - (b + e)/2) a + s/2 a(t)                                              (5)
 /// @source    [SPR05] section 4 for (1), (2); [SM09] for the limiter, [DDV12] section 2.2 for (3), (4)
-/// @deviation (5) instead of ending the sleeper's step at the next multiple of the shorter step: half of a
-/// long
-///            step with the rates of a shock that has just arrived would add energy without work, and
-///            forces between the caller and a sleeper would not be opposite. Waking reaches direct neighbors;
-///            theirs follow when they are active
+/// @deviation (5) is used instead of ending the woken neighbor's step at the next multiple of the shorter
+///            step. Otherwise half of a long step with the rates of a shock that has just arrived would add
+///            energy without work, and the forces of the pair would not be opposite. Waking reaches direct
+///            neighbors; their neighbors are woken when they are active
 /// @valid     r a power of two, or infinite: no limiter
-/// @accuracy  integer ticks: no particle misses another's step
+/// @accuracy  times are integer ticks, so the ends of steps coincide exactly
 /// @tests     tests/simulation/dynamics/test_time_steps.cpp
 #pragma once
 
@@ -36,19 +36,20 @@
 
 namespace fx::sim {
 
-/// (1) for the active slots, with their new rates. Positions hold for now afterwards.
+/// Applies (1) to the active slots with their new rates. Their velocities then refer to the present time.
 template <class T>
 void closeSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// (2), (4): next steps for the active slots, inside a frame.
+/// Applies (2) and (4): begins the next steps of the active slots within a frame.
 template <class T>
 void openSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// (3) for one particle; `end` lies after now or is now. The rates at its end will hold for half the step.
+/// Applies (3) to one particle. `end` is not before the present. The rates are kept for half of the step.
 template <class T>
 void shortenStep(DynamicsState<T>& state, uint32_t slot, uint64_t end);
 
-/// (5) for one particle, whose step ends now. The rates of now will hold for half of the last `lately` ticks.
+/// Applies (5) to one particle, whose step ends now. The present rates act for half of the last `lately`
+/// ticks.
 template <class T>
 void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 
@@ -56,23 +57,24 @@ void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 template <class T>
 void openFrame(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks);
 
-/// [s] Shortest of all wanted steps.
+/// [s] Shortest of the steps that the criteria allow.
 template <class T>
 double shortestStep(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 // (4), in step_limiter.cpp: keeps the steps of neighbors within a factor of each other.
 
-/// Levels of the next steps of the active slots: the largest that their criteria, their neighbors and the
-/// clock allow.
+/// Chooses the levels of the next steps of the active slots: the largest that the criteria, the neighbors and
+/// the clock allow.
 template <class T>
 void chooseLevels(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Ends the steps of neighbors of the active slots that are too long, now. They become the active slots, to
-/// be evaluated at once. @return how many
+/// Ends now the steps of neighbors of the active slots that are too long by (4). The woken particles become
+/// the active slots, to be evaluated at once. @return number of woken particles
 template <class T>
 uint32_t wakeNeighbors(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Limits wanted steps by those of the neighbors, at the end of a frame when all are active and listed.
+/// Limits the steps that criteria allow by those of the neighbors. For the end of a frame, when all particles
+/// are active and have lists.
 template <class T>
 void limitWantedSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 

@@ -1,8 +1,8 @@
 /// @file viscosity_switch.h
-/// Where the gas is viscous: in front of shocks, not in shear and not in sound.
+/// Controls artificial viscosity: high in front of shocks, low in shear flow and in sound waves.
 ///
 /// @formula viscosity-switch
-/// The coefficient jumps up where the flow begins to converge faster, and decays behind the shock.
+/// The coefficient rises at once where the convergence of the flow grows, and decays behind the shock.
 ///
 /// symbol   unit    meaning
 ///   d, w    1/s     divergence and curl of the velocity
@@ -10,7 +10,7 @@
 ///   h       m       half the support
 ///   c       m/s     speed of sound
 ///   t       s       the particle's step
-///   x       1       part of the motion that is compression
+///   x       1       share of compression in the motion
 ///   a       1       coefficient alpha, in [a_min, a_max]
 ///   B       1       Balsara's limiter
 /// @derivation
@@ -19,14 +19,13 @@
 ///   a < a_loc: a = a_loc. Otherwise da/dt = -(a - a_min) / tau with tau = h / (l c), implicit:
 ///       a' = a_min + (a - a_min) / (1 + t / tau), not below a_loc                                (3)
 ///   B = min(10 |d| / (|d| + |w| + 1e-4 c / h), 1)                                               (4)
-///   A particle without a past begins at a_min + (a_max - a_min) x min(d- h / c, 1)               (5)
-/// @source    [CD10] for the idea of (1)-(3); (2) with the factor 10 and c instead of the signal speed
-/// as
-///            in [PHA18]; (4) [BAL95]
-/// @deviation d' by difference of the divergences instead of the gradient of accelerations; (5) is ours;
-///            the factor 10 in (4) leaves the disorder behind a shock, where d and w are alike, its
-///            viscosity: with 1 instead the error of the density of a point blast in 64^3 particles is
-///            0.21 instead of 0.15
+///   A particle without a previous step begins at a_min + (a_max - a_min) x min(d- h / c, 1)      (5)
+/// @source    [CD10] for the idea of (1)-(3); (2) with the factor 10 and c instead of the signal speed as in
+///            [PHA18]; (4) [BAL95]
+/// @deviation d' is a difference of divergences instead of the gradient of accelerations; (5) is ours. The
+///            factor 10 in (4) keeps viscosity in the disorder behind a shock, where d and w are similar:
+///            with 1 instead, the error of the density of a point blast in 64^3 particles is 0.21 instead of
+///            0.15
 /// @valid     any finite input; c = 0 with convergence gives a_max
 /// @accuracy  evaluated in the particles' own precision
 /// @tests     tests/simulation/dynamics/test_viscosity_switch.cpp
@@ -48,14 +47,14 @@ struct FlowGradient
     T sound;      ///< [m/s]
 };
 
-/// Bounds and decay.
+/// Bounds and decay rate of alpha.
 template <class T>
 struct SwitchRules
 {
     T alphaMin, alphaMax, decay; ///< [1]
 };
 
-/// (1)
+/// (1): share of compression.
 template <class T>
 T compressivePart(T divergence, T curl)
 {
@@ -78,7 +77,7 @@ T switchedViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow, T 
     return std::min(std::max(std::max(decayed, local), rules.alphaMin), rules.alphaMax);
 }
 
-/// (5)
+/// (5): alpha of a particle without a previous step.
 template <class T>
 T firstViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow)
 {
@@ -88,7 +87,7 @@ T firstViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow)
            (rules.alphaMax - rules.alphaMin) * strength * compressivePart(flow.divergence, flow.curl);
 }
 
-/// (4)
+/// (4): Balsara's limiter.
 template <class T>
 T shearLimiter(const FlowGradient<T>& flow)
 {

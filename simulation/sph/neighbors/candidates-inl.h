@@ -1,5 +1,5 @@
 /// @file candidates-inl.h
-/// Particles that may be neighbors, side by side in memory. Compiled once for each instruction set.
+/// Candidate neighbors in contiguous arrays. Compiled once for each instruction set.
 #if defined(FX_CANDIDATES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_CANDIDATES_INL_H
 #undef FX_CANDIDATES_INL_H
@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::HWY_NAMESPACE {
 
-/// Which lanes of a vector to keep, and how they move together. Highway's own Compress copies its table with
-/// every call where the compiler is GCC, except for 16 lanes, for which it is one instruction.
+/// Moves the selected lanes of a vector to its beginning. Highway's Compress is used only for 16 lanes, where
+/// it is one instruction; for fewer lanes, GCC copies its table in every call.
 template <class D>
 class Packing
 {
@@ -31,7 +31,7 @@ public:
     }
 
     uint32_t kept() const { return kept_; }
-    /// Stores the lanes that are kept; may write a whole vector.
+    /// Stores the selected lanes; may write a whole vector.
     HWY_INLINE void store(hn::Vec<D> v, T* out) const
     {
         const D d;
@@ -67,8 +67,8 @@ private:
     const uint32_t* row_ = nullptr;
 };
 
-/// Candidates of all images in turn. Every segment starts at a multiple of the vector's width and is filled
-/// up with candidates at NaN, which are near no particle.
+/// Candidates of all images, one segment for each image. Every segment starts at a multiple of the vector
+/// width and is padded with candidates at NaN, which are within the reach of no particle.
 template <class T>
 struct Candidates
 {
@@ -76,14 +76,14 @@ struct Candidates
     static constexpr uint32_t kPadding = 64;
 
     uint32_t count = 0;
-    std::array<uint32_t, kMaxImages + 1> segment{}; ///< first of each image, and the end
-    alignas(64) T at[3][kMax + kPadding];           ///< [m] as their images show them
+    std::array<uint32_t, kMaxImages + 1> segment{}; ///< first candidate of each image, then the end
+    alignas(64) T at[3][kMax + kPadding];           ///< [m] positions in the coordinates of the image
     alignas(64) T reach2[kMax + kPadding];          ///< [m2] (1 + margin)^2 support^2
     alignas(64) uint32_t entry[kMax + kPadding];
 
     static bool isFull(uint32_t end) { return end + hn::MaxLanes(hn::ScalableTag<T>()) > kMax; }
 
-    /// Writes the lanes of `mask` from `end` on. @return the new end
+    /// Writes the lanes of `mask`, beginning at index `end`. @return the new end
     template <class D, class V, class M>
     HWY_INLINE uint32_t append(uint32_t end, D d, M mask, V x, V y, V z, V square,
                                hn::Vec<hn::Rebind<uint32_t, D>> entries)
@@ -108,7 +108,7 @@ struct Candidates
     }
 };
 
-/// Keeps, of runs of slots, the particles that a query touches in one image. For TreeWalk.
+/// Collects the particles of runs of slots that a query touches in one image. A sink for TreeWalk.
 template <bool kPlain, class T>
 class Gatherer
 {
@@ -130,7 +130,7 @@ public:
         end_ = end;
         return fits;
     }
-    /// @return false when not all fitted
+    /// @return false if there was not enough room
     bool flush()
     {
         const hn::ScalableTag<T> d;
@@ -189,7 +189,7 @@ bool gatherImage(const SearchSetup<T>& setup, const Query<T>& query, uint32_t in
     return complete;
 }
 
-/// All candidates that a box touches. @return false when there are too many
+/// Collects all candidates that a box touches. @return false if there are too many
 template <class T>
 bool gather(const SearchSetup<T>& setup, const Query<T>& query, Candidates<T>& out)
 {
@@ -204,7 +204,7 @@ bool gather(const SearchSetup<T>& setup, const Query<T>& query, Candidates<T>& o
     return true;
 }
 
-/// Of `from`, those that a smaller box touches.
+/// Collects those candidates of `from` that a smaller box touches.
 template <bool kWraps, class T>
 void refine(const SearchSetup<T>& setup, const Query<T>& query, const Candidates<T>& from, Candidates<T>& out)
 {

@@ -1,5 +1,5 @@
 /// @file domain.h
-/// The space that a gas lives in, axis by axis.
+/// The spatial domain of a gas, with a boundary condition for each axis.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,7 +12,7 @@ namespace fx::sim {
 
 enum class AxisKind : uint8_t
 {
-    Open,      ///< endless
+    Open,      ///< unbounded
     Periodic,  ///< particles that leave at `high` enter at `low`
     Reflecting ///< rigid, frictionless walls at `low` and `high`; an infinite bound is no wall
 };
@@ -24,7 +24,7 @@ struct Domain
     glm::dvec3 high{std::numeric_limits<double>::infinity()}; ///< [m] > low
 };
 
-/// Domain data of pair loops. On every axis at most one of `period` and `wall` is active.
+/// Data of the domain for loops over pairs. On each axis at most one of `period` and `wall` is active.
 template <class T>
 struct PairImages
 {
@@ -33,12 +33,11 @@ struct PairImages
     std::array<T, 3> period{};
     std::array<T, 3> perPeriod{};
     /// [m] walls of a reflecting axis, infinite without a wall. The difference of x_i and the image of x_j in
-    /// the wall w is (x_i - w) + (x_j - w): the same bits for i and the image of j as for j and the image of
-    /// i.
+    /// the wall w is computed as (x_i - w) + (x_j - w). It has the same bits when i and j are exchanged.
     std::array<T, 3> low{-kNone, -kNone, -kNone};
     std::array<T, 3> high{kNone, kNone, kNone};
 
-    /// [m] Position of the wall that mirrors the particles near `x`.
+    /// [m] Position of the wall in which neighbors of a particle at `x` are mirrored.
     T nearerWall(uint32_t axis, T x) const
     {
         return x - low[axis] <= high[axis] - x ? low[axis] : high[axis];

@@ -11,23 +11,23 @@
 
 namespace fx::sim {
 
-/// An entry of a list is a slot (lower 29 bits) and, for the mirror image of that particle in a reflecting
-/// wall, one bit for each mirrored axis. The wall is the one nearer to the particle that owns the list.
+/// An entry of a list is a slot (lower 29 bits) and one bit for each mirrored axis. Such a bit marks the
+/// mirror image of the particle in a reflecting wall, the one nearer to the particle that owns the list.
 constexpr uint32_t kPlaceMask = (1u << 29) - 1;
 constexpr uint32_t kMirrorX = 1u << 29; ///< kMirrorX << a for axis a
 
-/// Lists are padded with the owner's own slot to a multiple of this: the number of virtual lanes of every
-/// sum over neighbors, whatever the processor's width.
+/// Lists are padded with the owner's slot to a multiple of kLanes. Every sum over neighbors uses this number
+/// of virtual lanes, independently of the vector width of the processor.
 constexpr uint32_t kLanes = 16;
 
-/// Lists of entries, by slot. Which lists find no room depends on the order of threads; their contents do
-/// not, because a list can always be searched again.
+/// Lists of entries, by slot. The order of threads decides which lists do not fit into memory. Contents do
+/// not depend on it, because a missing list is searched again.
 class ListPool
 {
 public:
     static constexpr uint32_t kUnlisted = ~0u;
 
-    /// @param capacity slots
+    /// @param capacity number of slots
     ListPool(std::pmr::memory_resource* memory, uint32_t capacity, size_t entries)
         : entries_(memory, entries / kLanes * kLanes), start_(memory, capacity), count_(memory, capacity)
     {}
@@ -51,12 +51,12 @@ private:
     base::Column<uint32_t> entries_;
     base::Column<uint32_t> start_;
     base::Column<uint32_t> count_;
-    std::atomic<uint64_t> used_{0}; ///< entries given out
+    std::atomic<uint64_t> used_{0}; ///< entries allocated to writers
     std::atomic<uint32_t> unlisted_{0};
     std::atomic<uint64_t> total_{0}; ///< entries in lists, without padding
 };
 
-/// Writes lists one after another. One thread each.
+/// Writes lists one after another. Each thread uses its own writer.
 class ListWriter
 {
 public:
@@ -70,7 +70,7 @@ public:
         pool_.total_.fetch_add(total_, std::memory_order_relaxed);
     }
 
-    /// Room for `entries` more, or null for ever after.
+    /// Returns room for `entries` more entries, or null. After null, all later calls return null.
     uint32_t* room(uint32_t entries)
     {
         if (end_ - next_ < entries && !refill(entries))
@@ -78,7 +78,7 @@ public:
         return pool_.entries_.data() + next_;
     }
     bool exhausted() const { return exhausted_; }
-    /// Ends the list of `slot`, which has `count` entries at room(); pads it.
+    /// Ends the list of `slot`, which has `count` entries written at room(), and pads it.
     void finish(uint32_t slot, uint32_t count)
     {
         uint32_t* const list = pool_.entries_.data() + next_;
@@ -108,7 +108,7 @@ private:
         exhausted_ = end_ - next_ < entries;
         return !exhausted_;
     }
-    /// The rest of the block, when the next one has not been taken since.
+    /// Returns the rest of the block to the pool, unless another writer has taken the next block.
     void giveBack()
     {
         uint64_t expected = end_;

@@ -1,5 +1,5 @@
 /// @file list_search-inl.h
-/// Computes the lists of owners. Compiled once for each instruction set.
+/// Computes the neighbor lists of owners. Compiled once for each instruction set.
 #if defined(FX_LIST_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_LIST_SEARCH_INL_H
 #undef FX_LIST_SEARCH_INL_H
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::HWY_NAMESPACE {
 
-/// An owner in the coordinates of one image.
+/// The particle that owns a list, in the coordinates of one image.
 template <class T>
 struct Owner
 {
@@ -30,7 +30,7 @@ Owner<T> ownerSeen(const SearchSetup<T>& setup, const SeenImage<T>& image, uint3
             reach * reach};
 }
 
-/// Whether the walls of an image are those nearer to the owner.
+/// True if the walls of the image are those nearer to the owner.
 template <class T>
 bool isSeenBy(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t slot)
 {
@@ -41,7 +41,7 @@ bool isSeenBy(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t s
     return true;
 }
 
-/// Lanes in which a particle is a neighbor of the owner.
+/// Mask of the lanes whose particle is a neighbor of the owner.
 template <bool kWraps, class T, class D, class V>
 HWY_INLINE auto isNear(const SearchSetup<T>& setup, const Owner<T>& owner, D d, V x, V y, V z, V reach2)
 {
@@ -56,7 +56,7 @@ HWY_INLINE auto isNear(const SearchSetup<T>& setup, const Owner<T>& owner, D d, 
     return hn::Lt(sumOfSquares(dx, dy, dz), hn::Max(reach2, hn::Set(d, owner.reach2)));
 }
 
-/// Writes the entries of candidates begin .. end - 1 that are near the owner. @return their number
+/// Writes the entries of candidates begin .. end - 1 within the reach of the owner. @return their number
 template <bool kWraps, class T>
 uint32_t keepNear(const SearchSetup<T>& setup, const Owner<T>& owner, const Candidates<T>& from,
                   uint32_t begin, uint32_t end, uint32_t* out)
@@ -96,7 +96,7 @@ public:
     }
 
 private:
-    static constexpr uint32_t kGroup = kTreeFanOut; ///< leaves that are searched for together
+    static constexpr uint32_t kGroup = kTreeFanOut; ///< number of leaves that share one search
 
     uint32_t leafOf(uint32_t slot) const
     {
@@ -130,7 +130,7 @@ private:
         return box;
     }
 
-    /// Owners whose candidates are too many are taken fewer at a time.
+    /// Finds the lists of a group of owners. If there are too many candidates, the group is divided.
     void listGroup(std::span<const uint32_t> owners)
     {
         if (!writer_.exhausted() && gather(setup_, boxOf(owners), ours_)) {
@@ -173,7 +173,7 @@ private:
         }
     }
 
-    /// @param own where the owner itself is among the candidates
+    /// @param own index of the owner among the candidates
     void listOwner(uint32_t slot, uint32_t own, Candidates<T>& candidates)
     {
         uint32_t* const out = writer_.room(candidates.count + Candidates<T>::kPadding);

@@ -1,5 +1,5 @@
 /// @file morton.h
-/// Positions along a Morton curve: the bits of three coordinates in turn.
+/// Positions along a Morton curve, which interleaves the bits of three coordinates.
 #pragma once
 
 #include <bit>
@@ -7,7 +7,7 @@
 
 namespace fx::sim {
 
-/// Bits of an axis; a key has three times as many, so it fits into 64 bits.
+/// Bits per axis. A key has three times as many, so it fits into 64 bits.
 constexpr uint32_t kMortonAxisBits = 21;
 constexpr uint32_t kMortonBits = 3 * kMortonAxisBits;
 

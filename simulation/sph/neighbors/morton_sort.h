@@ -13,17 +13,17 @@
 
 namespace fx::sim {
 
-/// Radix sort of keys and indices. The order is the same for any number of workers: by key, by position
-/// within a crowded cell, and by index where positions are equal. Sorts by the highest bits that differ, then
-/// only the runs in which these bits are equal, so that a cluster in a wide cloud costs no more than an even
-/// cloud; a cell with many particles gets its own curve.
+/// Radix sort of keys and indices. The order is independent of the number of workers: by key, by position
+/// within a cell of many particles, and by index if positions are equal. The highest differing bits are
+/// sorted first, then only the runs in which these bits are equal. Therefore a cluster in a wide cloud costs
+/// no more than an even cloud. Within a cell of many particles, the sort uses a curve of its own.
 template <class T>
 class MortonSort
 {
 public:
     MortonSort(std::pmr::memory_resource* memory, uint32_t capacity);
 
-    /// The curve fills the smallest cube around all particles, and around the whole of periodic axes.
+    /// The curve fills the smallest cube that contains all particles and the whole length of periodic axes.
     /// @param axes three arrays of `count` coordinates [m]
     void sort(const std::array<const T*, 3>& axes, uint32_t count, const Domain& domain,
               base::TaskRunner& tasks);
@@ -57,10 +57,10 @@ private:
     std::array<const T*, 3> axes_{}; ///< while sorting
     base::Column<uint64_t> keys_;
     base::Column<uint32_t> order_;
-    base::Column<uint64_t> words_; ///< some bits of a key above the slot that it comes from
+    base::Column<uint64_t> words_; ///< some bits of a key, above its slot
     base::Column<uint64_t> spareWords_;
     base::Column<uint32_t> spareOrder_;
-    base::Column<uint32_t> histogram_;           ///< one row a block
+    base::Column<uint32_t> histogram_;           ///< one row per block
     base::Column<uint32_t> firstRun_;            ///< first slot of the runs of each block
     base::Column<std::array<double, 6>> bounds_; ///< [m] low and high of blocks of particles
 };

@@ -1,5 +1,5 @@
 /// @file neighbor_lists.h
-/// Lists of neighbors, kept until a particle has moved too far.
+/// Verlet lists: neighbor lists that stay valid until a particle has moved too far.
 #pragma once
 
 #include "simulation/sph/neighbors/neighbor_search.h"
@@ -8,30 +8,31 @@
 
 namespace fx::sim {
 
-/// Neighbors of particles, found for all at once and kept until a particle has moved too far: lists built
-/// with `margin` hold all pairs nearer than max(support) as long as for every particle
-///     support now + 2 (largest distance that any particle has moved since) <= (1 + margin) support then.
+/// Neighbor lists of particles (Verlet lists). Lists built with `margin` contain all pairs nearer than
+/// max(support) as long as for every particle
+///     present support + 2 (largest displacement of any particle since the build)
+///         <= (1 + margin) (support at the build).
 template <class T>
 class NeighborLists
 {
 public:
     /// @param capacity particles, below 2^29
-    /// @param entriesPerParticle memory for lists; particles without memory are searched on each request for
-    ///         their list: slower, with equal results
+    /// @param entriesPerParticle memory for lists. A particle whose list does not fit is searched again on
+    ///         each request; this is slower, with equal results
     NeighborLists(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t entriesPerParticle);
 
-    /// Lists, for every slot of `owners` (ascending), all others j, mirror images included, with
-    /// |x_i - x_j| < (1 + margin) max(support_i, support_j) at the time of the last refit. The particle
-    /// itself is not in its list, its own mirror images are. The order of a list depends on the tree alone.
-    /// Periodic axes and those between two walls must be at least twice as long as the longest such reach.
-    /// The tree must outlive the lists and be neither sorted nor refit while they are in use. Every thread
-    /// needs 160 KiB of stack.
+    /// Builds the lists of every slot of `owners` (ascending). The list of i holds all other particles j and
+    /// all mirror images with |x_i - x_j| < (1 + margin) max(support_i, support_j) at the time of the last
+    /// refit. The particle itself is not in its list; its mirror images are. The order of a list depends only
+    /// on the tree. Periodic axes and axes between two walls must be at least twice as long as the longest
+    /// reach. The tree must outlive the lists and must be neither sorted nor refit while they are in use.
+    /// Every thread needs 160 KiB of stack.
     void build(const ParticleTree<T>& tree, const Domain& domain, std::span<const uint32_t> owners, T margin,
                base::TaskRunner& tasks);
 
-    /// Calls f(const uint32_t* entries, uint32_t count, bool last) for the list of `slot`, one of the
-    /// owners, in pieces. `entries` can be read up to the next multiple of kLanes; every piece but the last
-    /// has a count that is such a multiple. Nearly all lists come in one piece. Thread-safe.
+    /// Calls f(const uint32_t* entries, uint32_t count, bool last) for each piece of the list of `slot`,
+    /// which is one of the owners. `entries` can be read up to the next multiple of kLanes. The count of
+    /// every piece but the last is such a multiple. Nearly all lists consist of one piece. Thread-safe.
     template <class F>
     void forEachPiece(uint32_t slot, F&& f) const
     {
@@ -49,10 +50,10 @@ public:
             const_cast<std::remove_const_t<Function>*>(&f));
     }
 
-    /// Owners of the last build without a list, because memory was exhausted or they have more than about two
-    /// thousand neighbors: each read costs about ten searches.
+    /// Number of owners of the last build without a list, because memory was exhausted or because they have
+    /// more than about two thousand neighbors. Each access to such a list costs about ten searches.
     uint32_t unlisted() const { return pool_.unlisted(); }
-    /// Entries of all lists of the last build, without padding; those of unlisted owners not counted.
+    /// Entries of all lists of the last build, without padding and without owners that have no list.
     uint64_t entries() const { return pool_.total(); }
 
 private:

@@ -1,9 +1,9 @@
 /// @file neighbor_search.h
-/// The search, compiled for each instruction set. Owners of eight leaves together query the tree for
-/// candidates, in all images; every leaf filters those near its own box; every owner tests these with
-/// vectors. All bounds are exact in floating point: differences, squares and their sums are taken in the same
-/// order for boxes as for pairs, rounding is monotonic, and so no pair is lost. Only boxes on periodic axes
-/// need a tolerance. Results are the same bits for every instruction set.
+/// The neighbor search, compiled for each instruction set. The owners of eight leaves together query the tree
+/// for candidates in all images. Each leaf keeps the candidates near its own box. Each owner tests these with
+/// vector instructions. All bounds hold exactly in floating point: differences, squares and their sums are
+/// computed in the same order for boxes as for pairs, and rounding is monotonic, so no pair is lost. Only
+/// boxes on periodic axes need a tolerance. Results have the same bits for every instruction set.
 #pragma once
 
 #include "simulation/sph/neighbors/list_pool.h"
@@ -15,18 +15,18 @@
 
 namespace fx::sim {
 
-/// An image of the particles: unchanged, or mirrored in one wall of some axes. The difference of an owner at
-/// x and a particle at x_j is (x - wall) - (sign x_j + shift) on every axis.
+/// An image of the particles: unchanged, or mirrored in one wall on some axes. On every axis, the difference
+/// of an owner at x and the image of a particle at x_j is (x - wall) - (sign x_j + shift).
 template <class T>
 struct SeenImage
 {
     std::array<T, 3> wall{};  ///< [m] 0 where not mirrored
-    std::array<T, 3> shift{}; ///< [m] the wall again, 0 where not mirrored
+    std::array<T, 3> shift{}; ///< [m] equal to `wall`; 0 where not mirrored
     std::array<T, 3> sign{1, 1, 1};
-    uint32_t bits = 0; ///< of the entries, kMirrorX << axis
+    uint32_t bits = 0; ///< mirror bits of the entries, kMirrorX << axis
 };
 
-constexpr uint32_t kMaxImages = 27; ///< nothing, the low or the high wall on each of three axes
+constexpr uint32_t kMaxImages = 27; ///< no mirror, the low or the high wall, on each of three axes
 
 /// Inputs of a search.
 template <class T>
@@ -38,19 +38,19 @@ struct SearchSetup
     bool wraps = false;       ///< some axis is periodic
     std::array<T, 3> slack{}; ///< [m] bound of rounding errors of boxes on periodic axes
     uint32_t imageCount = 1;
-    std::array<SeenImage<T>, kMaxImages> images; ///< ascending by bits; the first is no mirror
+    std::array<SeenImage<T>, kMaxImages> images; ///< ascending by bits; the first is not mirrored
 };
 
 template <class T>
 SearchSetup<T> searchSetup(const TreeView<T>& tree, const Domain& domain, T margin);
 
-/// Lists for slots in ascending order.
+/// Writes the lists of slots in ascending order.
 template <class T>
 void listOwners(const SearchSetup<T>& setup, std::span<const uint32_t> owners, ListWriter& writer);
 
 using ListPiece = void (*)(void* argument, const uint32_t* entries, uint32_t count, bool last);
 
-/// The list of one slot in pieces, without memory for it.
+/// Searches the list of one slot and passes it on in pieces, without storing it.
 template <class T>
 void searchOwner(const SearchSetup<T>& setup, uint32_t owner, ListPiece piece, void* argument);
 

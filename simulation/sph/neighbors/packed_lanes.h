@@ -1,5 +1,5 @@
 /// @file packed_lanes.h
-/// How lanes of a vector move together when only some are kept.
+/// Permutations that move the selected lanes of a vector to its beginning.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ constexpr PackedLanes packedLanes()
     return table;
 }
 
-/// Row `bits`: the lanes whose bit is set, ascending, then the others. The first n numbers of the rows below
-/// 2^n are right for vectors of n lanes.
+/// Row `bits`: first the lanes whose bit is set, ascending, then the other lanes. For vectors of n lanes,
+/// only the first n numbers of the rows below 2^n are used.
 alignas(64) inline constexpr PackedLanes kPackedLanes = packedLanes();
 
 } // namespace fx::sim

@@ -1,5 +1,5 @@
 /// @file particle_tree.h
-/// Particles in the order of a Morton curve, and a tree of boxes over them.
+/// Particles sorted along a Morton curve, with a tree of bounding boxes over them.
 #pragma once
 
 #include "foundation/memory/column.h"
@@ -30,9 +30,9 @@ constexpr uint32_t kMaxTreeLevels = 11;    ///< 8^10 leaves and a root
 constexpr uint32_t kMaxLeafParticles = 16; ///< particles of a leaf
 
 /// Read access for searches. Level 0 are the leaves: leaf k holds the slots leafBegin[k] .. leafBegin[k + 1]
-/// - 1. Box k of level l + 1 covers the boxes 8 k .. 8 k + 7 of level l; the last level has one box. Boxes
-/// are numbered through all levels from levelFirst[l]; between them are empty ones that nothing touches, so
-/// that eight children can always be read.
+/// - 1. Box k of level l + 1 covers the boxes 8 k .. 8 k + 7 of level l; the last level has one box. The
+/// boxes of level l are numbered from levelFirst[l]. Each level is padded with empty boxes, which no query
+/// touches, so that eight children can always be read.
 template <class T>
 struct TreeView
 {
@@ -41,7 +41,7 @@ struct TreeView
     std::array<uint32_t, kMaxTreeLevels> levelFirst{};
     std::array<uint32_t, kMaxTreeLevels> levelCount{};
     const uint32_t* leafBegin = nullptr;
-    std::array<const T*, 3> low{};      ///< [m] of boxes
+    std::array<const T*, 3> low{};      ///< [m] lower corners of boxes
     std::array<const T*, 3> high{};     ///< [m]
     const T* reach = nullptr;           ///< [m] largest support inside a box
     std::array<const T*, 3> position{}; ///< [m] of particles, as of the last refit
@@ -49,30 +49,30 @@ struct TreeView
 };
 
 /// Tree over particles sorted along a Morton curve of 64-bit keys. A leaf is the largest cell of the curve's
-/// binary tree with at most kMaxLeafParticles particles; eight leaves that follow on each other share a box,
-/// eight such boxes the next, so that no pointers are needed and eight children are tested at once. Its
-/// memory is fixed by the capacity: 92 bytes a particle in float, 147 in double.
+/// binary tree with at most kMaxLeafParticles particles. Eight consecutive leaves share a box, and eight
+/// consecutive boxes share a box of the next level. Therefore no pointers are needed, and eight children are
+/// tested at once. The capacity fixes the memory: 92 bytes per particle in float, 147 in double.
 template <class T>
 class ParticleTree
 {
 public:
     ParticleTree(std::pmr::memory_resource* memory, uint32_t capacity);
 
-    /// Decides the order of the particles and the cells of the tree. order()[slot] is the index of the
-    /// particle of `points` that belongs at `slot`; the caller moves its columns accordingly and then calls
-    /// refit. Ties are broken by index, so that equal input gives equal order for any number of workers.
-    /// Particles at NaN are allowed: they have no neighbors.
+    /// Computes the order of the particles and the cells of the tree. order()[slot] is the index in `points`
+    /// of the particle at `slot`. The caller reorders its columns accordingly and then calls refit. Ties are
+    /// broken by index, so the order is the same for any number of workers. Particles at NaN are allowed and
+    /// have no neighbors.
     void sort(const PointColumns<T>& points, const Domain& domain, base::TaskRunner& tasks);
     std::span<const uint32_t> order() const { return sort_.order(); }
 
     /// Recomputes bounds and reaches of all cells from columns that are in tree order, and keeps a copy of
-    /// them. Called whenever particles have moved. The cells stay right however far particles have moved,
-    /// only slower: sort again when loosened() exceeds a quarter, where sorting begins to cost less than slow
-    /// searches.
+    /// them. Must be called whenever particles have moved. However far particles have moved, searches stay
+    /// correct but become slower. Sort again when loosened() exceeds 0.25; beyond it, sorting costs less than
+    /// slow searches.
     void refit(const PointColumns<T>& sorted, base::TaskRunner& tasks);
-    /// [1] growth, since the first refit after the last sort, of the volume that a search from a leaf covers,
-    /// in units of its reach cubed, mean over leaves: 1 means that searches test about twice as many
-    /// particles. A uniform expansion of all particles leaves it at 0.
+    /// [1] Growth of the search volume since the first refit after the last sort. The search volume is that
+    /// of a search from a leaf, in units of its reach cubed, averaged over leaves. At 1, searches test about
+    /// twice as many particles. A uniform expansion of all particles leaves it at 0.
     double loosened() const { return loosened_; }
 
     TreeView<T> view() const;
@@ -97,7 +97,7 @@ private:
     std::array<base::Column<T>, 3> low_;
     std::array<base::Column<T>, 3> high_;
     base::Column<T> reach_;
-    base::Column<T> sizeAtSort_; ///< [1] width that a search from a leaf covers over its reach
+    base::Column<T> sizeAtSort_; ///< [1] width of the search box of a leaf divided by its reach
     std::array<base::Column<T>, 3> position_;
     base::Column<T> support_;
 };

@@ -1,5 +1,5 @@
 /// @file piece_search-inl.h
-/// The list of one particle, piece by piece, in little memory. Compiled once for each instruction set.
+/// Searches the list of one particle in pieces, with little memory. Compiled once for each instruction set.
 #if defined(FX_PIECE_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PIECE_SEARCH_INL_H
 #undef FX_PIECE_SEARCH_INL_H
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::HWY_NAMESPACE {
 
-/// Entries on their way to the caller.
+/// Buffer of entries that are passed to the caller in pieces.
 class PieceBuffer
 {
 public:
@@ -21,7 +21,7 @@ public:
     {}
 
     uint32_t* end() { return entries_ + count_; }
-    /// At most kRoom.
+    /// Adds `count` entries that were written at end(); at most kRoom.
     void add(uint32_t count)
     {
         count_ += count;
@@ -49,7 +49,7 @@ private:
     uint32_t entries_[kPiece + 2 * kRoom];
 };
 
-/// Tests runs of slots for one owner and one image. For TreeWalk.
+/// Tests runs of slots for one owner and one image. A sink for TreeWalk.
 template <bool kPlain, class T>
 class PieceSink
 {

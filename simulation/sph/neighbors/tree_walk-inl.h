@@ -20,7 +20,7 @@ namespace fx::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A query box, which finds all elements within its own or their support.
+/// A query box. It touches an element if their distance is below the reach of the query or of the element.
 template <class T>
 struct Query
 {
@@ -29,7 +29,7 @@ struct Query
     T reach2 = 0;          ///< [m2] square of the largest reach of the box's own particles, margin included
 };
 
-/// The bounding box of the owners, transformed for `image`.
+/// Transforms the bounding box of the owners to the coordinates of `image`.
 template <class T>
 Query<T> seenFrom(const Query<T>& query, const SeenImage<T>& image)
 {
@@ -41,7 +41,7 @@ Query<T> seenFrom(const Query<T>& query, const SeenImage<T>& image)
     return seen;
 }
 
-/// Bit k is lane k of a mask of at most eight lanes.
+/// Converts a mask of at most eight lanes to bits; bit k is lane k.
 template <class D, class M>
 HWY_INLINE uint32_t bitsOf(D d, M mask)
 {
@@ -50,7 +50,7 @@ HWY_INLINE uint32_t bitsOf(D d, M mask)
     return bits[0];
 }
 
-/// Coordinates of a particle as an image shows them.
+/// Coordinates of particles transformed to `image`.
 template <class T, class D, class V>
 HWY_INLINE V shownAt(const SeenImage<T>& image, uint32_t axis, D d, V x)
 {
@@ -65,8 +65,8 @@ HWY_INLINE V wrapped(const SearchSetup<T>& setup, uint32_t axis, D d, V differen
     return hn::Sub(difference, hn::Mul(turns, hn::Set(d, setup.pairs.period[axis])));
 }
 
-/// Gap between boxes [low, high] and the query on one axis, at least 0; never more than that of any two
-/// particles inside.
+/// Gap between the boxes [low, high] and the query on one axis, at least 0. It never exceeds the gap between
+/// any two particles inside the boxes.
 template <bool kWraps, class T, class D, class V>
 HWY_INLINE V axisGap(const SearchSetup<T>& setup, const Query<T>& query, uint32_t axis, D d, V low, V high)
 {
@@ -91,9 +91,9 @@ HWY_INLINE V sumOfSquares(V x, V y, V z)
     return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// One walk through the tree, for one query and one image. kPlain: neither mirrored nor wrapped.
-/// Sink: bool operator()(uint32_t begin, uint32_t end), takes runs of slots in ascending order and ends the
-/// walk by returning false.
+/// One traversal of the tree, for one query and one image. kPlain: the image is neither mirrored nor wrapped.
+/// Sink: bool operator()(uint32_t begin, uint32_t end), receives runs of slots in ascending order. If it
+/// returns false, the traversal ends.
 template <bool kPlain, class T, class Sink>
 class TreeWalk
 {
@@ -102,7 +102,7 @@ public:
         : setup_(setup), tree_(setup.tree), image_(image), query_(query), sink_(sink)
     {}
 
-    /// @return false when the sink has had enough
+    /// @return false if the sink ended the traversal
     bool run()
     {
         if (tree_.levels == 1)
@@ -126,7 +126,7 @@ private:
         return true;
     }
 
-    /// Which of the eight boxes from `first` on the query touches.
+    /// Bit mask of the boxes first .. first + 7 that the query touches; bit k is box first + k.
     uint32_t touched(uint32_t first) const
     {
         const hn::CappedTag<T, kTreeFanOut> d;

@@ -1,8 +1,9 @@
 /// @file concentration_loop.h
-/// Unevenness of the neighbors around a particle.
+/// Gradient of the particle concentration around a particle.
 ///
 /// @formula particle-concentration
-/// The gradient of a concentration of particles that is steepest where they meet, and the way out of the gas.
+/// The gradient of a particle concentration that is steepest at the particles, and the direction out of the
+/// gas.
 ///
 /// symbol    unit   meaning
 ///   m        kg     mass of a particle
@@ -13,14 +14,15 @@
 ///   G        m      gradient
 ///   E        m      direction out of the gas
 /// @derivation
-///   A concentration that falls as (1 - r/R)^3 around each particle has the gradient -3/R (1 - r/R)^2 d/r, so
 ///       G = sum over r < R of R 2 m_j / (m_i + m_j) (1 - r/R)^2 d/r                                (1)
-///   points to where there is room. m_i times a summand is symmetric in the pair but for d, which is
-///   antisymmetric: displacements by a multiple of G leave the center of mass where it is.
+///   points towards lower concentration. m_i times a summand is antisymmetric in the pair, so displacements
+///   by a multiple of G do not move the center of mass.
 ///       E = sum over r < H of (1 - r^2/H^2) d                                                      (2)
+///   is zero inside of evenly sampled gas and points outwards at a free surface.
 ///   is zero inside of even gas and points out of a free surface.
 /// @source    [LIN12] for displacement down a gradient of concentration; (1) and (2) are ours
-/// @deviation the published concentration is that of the flow's kernel, flat where particles meet
+/// @deviation the published concentration uses the kernel of the flow, whose gradient is zero at the
+/// particles
 /// @valid     H > 0, everything finite. Coincident pairs have no direction and add nothing
 /// @accuracy  float rounding; every instruction set gives the same bits
 /// @tests     tests/simulation/pair_loops/test_concentration_loop.cpp
@@ -30,7 +32,7 @@
 
 namespace fx::sim {
 
-/// Where results go: arrays indexed by slot. [m]
+/// Output arrays, indexed by slot. [m]
 template <class T>
 struct ConcentrationResults
 {
@@ -46,8 +48,8 @@ struct ConcentrationCall
     const ConcentrationResults<T>& results;
 };
 
-/// G and E of all slots. Reads x, y, z, support and mass of the records; lists must hold all neighbors
-/// within the larger support. Runs on the calling thread (the caller splits the work).
+/// Computes G and E of all slots. Reads x, y, z, support and mass of the records. The lists must hold all
+/// neighbors within the larger support. Runs on the calling thread (the caller splits the work).
 template <class T>
 void sumConcentration(const ConcentrationCall<T>& call);
 

@@ -23,8 +23,8 @@ enum : uint32_t
     kDensitySums = 20
 };
 
-/// All sums in the lanes of one vector. Single members: compilers keep them in registers, an array they do
-/// not.
+/// All sums in the lanes of one vector. They are single members instead of an array, because compilers do not
+/// keep arrays in registers.
 template <class T>
 struct FlowSums
 {
@@ -34,7 +34,7 @@ struct FlowSums
 
     using Rows = T (*)[kLanes];
 
-    /// Lanes p .. p + width - 1 of all rows.
+    /// Loads the lanes p .. p + width - 1 of all rows.
     HWY_INLINE FlowSums(Rows row, uint32_t p)
         : mass(from(row, 0, p)), growth(from(row, 1, p)), xx(from(row, 2, p)), xy(from(row, 3, p)),
           xz(from(row, 4, p)), yy(from(row, 5, p)), yz(from(row, 6, p)), zz(from(row, 7, p)),
@@ -66,7 +66,7 @@ struct FlowSums
         ez.store(row[19] + p);
     }
     static HWY_INLINE Pack<T> from(Rows row, uint32_t s, uint32_t p) { return Pack<T>::load(row[s] + p); }
-    /// @param m w'(q) / q of neighbors at d with relative velocity u
+    /// @param steep m w'(q) / q of neighbors at d with relative velocity u
     HWY_INLINE void addFlow(Pack<T> steep, const Pack<T>* d, const Pack<T>* u)
     {
         const Pack<T> weight = Pack<T>(0.0) - steep;
@@ -92,7 +92,7 @@ struct FlowSums
     }
 };
 
-/// Neighbors of one particle, relative to it, ready for repeated sums.
+/// Neighbors of one particle, relative to it and stored for repeated sums.
 template <class T>
 class NeighborBlock
 {
@@ -121,7 +121,7 @@ public:
         }
     }
 
-    /// Adds the first two sums of support 1 / perSupport.
+    /// Adds the first two sums, with the support 1 / perSupport.
     template <class Shape>
     void addMass(T perSupport, LaneSums<T, kDensitySums>& sums) const
     {
@@ -168,8 +168,9 @@ public:
 private:
     static HWY_INLINE Pack<T> at(const T* from) { return Pack<T>::load(from); }
 
-    static constexpr double kFar = 1e30;                   ///< [m]
-    static constexpr uint32_t kPitch = kCapacity + kLanes; ///< rows 4096 bytes apart would delay loads
+    static constexpr double kFar = 1e30; ///< [m]
+    /// longer than kCapacity, because rows 4096 bytes apart would delay loads
+    static constexpr uint32_t kPitch = kCapacity + kLanes;
 
     uint32_t size_ = 0;
     alignas(64) T d_[3][kPitch];

@@ -1,8 +1,8 @@
 /// @file force_loop.h
-/// Pressure force, viscosity and heating by neighbors.
+/// Pressure force, viscosity and heating, summed over neighbors.
 ///
 /// @formula gas-pair-forces
-/// Acceleration by pressure and viscosity, heating by viscosity and conduction, in pairs that conserve
+/// Acceleration by pressure and viscosity, and heating by viscosity and conduction. Each pair conserves
 /// momentum and energy.
 ///
 /// symbol     unit        meaning
@@ -21,19 +21,21 @@
 ///   b, k      1           the rules' beta and conductivity
 /// @derivation
 ///   mu = min(v.d, 0) / r,  s = c_i + c_j - b mu                                              (1)
-///   bars are means of both:  rho- = (rho_i + rho_j) / 2, likewise F-, a-, B-
+///   overbars, written x-, are means of both particles:  rho- = (rho_i + rho_j) / 2, likewise F-, a-, B-
 ///   nu = -1/2 a- B- mu s / rho-  >= 0                                                         (2)
 ///   dv_i/dt = -sum m_j (p_i F_i + p_j F_j + nu F-) d                                          (3)
-///   heating by viscosity: sum m_j nu / 2 (v.d) F-, half of what (3) takes from the motion     (4)
+///   heating by viscosity: sum m_j nu / 2 (v.d) F-, half of the kinetic energy that (3) removes    (4)
 ///   heating by conduction: sum m_j k sqrt(|P_i - P_j| / rho-) (u_i - u_j) / rho- r F-,
-///   which flows from hot to cold, as F < 0, and is antisymmetric                              (5)
-///   The bracket of (3) is symmetric in i and j bit for bit and d is antisymmetric: what i feels from j, over
-///   m_j, is the exact opposite of what j feels from i, over m_i.
-///   A pair nearer than 1e-6 of its mean support has no direction: d becomes 0.05 of the mean support along a
-///   direction hashed from both ids, opposite for i and j; for an image in a wall, away from the wall (6)
+///   the heat flows from hot to cold, as F < 0, and is antisymmetric in the pair                  (5)
+///   The bracket of (3) is symmetric in i and j bit for bit, and d is antisymmetric. Therefore the
+///   acceleration of i by j over m_j is the exact opposite of the acceleration of j by i over m_i.
+///   A pair nearer than 1e-6 of its mean support has no defined direction. Then d is set to a vector of
+///   length 0.05 of the mean support. Its direction is hashed from both ids, with opposite results for i and
+///   j. For an image in a wall it points away from the wall
+///   (6)
 /// @source    [PRI12] section 3 for pressure in (3), doi:10.1016/j.jcp.2010.12.011; [MON05] for (1), (2);
 ///            [PRI08] for (5), doi:10.1016/j.jcp.2008.08.011
-/// @deviation (6); pressure work is not part of the heating: the entropy form needs none
+/// @deviation (6); the heating does not contain pressure work, because the entropy form does not need it
 /// @valid     m, H, rho > 0, everything finite
 /// @accuracy  sums within 4e-6 (float), 2e-14 (double) of their absolute terms; every instruction set gives
 ///            the same bits
@@ -47,25 +49,25 @@ namespace fx::sim {
 struct ForceRules
 {
     SphKernel kernel = SphKernel::WendlandC2; ///< unstable beyond kernelFacts(kernel).largestNeighbors
-    double beta = 3;                          ///< [1] of the signal speed
-    double conductivity = 1;                  ///< [1] 0 for none
-    /// By slot: the identity of a particle, for the direction in which coincident ones part. Null: its
-    /// slot.
+    double beta = 3;                          ///< [1] beta of the signal speed
+    double conductivity = 1;                  ///< [1] k of the conduction; 0: none
+    /// Ids of particles by slot. They determine the direction in which coincident particles part. Null: the
+    /// slots serve as ids.
     const uint32_t* ids = nullptr;
 };
 
-/// Where results go: arrays indexed by slot.
+/// Output arrays, indexed by slot.
 template <class T>
 struct ForceResults
 {
     T* ax; ///< [m/s2]
     T* ay;
     T* az;
-    T* heating;         ///< [W/kg] by viscosity and conduction; pressure work is not in it: entropy form
-    T* signalSpeed;     ///< [m/s] largest over pairs, at least 2 c
-    T* fastestNeighbor; ///< [1] smallest stepLevel among neighbors within the larger support; its own without
-                        ///< any
-    uint32_t* pairs;    ///< neighbors j with r < max(H_i, H_j), mirror images included
+    T* heating;     ///< [W/kg] by viscosity and conduction, without pressure work (entropy form)
+    T* signalSpeed; ///< [m/s] largest over pairs, at least 2 c
+    /// [1] smallest stepLevel among neighbors within the larger support; without neighbors the particle's own
+    T* fastestNeighbor;
+    uint32_t* pairs; ///< neighbors j with r < max(H_i, H_j), mirror images included
 };
 
 template <class T>
@@ -76,9 +78,9 @@ struct ForceCall
     const ForceResults<T>& results;
 };
 
-/// Accelerations of all slots: pressure with corrections for varying support, viscosity with signal speed
-/// and limiter, conduction. Bit-equal for every instruction set; runs on the calling thread (the caller
-/// splits the work).
+/// Computes accelerations of all slots: pressure with corrections for varying support, viscosity with signal
+/// speed and limiter, and conduction. Bit-equal for every instruction set. Runs on the calling thread (the
+/// caller splits the work).
 template <class T>
 void sumForces(const ForceCall<T>& call);
 

@@ -17,16 +17,16 @@ namespace fx::sim::pairs::HWY_NAMESPACE {
 /// The sums in the order of LaneSums' rows.
 enum : uint32_t
 {
-    kSumAcceleration = 0, ///< three, with the opposite sign
+    kSumAcceleration = 0, ///< three rows, with the opposite sign
     kSumHeating = 3,
-    kSumSignal = 4, ///< largest
-    kSumLevel = 5,  ///< smallest
+    kSumSignal = 4, ///< largest signal speed
+    kSumLevel = 5,  ///< smallest step level
     kForceSums = 6
 };
 
 constexpr double kNoLevel = 1e30;
 
-/// Values of one particle in its pairs, in all lanes.
+/// Values of the particle that owns the list, broadcast to all lanes.
 template <class T, class Shape>
 struct PairOwner
 {
@@ -48,7 +48,8 @@ struct PairOwner
     Pack<T> beta, conductivity;
 };
 
-/// Replaces the differences of position of coincident pairs: (6). Rare, lane by lane.
+/// Replaces the position differences of coincident pairs by (6). Such pairs are rare and processed lane by
+/// lane.
 template <class T>
 HWY_NOINLINE void partCoincident(const Owner<T>& owner, const uint32_t* ids, const uint32_t* entries,
                                  Pack<T> meanSupport, Pack<T> isCoincident, Pack<T>* d)
@@ -80,7 +81,7 @@ HWY_NOINLINE void partCoincident(const Owner<T>& owner, const uint32_t* ids, con
         d[a] = Pack<T>::load(part[a]);
 }
 
-/// One vector of pairs. Everything in it is symmetric or antisymmetric in the two particles, bit for bit.
+/// Evaluates one vector of pairs. Every term is symmetric or antisymmetric in the two particles, bit for bit.
 template <class T, class Shape>
 HWY_INLINE uint32_t addPairs(const PairOwner<T, Shape>& i, const GasRecord<T>* records,
                              const uint32_t* entries, Pack<T>* sum)

@@ -1,10 +1,10 @@
 /// @file lanes-inl.h
-/// Arithmetic on as many numbers at once as the instruction set has, and sums whose bits do not depend on how
-/// many that is. Included once for each instruction set.
+/// Arithmetic on vectors of any width, and sums whose bits do not depend on that width. Included once for
+/// each instruction set.
 ///
 /// Every sum over neighbors has kLanes = 16 virtual lanes: lane k takes the list entries 16 m + k. Narrow
-/// instruction sets work on a few of these lanes after another. The 16 partial results are combined by one
-/// tree for all.
+/// instruction sets process a few of these lanes at a time. The 16 partial results are added in the same
+/// order for every instruction set.
 #if defined(FX_PAIR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PAIR_LANES_INL
 #undef FX_PAIR_LANES_INL
@@ -47,8 +47,8 @@ HWY_INLINE Pack<T> choose(typename Pack<T>::Mask mask, Pack<T> yes, Pack<T> no)
     return Pack<T>(hn::IfThenElse(mask, yes.v, no.v));
 }
 
-/// The nearest integer, ties to even, for |a| < 2^22 (float) or 2^51: by the rounding of an addition, which
-/// is the same everywhere.
+/// The nearest integer, ties to even, for |a| < 2^22 (float) or 2^51 (double). It uses the rounding of an
+/// addition, which is the same on every processor.
 template <class T>
 HWY_INLINE Pack<T> nearestInteger(Pack<T> a)
 {
@@ -56,7 +56,7 @@ HWY_INLINE Pack<T> nearestInteger(Pack<T> a)
     return (a + big) - big;
 }
 
-/// Scalars under the names that kernel_shapes.inl uses.
+/// Scalar functions under the names that kernel_shapes.inl uses.
 HWY_INLINE float larger(float a, float b)
 {
     return a > b ? a : b;
@@ -123,7 +123,7 @@ struct TakingSmaller
     }
 };
 
-/// One level of the tree: lane k with lane k + Half.
+/// One level of the reduction tree: combines lane k with lane k + Half.
 template <uint32_t Half, class F, class T>
 HWY_INLINE void halve(const T* lane, T* out, F f)
 {
@@ -133,8 +133,9 @@ HWY_INLINE void halve(const T* lane, T* out, F f)
         hn::StoreU(f(tag, hn::LoadU(tag, lane + k), hn::LoadU(tag, lane + Half + k)), tag, out + k);
 }
 
-/// Combines the 16 lanes of rows [first, first + Rows): ((0+8)+(4+12))+((2+10)+(6+14)), plus the same of the
-/// odd ones. Level by level for all rows, to shorten dependency chains.
+/// Combines the 16 lanes of rows [first, first + Rows): ((0+8)+(4+12))+((2+10)+(6+14)), plus the same
+/// expression of the odd lanes. Each level is computed for all rows before the next, to shorten dependency
+/// chains.
 template <uint32_t Rows, class F, class T, uint32_t Q>
 HWY_INLINE void combineRows(const LaneSums<T, Q>& sums, uint32_t first, T* out, F f)
 {

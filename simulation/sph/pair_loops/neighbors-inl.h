@@ -1,5 +1,5 @@
 /// @file neighbors-inl.h
-/// Loads neighbors from their records and positions them relative to the particle that they are neighbors of.
+/// Loads neighbors from their records and computes their positions relative to the owner of the list.
 /// Included once for each instruction set.
 #if defined(FX_PAIR_NEIGHBORS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PAIR_NEIGHBORS_INL
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::pairs::HWY_NAMESPACE {
 
-/// Four numbers of each of several neighbors.
+/// Four fields of several neighbors, one vector per field.
 template <class T>
 struct Quad
 {
@@ -23,7 +23,7 @@ struct Quad
 
 #if HWY_TARGET == HWY_SCALAR
 
-/// Four numbers of a record: for instruction sets without vectors.
+/// Loads four fields of one record, for instruction sets without vectors.
 template <class Tag>
 HWY_INLINE Quad<hn::TFromD<Tag>> loadTransposed(Tag, const hn::TFromD<Tag>* table, const uint32_t* entries)
 {
@@ -34,7 +34,7 @@ HWY_INLINE Quad<hn::TFromD<Tag>> loadTransposed(Tag, const hn::TFromD<Tag>* tabl
 
 #else
 
-/// One vector of the 128-bit blocks at `field` of every `stride`-th entry.
+/// Loads one vector of the 128-bit blocks at `field` of every `stride`-th entry.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> loadBlocks(Tag tag, const hn::TFromD<Tag>* table, const uint32_t* entries,
                                    uint32_t stride)
@@ -51,7 +51,7 @@ HWY_INLINE hn::Vec<Tag> loadBlocks(Tag tag, const hn::TFromD<Tag>* table, const 
     }
 }
 
-/// Four numbers, of type float, of as many records as a vector has lanes.
+/// Loads four float fields of as many records as a vector has lanes.
 template <class Tag>
 HWY_INLINE Quad<float> loadTransposed(Tag tag, const float* table, const uint32_t* entries)
 {
@@ -70,7 +70,7 @@ HWY_INLINE Quad<float> loadTransposed(Tag tag, const float* table, const uint32_
             Pack<float>(hn::BitCast(tag, hn::InterleaveUpper(pairs, cd01, cd23)))};
 }
 
-/// The same for doubles: two numbers fill a block.
+/// Loads four double fields; a 128-bit block holds two of them.
 template <class Tag>
 HWY_INLINE Quad<double> loadTransposed(Tag tag, const double* table, const uint32_t* entries)
 {
@@ -85,7 +85,7 @@ HWY_INLINE Quad<double> loadTransposed(Tag tag, const double* table, const uint3
 
 #endif
 
-/// Fields 4 group .. 4 group + 3 of the neighbors entries[0 .. width).
+/// Loads the fields 4 group .. 4 group + 3 of the neighbors entries[0 .. width).
 template <class T>
 HWY_INLINE Quad<T> loadQuad(const GasRecord<T>* records, const uint32_t* entries, uint32_t group)
 {
@@ -93,7 +93,7 @@ HWY_INLINE Quad<T> loadQuad(const GasRecord<T>* records, const uint32_t* entries
     return loadTransposed(typename Pack<T>::Tag(), table, entries);
 }
 
-/// The list entries of a vector's lanes, as bits beside numbers of type T.
+/// The list entries of the lanes of a vector, as bits in lanes of the width of T.
 template <class T>
 class Entries
 {
@@ -119,7 +119,7 @@ template <>
 HWY_INLINE Entries<float>::Entries(const uint32_t* entries) : bits_(hn::LoadU(Words(), entries))
 {}
 
-/// Where images of neighbors are, for one particle.
+/// Positions of image walls and periods for one particle.
 template <class T>
 struct ImageRules
 {
@@ -135,7 +135,7 @@ struct ImageRules
     bool walls = false;
 };
 
-/// The particle that a list belongs to, in all lanes.
+/// The particle that owns the list, broadcast to all lanes.
 template <class T>
 struct Owner
 {
@@ -156,7 +156,7 @@ struct Owner
     T wall[3];
 };
 
-/// Position and velocity of the owner relative to neighbors.
+/// Position and velocity of the owner relative to its neighbors.
 template <class T>
 struct Relative
 {

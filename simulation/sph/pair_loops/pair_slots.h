@@ -1,5 +1,5 @@
 /// @file pair_slots.h
-/// Inputs of a loop over pairs: the particles with sums, their neighbors, and a record of each.
+/// Inputs of a loop over pairs: the slots to evaluate, their neighbor lists, and a record of each particle.
 #pragma once
 
 #include "simulation/sph/neighbors/neighbor_lists.h"
@@ -8,10 +8,11 @@
 
 namespace fx::sim {
 
-/// Record of a gas particle for the loops, in one cache line (float) or two (double).
+/// Record of a gas particle for loops over pairs, in one cache line (float) or two (double).
 ///
-/// Sixteen numbers in four groups of four: loops over neighbors load groups and transpose them, which is
-/// faster than gathering numbers one by one. The density needs the first two groups, the forces all.
+/// It has sixteen numbers in four groups of four. The loops load whole groups and transpose them, which is
+/// faster than gathering single numbers. The density loop needs the first two groups, the force loop needs
+/// all.
 template <class T>
 struct alignas(16 * sizeof(T)) GasRecord
 {
@@ -25,7 +26,7 @@ struct alignas(16 * sizeof(T)) GasRecord
     T viscosity;  ///< [1] alpha of the switch
     T limiter;    ///< [1] Balsara's factor, 0..1
     T energy;     ///< [J/kg] specific thermal energy, for conduction
-    T pressure;   ///< [Pa], for the signal speed of conduction
+    T pressure;   ///< [Pa], for the conductivity, which depends on pressure differences
     T stepLevel;  ///< [1] binary logarithm of the particle's time step in ticks, a small integer
 };
 
@@ -35,9 +36,9 @@ template <class T>
 struct PairSlots
 {
     const NeighborLists<T>& lists;
-    const GasRecord<T>* records; ///< by slot
+    const GasRecord<T>* records; ///< indexed by slot
     const Domain& domain;
-    std::span<const uint32_t> slots; ///< a part of the lists' owners
+    std::span<const uint32_t> slots; ///< slots to evaluate, all of which own lists
 };
 
 } // namespace fx::sim

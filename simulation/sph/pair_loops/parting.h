@@ -10,10 +10,11 @@
 
 namespace fx::sim {
 
-constexpr double kCoincident = 1e-6;      ///< [1] of the mean support: nearer pairs have no direction
-constexpr double kPartingDistance = 0.05; ///< [1] of the mean support: where their kernel is taken
+constexpr double kCoincident = 1e-6; ///< [1] of the mean support: closer pairs have no defined direction
+/// [1] of the mean support: distance at which their kernel is evaluated
+constexpr double kPartingDistance = 0.05;
 
-/// A unit vector for particle `id` as seen from `other`; for `other` as seen from `id` its exact opposite.
+/// A unit vector from `other` towards `id`. Exchanging both arguments gives its exact opposite.
 template <class T>
 std::array<T, 3> partingDirection(uint32_t id, uint32_t other)
 {

@@ -13,7 +13,7 @@
 ///   C       1       its constant
 ///   k       1       wave number in units of 1 / H
 ///   N       1       neighbors, 4/3 pi H^3 times the number density
-///   e       1       part of the own contribution that is left out of the density
+///   e       1       share of the self-contribution that the density omits
 /// @derivation
 ///   W = C / H^3 w(q),  gradient of W = C / H^5 (w'(q) / q) (x_i - x_j),
 ///   dW/dH = -C / H^4 (3 w + q w'),  C = 1 / (4 pi integral of q^2 w over [0, 1])               (1)
@@ -23,14 +23,13 @@
 ///                 w'/q = -3 (1 - p)^2 / p - 9 (p - q) with p = max(q, 1/2)                     (4)
 ///   The paper's:  w = (1 - q^2)^n,                       w'/q = -2 n (1 - q^2)^(n - 1)         (5)
 ///   Fourier transform: 4 pi / k integral of q w sin(k q) over [0, 1]. Where it is negative, a lattice of
-///   particles is unstable: neighbors fall together in pairs                                    (6)
-///   The own contribution of a particle exceeds what it stands for by the part
+///   particles is unstable, and neighbors form pairs (pairing instability)                       (6)
+///   The self-contribution of a particle exceeds the density that the particle represents, by the share
 ///   e = 0.0294 (N / 100)^-0.977 for C2 and 0.01342 (N / 100)^-1.579 for C4                     (7)
 /// @source    [DA12] table 1 for (2)-(4), section 2 for (6), eq. (18) for (7),
 ///            doi:10.1111/j.1365-2966.2012.21439.x; [WEN95] for (2), (3)
-/// @deviation the last term of (4) continues the outer branch; equal to the textbook's two cases. (7) is 0
-/// for
-///            (4) and (5), for which nothing has been published
+/// @deviation the last term of (4) continues the outer branch; the result equals the two cases of the
+///            textbook. (7) is 0 for (4) and (5), for which nothing has been published
 /// @valid     0 <= q <= 1. Forces with (5) are unstable at any number of neighbors and those with (4) beyond
 /// 50
 /// @accuracy  float rounding: relative error <= 1e-6 of w(0)
@@ -49,8 +48,8 @@ enum class SphKernel : uint8_t
 {
     WendlandC2,  ///< default
     WendlandC4,  ///< for 100 neighbors and more
-    CubicSpline, ///< pairs beyond 50 neighbors
-    Quartic,     ///< (1 - q^2)^2, the paper's: right for density and pictures, unstable as a force
+    CubicSpline, ///< forms pairs beyond 50 neighbors
+    Quartic,     ///< (1 - q^2)^2, as in the paper: for density and pictures, unstable as a force
     Sextic,      ///< (1 - q^2)^3, for density and pictures only
     Octic        ///< (1 - q^2)^4, for density and pictures only
 };
@@ -61,11 +60,11 @@ constexpr std::array<SphKernel, 6> kSphKernels{SphKernel::WendlandC2,  SphKernel
 
 struct KernelFacts
 {
-    std::string_view name; ///< as commands and files write it: "wendland-c2"
+    std::string_view name; ///< name in commands and files, such as "wendland-c2"
     double norm;           ///< [1] C
     double center;         ///< [1] w(0)
-    /// [1] up to which forces are stable: infinite where the Fourier transform is nowhere negative, 0 where
-    /// forces are unstable at any number.
+    /// [1] largest number of neighbors with stable forces: infinite where the Fourier transform is nowhere
+    /// negative, 0 where forces are unstable for any number.
     double largestNeighbors;
 };
 
@@ -78,7 +77,7 @@ double kernelSlope(SphKernel kernel, double r, double support);
 /// [1/m4] dW/dH.
 double kernelSupportSlope(SphKernel kernel, double r, double support);
 
-/// [1] The part of a particle's own contribution that its density leaves out, in [0, 1/2].
+/// [1] Share of the self-contribution that the density omits, in [0, 1/2].
 double selfBias(SphKernel kernel, double neighbors);
 
 } // namespace fx::sim

@@ -1,5 +1,5 @@
 /// @file support_search.h
-/// Finds the support that holds a fixed mass: a bounded Newton iteration for gas-density (2), (3).
+/// Finds the support that encloses a fixed mass, by a bounded Newton iteration for gas-density (2), (3).
 #pragma once
 
 #include "foundation/math/elementary.h"
@@ -9,15 +9,15 @@
 
 namespace fx::sim {
 
-/// The search for one particle. The caller evaluates the mass within support() and passes it on, until
-/// isDone().
+/// The search for one particle. Until isDone(), the caller evaluates S and D at support() and passes them to
+/// tell().
 template <class T>
 class SupportSearch
 {
 public:
-    static constexpr uint32_t kMaxEvaluations = 19; ///< and one more at the result, by the caller
+    static constexpr uint32_t kMaxEvaluations = 19; ///< besides one at the result, by the caller
 
-    /// @param want [kg] 3 N m / (4 pi)
+    /// @param want [kg] target value 3 N m / (4 pi) of S
     /// @param bottom, top [m] 0 < bottom <= top
     /// @param guess [m] > 0
     SupportSearch(T want, T bottom, T top, T guess, T tolerance)
@@ -29,8 +29,8 @@ public:
 
     T support() const { return support_; }
     bool isDone() const { return done_; }
-    bool isAtTop() const { return atTop_; }       ///< more than `top` was wanted
-    bool isAtBottom() const { return atBottom_; } ///< less than `bottom` was wanted
+    bool isAtTop() const { return atTop_; }       ///< the solution exceeds `top`
+    bool isAtBottom() const { return atBottom_; } ///< the solution is below `bottom`
 
     /// @param mass [kg] S at support()
     /// @param growth [kg] D at support()
@@ -58,13 +58,14 @@ public:
     }
 
 private:
-    static constexpr uint32_t kMaxProposals = 8; ///< before the bracket is halved in every step
+    /// number of proposals, after which the bracket is halved in every step
+    static constexpr uint32_t kMaxProposals = 8;
 
     bool isNewton(T mass, T growth) const
     {
         return growth > T(0) && mass < T(2) * want_ && want_ < T(2) * mass;
     }
-    /// Whether the square of the relative change is at most `square`.
+    /// True if the square of the relative change is at most `square`.
     bool isWithin(T next, T square) const
     {
         const T change = next - support_;
@@ -78,7 +79,8 @@ private:
             return mass < want_ ? top_ : bottom_;
         return support_ * static_cast<T>(base::cubeRoot(static_cast<double>(want_ / mass))); // S grows as H^3
     }
-    /// The proposal if it is inside of the bracket, or a bound not tried yet, or the bracket's middle.
+    /// Returns the proposal if it is inside of the bracket; otherwise an untried bound or the middle of the
+    /// bracket.
     T inside(T next, bool grows) const
     {
         if (evaluations_ < kMaxProposals) {

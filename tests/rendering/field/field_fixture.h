@@ -19,7 +19,7 @@ constexpr int kFieldWidth = 96, kFieldHeight = 64;
 class FieldTest : public PostPass
 {
 protected:
-    /// What a ray sees between two distances.
+    /// Range of a ray in which the field is visible.
     struct Window
     {
         float wall = std::numeric_limits<float>::infinity(); ///< [m] along the ray, what is opaque
@@ -28,9 +28,9 @@ protected:
         std::vector<float> walls = {}; ///< of each pixel, in place of `wall`
     };
 
-    /// Plans as if for a large picture, and fills; textures stay for the test.
+    /// Plans as for a large picture, and fills the field. The test keeps the textures.
     void fill(const FieldScene& scene, int resolution, bool layers = false);
-    /// RGBA of each pixel, or with layers of the target that is asked for.
+    /// RGBA of each pixel; with layers, of the requested target.
     std::vector<float> march(const render::CameraView& camera, const Window& window,
                              size_t target = render::MediaPass::Fire);
     std::vector<float> picture(const std::vector<FieldBall>& balls, const render::CameraView& camera,

@@ -25,14 +25,14 @@ struct FieldBall
     uint32_t effect = 0;
 };
 
-/// What a plan is made from, as a view gathers it.
+/// Inputs of a plan, as a view gathers them.
 struct FieldScene
 {
     std::vector<render::BlobInstance> balls;
     std::vector<render::BlobEffect> effects;
     render::CameraGeometry camera;
 
-    /// Balls of one effect come together, in their order.
+    /// Groups the balls by effect, keeping their order.
     FieldScene(const std::vector<FieldBall>& world, const render::CameraView& view);
     render::FieldPlanInputs inputs(int width, int height, int resolution) const;
 };
@@ -45,7 +45,7 @@ std::vector<FieldBall> randomBalls(uint32_t count, uint64_t seed, const glm::dve
 /// weights: 1.
 double sumAt(const FieldScene& scene, uint32_t effect, const glm::dvec3& place,
              const render::FieldBlock& field, const std::vector<double>& weights = {});
-/// The same without weights as a sample holds it: not below 0.
+/// As sumAt() without weights, clamped to 0 as in a stored sample.
 double sampleAt(const FieldScene& scene, uint32_t effect, const glm::dvec3& place,
                 const render::FieldBlock& field);
 

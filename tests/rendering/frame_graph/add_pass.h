@@ -9,7 +9,7 @@
 
 namespace fx::render {
 
-/// Adds a pass whose setup and execution are given apart.
+/// Adds a pass with separate functions for setup and execution.
 template <class Setup, class Execute>
 void addPass(FrameGraph& graph, std::string_view name, Setup&& setup, Execute execute)
 {

@@ -1,6 +1,6 @@
 /// @file gl_host_state.h
-/// A host with unusual OpenGL state, and a probe that reads all of it: both written without regard to the
-/// library's own table, with functions that the host loads itself.
+/// A host with unusual OpenGL state, and a probe that reads all state. Both are independent of the library's
+/// own table and use functions that the host loads itself.
 #pragma once
 
 #include "rendering/gl/gl_functions.h"
@@ -26,9 +26,9 @@ public:
     /// Sets every state that the probe reads to something that is neither GL's default nor what drawing
     /// needs.
     void makeHostile();
-    /// Reads everything.
+    /// Reads all state.
     GlProbe probe();
-    /// Gives everything back that makeHostile() made, so that the context can go.
+    /// Deletes everything that makeHostile() created, so that the context can be destroyed.
     void release();
 
 private:

@@ -1,6 +1,6 @@
 /// @file outputs_truth.h
-/// What outputs are by their definitions: a march in double with small steps through smooth balls, written
-/// from docs/howto/outputs.md alone.
+/// Outputs computed from their definitions in docs/howto/outputs.md: a march with small steps, in double
+/// precision, through smooth balls.
 #pragma once
 
 #include "rendering/frame/view_types.h"

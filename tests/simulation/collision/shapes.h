@@ -1,5 +1,5 @@
 /// @file shapes.h
-/// Meshes for tests whose distance is known in closed form.
+/// Meshes for tests, with distances in closed form.
 #pragma once
 
 #include "simulation/collision/distance_field.h"
@@ -27,7 +27,7 @@ inline void addQuad(Soup& soup, const glm::vec3& a, const glm::vec3& b, const gl
     soup.insert(soup.end(), {a, b, c, a, c, d});
 }
 
-/// Turns every triangle around.
+/// Reverses the orientation of every triangle.
 inline Soup insideOut(Soup soup)
 {
     for (size_t i = 0; i + 2 < soup.size(); i += 3)
@@ -106,7 +106,7 @@ inline std::shared_ptr<const sim::DistanceField> fieldOf(const Soup& soup, float
     return field.ok() ? *field : nullptr;
 }
 
-/// Runs each loop on so many threads, whatever the machine has.
+/// Runs each loop on `threads` threads, independent of the machine.
 inline std::unique_ptr<base::TaskRunner> threadedRunner(uint32_t threads)
 {
     static constexpr uint32_t kCounts[] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -120,7 +120,7 @@ inline std::unique_ptr<base::TaskRunner> threadedRunner(uint32_t threads)
     return base::makeHostRunner({const_cast<uint32_t*>(&kCounts[threads]), run});
 }
 
-/// Places that fill the box from -1 to 1 evenly and fall on no grid.
+/// Positions that fill the box from -1 to 1 evenly without lying on a grid.
 inline glm::vec3 quasiRandom(uint32_t i)
 {
     const auto part = [i](double step) { return float(2.0 * std::fmod(0.5 + i * step, 1.0) - 1.0); };

@@ -1,5 +1,5 @@
 /// @file neighbor_stage.h
-/// Clouds of particles, and the search for neighbors that tests trust: over all pairs.
+/// Clouds of particles, and a reference search for neighbors over all pairs.
 #pragma once
 
 #include "foundation/random/philox.h"
@@ -91,7 +91,7 @@ inline std::vector<uint32_t> everyone(uint32_t count)
     return owners;
 }
 
-/// Instead of a number of threads: pieces as short as allowed, the last first.
+/// In place of a number of threads: runs the shortest allowed ranges, the last range first.
 constexpr uint32_t kBackwards = ~0u;
 
 inline std::unique_ptr<base::TaskRunner> runner(uint32_t threads)
@@ -113,7 +113,7 @@ struct SearchOptions
     double margin = 0.125;
     uint32_t entriesPerParticle = 512;
     uint32_t threads = 1;
-    std::vector<uint32_t> owners = {}; ///< everyone where empty
+    std::vector<uint32_t> owners = {}; ///< empty: all particles
 };
 
 template <class T>
@@ -161,7 +161,7 @@ T distance2(const Cloud<T>& cloud, const sim::Domain& domain, uint32_t i, uint32
     return d2;
 }
 
-/// Entries of slot `i` by trial of all particles and all images, in the order that lists have.
+/// Entries of slot `i` from a test of all particles and all images, in the order of lists.
 template <class T>
 std::vector<uint32_t> trialOfAll(const Cloud<T>& cloud, const sim::Domain& domain, T margin, uint32_t i)
 {
@@ -176,7 +176,7 @@ std::vector<uint32_t> trialOfAll(const Cloud<T>& cloud, const sim::Domain& domai
     return entries;
 }
 
-/// Compares the lists of every `stride`th owner with the trial of all.
+/// Compares the lists of every `stride`th owner with those of trialOfAll().
 template <class T>
 void expectTrialOfAll(const Searched<T>& s, uint32_t stride = 1)
 {

@@ -1,6 +1,6 @@
 /// @file pair_reference.h
-/// The sums of the pair loops once more: in double, over all pairs, in the textbook's form with dW/dr and
-/// unit vectors, from the formulas in the comments.
+/// Reference of the sums of the pair loops: in double, over all pairs, in the textbook form with dW/dr and
+/// unit vectors, written from the formulas in the comments.
 #pragma once
 
 #include "benchmarks/scenes/gas_stage.h"

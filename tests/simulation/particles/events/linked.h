@@ -21,7 +21,7 @@ std::shared_ptr<sim::EffectDef> linkedEffect(std::unique_ptr<Defs>... defs)
     return effect;
 }
 
-/// Sprites that only events give birth to, where they happen, and that rest there.
+/// Sprites that are born only by events, at their positions, and do not move.
 inline std::unique_ptr<sim::EmitterDef> fedEmitter(float lifetime = 1000.0f)
 {
     auto def = std::make_unique<sim::EmitterDef>();

@@ -1,5 +1,5 @@
 /// @file moved.h
-/// Emitters whose particles stay behind when their instance moves, for tests.
+/// Emitters whose particles stay in world space when their instance moves, for tests.
 #pragma once
 
 #include "simulation/emitters/emitter_solver.h"
@@ -34,7 +34,7 @@ inline base::Placement turnedAboutZ(float radians)
     return placement;
 }
 
-/// World positions of what solver 0 shows.
+/// World positions of the elements that solver 0 publishes.
 inline std::vector<glm::dvec3> worldPositions(const base::FrameSnapshot& snapshot, uint32_t solver = 0)
 {
     std::vector<glm::dvec3> found;

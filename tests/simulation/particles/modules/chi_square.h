@@ -1,5 +1,5 @@
 /// @file chi_square.h
-/// Whether counts are those of given probabilities.
+/// Chi-square test whether counts agree with given probabilities.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,8 +39,8 @@ private:
     std::vector<uint64_t> counts_;
 };
 
-/// What chi-square of so many degrees of freedom exceeds with the probability that the normal distribution
-/// exceeds z: the approximation of Wilson and Hilferty.
+/// Value that chi-square with `degrees` degrees of freedom exceeds with the probability with which the normal
+/// distribution exceeds z, by the approximation of Wilson and Hilferty.
 inline double chiSquareLimit(double degrees, double z)
 {
     const double part = 2.0 / (9.0 * degrees);

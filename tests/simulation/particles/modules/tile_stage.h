@@ -1,5 +1,5 @@
 /// @file tile_stage.h
-/// A tile by itself: what a module gets, and the free flight between modules, written again from tile.h.
+/// A single tile as input of modules, and the free flight between modules, written again from tile.h.
 #pragma once
 
 #include "simulation/particles/tile.h"
