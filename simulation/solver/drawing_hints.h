@@ -1,6 +1,6 @@
 /// @file drawing_hints.h
-/// How an effect is meant to be drawn, and what several effects together ask for. For renderers: the simulation
-/// does not depend on it.
+/// How an effect is meant to be drawn, and what several effects together ask for. For renderers: the
+/// simulation does not depend on it.
 #pragma once
 
 #include <algorithm>

@@ -48,7 +48,8 @@ TEST(PreferredComposition, isWhatThePresetSays)
     EXPECT_EQ(effectOf(presetWith(""))->hints.composition, PreferredComposition::None);
     EXPECT_EQ(effectOf(presetWith(R"("composition": "sorted", )"))->hints.composition,
               PreferredComposition::Sorted);
-    EXPECT_EQ(effectOf(presetWith(R"("composition": "slabs", )"))->hints.composition, PreferredComposition::Slabs);
+    EXPECT_EQ(effectOf(presetWith(R"("composition": "slabs", )"))->hints.composition,
+              PreferredComposition::Slabs);
     EXPECT_EQ(effectOf(presetWith(R"("composition": "volume", )"))->hints.composition,
               PreferredComposition::Volume);
     EXPECT_FALSE(fx::preset::loadPresetText(presetWith(R"("composition": "automatic", )"), "p").ok());
@@ -144,7 +145,8 @@ TEST(PreferredScattering, isWhatThePresetSaysAndNoPartOfTheEffect)
 TEST(PreferredScattering, ofANetworkIsWarnedOfWithoutFields)
 {
     EXPECT_EQ(scatteringFaults(presetWith(R"("scattering": "network", )")).size(), 1u);
-    EXPECT_EQ(scatteringFaults(presetWith(R"("composition": "slabs", "scattering": "network", )")).size(), 1u);
+    EXPECT_EQ(scatteringFaults(presetWith(R"("composition": "slabs", "scattering": "network", )")).size(),
+              1u);
     EXPECT_TRUE(
         scatteringFaults(presetWith(R"("composition": "volume", "scattering": "network", )")).empty());
     EXPECT_TRUE(scatteringFaults(presetWith(R"("scattering": "closed_form", )")).empty());
