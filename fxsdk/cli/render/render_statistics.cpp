@@ -31,8 +31,9 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"ribbon_pieces", view.ribbonPieces},
         {"passes", counters.passes},
         {"network_sweeps", std::ranges::count(counters.passes, kSweepPass)},
-        {"network_passes", std::ranges::count_if(
-                               counters.passes, [](const auto& name) { return name.starts_with("network "); })},
+        {"network_passes",
+         std::ranges::count_if(counters.passes,
+                               [](const auto& name) { return name.starts_with("network "); })},
         {"programs_compiled", view.programsCompiled},
         {"gl_calls", view.glCalls},
         {"draw_calls", view.drawCalls},
