@@ -176,7 +176,7 @@ Scattering scatteringIn(const scene_file::SceneFile& file, bool isScene)
     const render::SliceSettings& slices = file.view.slices;
     Scattering chosen{hints.scattering, "no preset asks for another"};
     if (isScene && !slices.automatic) {
-        chosen = {!slices.multiple  ? PreferredScattering::Single
+        chosen = {!slices.multiple ? PreferredScattering::Single
                   : slices.network ? PreferredScattering::Network
                                    : PreferredScattering::ClosedForm,
                   "the scene says so"};
@@ -299,9 +299,9 @@ void print(const Json& report)
                     entry["preset"].get<std::string>().c_str(), entry["bytes"].get<double>() / (1 << 20),
                     entry["ms_step"].get<double>(), entry["ms_prewarm"].get<double>());
     for (const Json& entry : report["scattering"])
-        std::printf("%-24s scattering: asks for %s, gets %s: %s\n", entry["preset"].get<std::string>().c_str(),
-                    entry["asks"].get<std::string>().c_str(), entry["gets"].get<std::string>().c_str(),
-                    entry["why"].get<std::string>().c_str());
+        std::printf("%-24s scattering: asks for %s, gets %s: %s\n",
+                    entry["preset"].get<std::string>().c_str(), entry["asks"].get<std::string>().c_str(),
+                    entry["gets"].get<std::string>().c_str(), entry["why"].get<std::string>().c_str());
     for (const Json& entry : report["techniques"])
         std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),

@@ -317,8 +317,8 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
     if (arguments.renderer != "path" && (tiled.paths || tiled.error || tiled.bounces))
         return usage("--spp, --error and --bounces need --renderer path");
     if (arguments.renderer == "gl" && tiled.scattering == "none")
-        return usage(
-            "--scattering none needs --renderer reference; with gl it is single, multiple, network or automatic");
+        return usage("--scattering none needs --renderer reference; with gl it is single, multiple, network "
+                     "or automatic");
     if (arguments.renderer != "gl" && (tiled.scattering == "network" || tiled.scattering == "automatic"))
         return usage("--scattering " + tiled.scattering + " needs --renderer gl");
     if (arguments.renderer == "reference" && tiled.scattering == "multiple")
