@@ -80,7 +80,7 @@ private:
     float weight(size_t i) const
     {
         const float section = at(column::CrossSection, i), radius = at(column::Radius, i);
-        const float w = section > 0.0f && radius > 0.0f
+        const float w = section > 0.0f && base::isFinite(section) && radius > 0.0f
                             ? blobArea(section, radius) * brightnessOf(blobSource(group_, i))
                             : 0.0f;
         return base::isFinite(w) && base::isFinite(glm::dot(position(i), position(i))) ? w : 0.0f;
@@ -126,7 +126,8 @@ double Lines::find(const glm::vec3& foot, const glm::vec3& way)
         const glm::vec3 away = glm::vec3(x[i], y[i], z[i]) - foot;
         const float middle = glm::dot(away, way), distance2 = glm::dot(away, away) - middle * middle;
         const float half2 = r[i] * r[i] - distance2;
-        if (!(half2 > 0.0f) || !(at(column::CrossSection, i) > 0.0f))
+        const float section = at(column::CrossSection, i);
+        if (!(half2 > 0.0f && section > 0.0f && base::isFinite(section)))
             continue;
         density += double(weight(i) / (kPi * r[i] * r[i]));
         if (hitCount_ == kMaxHits)

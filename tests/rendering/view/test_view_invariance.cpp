@@ -245,7 +245,8 @@ TEST_F(ViewInvariance, afterTheWarmUpNoFrameCompiles)
 
 TEST_F(ViewInvariance, flyingThroughACloudThePictureNeverJumps)
 {
-    // A jump keeps its size when the path is cut finer; a motion shrinks with the step. Light varies smoothly
+    // A jump keeps its size when the path is cut finer; a motion shrinks with the step, here to 1/8. The light of the
+    // glowing gas upon itself has shadow planes that are fitted anew as the eye moves: 1/8 more is left for them. Light varies smoothly
     // through a gas; where overlapping blobs differ strongly, a change of their order is seen.
     std::vector<TestBlob> gas = cloud(120);
     for (TestBlob& blob : gas) {
@@ -269,7 +270,7 @@ TEST_F(ViewInvariance, flyingThroughACloudThePictureNeverJumps)
     };
     const double coarse = largestChange(7.0, -5.0, 100);
     const double fine = largestChange(7.0, -5.0, 800);
-    EXPECT_LT(fine, 0.2 * coarse) << fine << " after " << coarse;
+    EXPECT_LT(fine, 0.25 * coarse) << fine << " after " << coarse;
 }
 
 TEST_F(ViewInvariance, coldGasWithDetailIsDarkAndFinite)
