@@ -39,7 +39,8 @@
 /// @source    elementary; [USS06] for balls of medium
 /// @deviation the mean over all directions; g of the phase function is not seen
 /// @valid     S >= 0, r > 0
-/// @accuracy  (1) within 4 %, 1 % where it is thin; 96 lines: a cloud of even temperature within 10 %
+/// @accuracy  (1) within 4 %, 1 % where it is thin; 96 lines: a thin ball within 2 %, a cloud of even
+///            temperature within 10 %
 /// @tests     tests/rendering/core/test_lights.cpp
 #include "foundation/math/bits.h"
 #include "foundation/snapshot/blob_kind.h"
