@@ -141,9 +141,8 @@ base::Result<LitPicture> LitPainter::paint(std::span<const render::MediumBlob> b
     const Clock::time_point start = Clock::now();
     if (base::Status status = renderer_->render(cameraOf(view), 0.0); !status)
         return status;
-    const double seconds = secondsSince(start);
-    LitPicture picture = pictureOf(renderer_->pictures().read().color.pixels);
-    picture.seconds = seconds;
+    LitPicture picture = pictureOf(renderer_->pictures().read().color.pixels); // waits for OpenGL
+    picture.seconds = secondsSince(start);
     return picture;
 }
 

@@ -137,6 +137,32 @@ class FxCommand(FxTest):
         outcome = fx("explain", "library:campfire", "--time", 2, "--size", 64)
         self.assertIn("sun 0: media cast shadows", outcome.out)
 
+    def test_explain_says_how_light_is_scattered_again_and_why(self):
+        smoke = {"version": 1, "emitters": [{"emission": {"rate": 20}, "appearance": {"kind": "medium"}}]}
+        network = smoke | {"composition": "volume", "scattering": "network"}
+        self.write("smoke.fx.json", json.dumps(smoke))
+        self.write("network.fx.json", json.dumps(network))
+        sparks = {"version": 1, "emitters": [{"emission": {"rate": 20}, "appearance": {"kind": "sprite"}}]}
+        scene = {"version": 1, "camera": {"position": [0, 1, 9], "target": [0, 1, 0]}, "composition": "automatic",
+                 "instances": [{"preset": "smoke.fx.json"}, {"preset": "network.fx.json"}]}
+
+        def explained(name, content):
+            outcome = fx("explain", self.write(name, json.dumps(content)), "--json", "--size", 64)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            return [(entry["asks"], entry["gets"], entry["why"]) for entry in json.loads(outcome.out)["scattering"]]
+
+        self.assertEqual(explained("a.fx.json", sparks), [])
+        self.assertEqual(explained("a.fx.json", smoke), [("automatic", "closed_form", "no preset asks for another")])
+        self.assertEqual(explained("a.fx.json", smoke | {"scattering": "single"})[0][:2], ("single", "single"))
+        self.assertEqual(explained("a.fx.json", network)[0][:2], ("network", "network"))
+        self.assertEqual(explained("a.fx.json", smoke | {"scattering": "network"})[0][1:],
+                         ("closed_form", "networks need the composition volume"))
+        for setting, gets, why in ((None, "closed_form", "the scene says so"), ("off", "single", "the scene says so"),
+                                   ("automatic", "network", "network.fx.json asks for it")):
+            more = {} if setting is None else {"scattering": setting}
+            self.assertEqual(explained("s.scene.json", scene | more),
+                             [("automatic", gets, why), ("network", gets, why)])
+
     def test_a_full_disk_behind_standard_output_is_a_failure(self):
         for arguments in (["doctor"], ["parameters"], ["validate", LIBRARY / "sparks.fx.json"]):
             with open("/dev/full", "wb") as full:
