@@ -2,8 +2,8 @@
 // optical depth 20, over cells, directions and moments. Prints one JSON object a case: milliseconds to take
 // over a medium and of a sweep, of one color, and the sweeps from black until the scattered light changes by
 // less than 1 %, with and without acceleration. Fails when other numbers of workers give other bits. Then, a
-// line for each number of cells: frames after a jump of the sun until light is within 1 % of its rest, and
-// how far it is from it in the frames of an explosion, with 1 and 2 sweeps a frame.
+// line for each number of cells: frames after a jump from a lamp inside to the sun until light is within 1 %
+// of its rest, and how far it is from it in the frames of an explosion, with 1 and 2 sweeps a frame.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
 #include "benchmarks/scenes/lumpy_cloud.h"
@@ -116,7 +116,7 @@ render::NetworkState restOf(render::ScatteringNetwork& network, render::NetworkS
     return start;
 }
 
-/// Frames of so many sweeps after the sun has jumped from one side to another until light is within 1 % of
+/// Frames of so many sweeps after one light has gone out and another has come until light is within 1 % of
 /// its rest; -1: more than 100.
 int framesAfterJump(const LumpyCloud& before, const LumpyCloud& after, const CloudNetwork& form, int sweeps)
 {
@@ -159,7 +159,7 @@ double meanOf(std::span<const double> values)
 void measureMotion(const std::vector<int>& sizes, const Options& options)
 {
     const int fine = options.isSmall ? 32 : 64, count = options.isSmall ? 12 : 60;
-    const LumpyCloud side(20.0, CloudLight::Side, fine), back(20.0, CloudLight::Back, fine);
+    const LumpyCloud side(20.0, CloudLight::Side, fine), inside(20.0, CloudLight::Inside, fine);
     std::vector<LumpyCloud> frames;
     for (int i = 0; i < count; ++i)
         frames.emplace_back(20.0, CloudLight::Side, fine,
@@ -173,7 +173,7 @@ void measureMotion(const std::vector<int>& sizes, const Options& options)
                            {"cells", cells},
                            {"sweeps", sweeps},
                            {"albedo", options.albedo},
-                           {"frames_after_jump", framesAfterJump(side, back, form, sweeps)},
+                           {"frames_after_jump", framesAfterJump(inside, side, form, sweeps)},
                            {"difference_mean", meanOf(followed)},
                            {"difference_most", *std::ranges::max_element(followed)},
                            {"difference_last", all.back()},
