@@ -31,6 +31,16 @@ TEST(OutputTarget, aPlaceHolderMakesASequenceWithThatManyDigits)
     EXPECT_EQ(parseOutputTarget("a%d.png")->frame(0), "a0.png");
 }
 
+TEST(NumberedFile, anySuffixMayHaveAPlaceHolder)
+{
+    const auto file = parseNumberedFile("out/a.%03d.vdb");
+    ASSERT_TRUE(file.ok());
+    EXPECT_EQ(file->frame(7), "out/a.007.vdb");
+    EXPECT_FALSE(parseNumberedFile("a.vdb")->isSequence());
+    EXPECT_FALSE(parseNumberedFile("a%d%d.vdb").ok());
+    EXPECT_EQ(suffixOf("folder.x/A.VDB"), ".vdb");
+}
+
 TEST(OutputTarget, aStillHasOneFileForEveryNumber)
 {
     const auto target = parseOutputTarget("a.png");

@@ -1,5 +1,6 @@
 #include "fxsdk/cli/render/render_options.h"
 
+#include "fxsdk/cli/support/frame_range.h"
 #include "fxsdk/cli/support/named_choice.h"
 #include "rendering/frame/composition_names.h"
 
@@ -16,29 +17,12 @@ namespace fx::cli {
 namespace {
 
 constexpr int kMaxSize = 16384;      // [pixel]
-constexpr double kMaxTime = 3600.0;  // [s]
 constexpr double kDefaultTime = 0.5; // [s]
-constexpr int64_t kMaxFrames = 1'000'000;
 constexpr size_t kMaxTimes = 256;
 
 base::Status usage(const std::string& message)
 {
     return {base::Code::InvalidArgument, message};
-}
-
-/// Two whole numbers around `separator`, nothing else.
-std::optional<std::pair<long, long>> parsePair(const std::string& text, char separator)
-{
-    const char* const begin = text.c_str();
-    char* end = nullptr;
-    const long first = std::strtol(begin, &end, 10);
-    if (end == begin || *end != separator)
-        return std::nullopt;
-    const char* const rest = end + 1;
-    const long second = std::strtol(rest, &end, 10);
-    if (end == rest || *end != '\0')
-        return std::nullopt;
-    return std::make_pair(first, second);
 }
 
 /// Frame k shows the k-th of the times. With one file it is a sheet of all of them.
@@ -55,7 +39,7 @@ base::Status planTimes(const RenderArguments& arguments, RenderPlan& plan)
     for (std::string text; std::getline(list, text, ',');) {
         char* end = nullptr;
         const double time = std::strtod(text.c_str(), &end);
-        if (text.empty() || *end != '\0' || !(time >= 0.0 && time <= kMaxTime))
+        if (text.empty() || *end != '\0' || !(time >= 0.0 && time <= kMaxSceneTime))
             return usage("--times " + arguments.times +
                          ": expected numbers from 0 to 3600 with commas between");
         const base::Ticks tick = base::toTicks(time);
@@ -85,17 +69,10 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
     }
     if (arguments.time)
         return usage("--time needs one PNG or EXR; for a sequence or a video give --frames or --times");
-    std::pair<long, long> range{0, std::lround(2.0 * arguments.framesPerSecond) - 1};
-    if (!arguments.frames.empty()) {
-        const auto parsed = parsePair(arguments.frames, ':');
-        if (!parsed || parsed->first < 0 || parsed->second < parsed->first)
-            return usage("--frames " + arguments.frames + ": expected FIRST:LAST with 0 <= FIRST <= LAST");
-        range = *parsed;
-    }
-    if (range.second - range.first >= kMaxFrames ||
-        double(range.second) / arguments.framesPerSecond > kMaxTime)
-        return usage("--frames " + arguments.frames + ": at most a million frames within the first hour");
-    for (long number = range.first; number <= range.second; ++number)
+    const auto range = parseFrameRange(arguments.frames, arguments.framesPerSecond);
+    if (!range.ok())
+        return range.status();
+    for (int64_t number = range->first; number <= range->last; ++number)
         plan.frames.push_back({number, base::toTicks(double(number) / arguments.framesPerSecond)});
     return {};
 }
@@ -144,7 +121,7 @@ void addOutputOptions(CLI::App& command, RenderArguments& arguments)
     command
         .add_option("--time", arguments.time,
                     "Scene time of a still [s] (default: of the preset's preview, or 0.5)")
-        ->check(CLI::Range(0.0, kMaxTime));
+        ->check(CLI::Range(0.0, kMaxSceneTime));
     command.add_option("--frames", arguments.frames,
                        "Frames of a sequence or video, FIRST:LAST, both included "
                        "(default: 2 seconds)");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <regex>
+#include <utility>
 
 namespace fx::cli {
 namespace {
@@ -14,7 +15,7 @@ base::Status refused(const std::string& text, const std::string& reason)
 
 } // namespace
 
-std::filesystem::path OutputTarget::frame(int64_t number) const
+std::filesystem::path NumberedFile::frame(int64_t number) const
 {
     if (!isSequence())
         return path;
@@ -24,13 +25,38 @@ std::filesystem::path OutputTarget::frame(int64_t number) const
     return path.parent_path() / path.filename().string().replace(numberAt, numberLength, count);
 }
 
+std::string suffixOf(const std::filesystem::path& path)
+{
+    std::string suffix = path.extension().string();
+    for (char& letter : suffix)
+        letter = char(std::tolower(static_cast<unsigned char>(letter)));
+    return suffix;
+}
+
+base::Result<NumberedFile> parseNumberedFile(const std::string& text)
+{
+    NumberedFile file;
+    file.path = text;
+    if (file.path.parent_path().string().find('%') != std::string::npos)
+        return refused(text, "the frame number belongs into the file name, not into a folder");
+    const std::string name = file.path.filename().string();
+    static const std::regex kNumber("%0?([0-9]?)d");
+    std::smatch match;
+    if (std::regex_search(name, match, kNumber)) {
+        file.numberAt = size_t(match.position(0));
+        file.numberLength = size_t(match.length(0));
+        file.digits = match.length(1) > 0 ? match[1].str()[0] - '0' : 1;
+    }
+    const size_t percents = size_t(std::count(name.begin(), name.end(), '%'));
+    if (percents != (file.isSequence() ? 1u : 0u))
+        return refused(text, "exactly one place holder such as %04d may be used");
+    return file;
+}
+
 base::Result<OutputTarget> parseOutputTarget(const std::string& text)
 {
     OutputTarget target;
-    target.path = text;
-    std::string suffix = target.path.extension().string();
-    for (char& letter : suffix)
-        letter = char(std::tolower(static_cast<unsigned char>(letter)));
+    const std::string suffix = suffixOf(text);
     if (suffix == ".png")
         target.kind = OutputKind::Png;
     else if (suffix == ".exr")
@@ -39,20 +65,10 @@ base::Result<OutputTarget> parseOutputTarget(const std::string& text)
         target.kind = OutputKind::Mp4;
     else
         return refused(text, "the name must end in .png, .exr or .mp4");
-
-    if (target.path.parent_path().string().find('%') != std::string::npos)
-        return refused(text, "the frame number belongs into the file name, not into a folder");
-    const std::string name = target.path.filename().string();
-    static const std::regex kNumber("%0?([0-9]?)d");
-    std::smatch match;
-    if (std::regex_search(name, match, kNumber)) {
-        target.numberAt = size_t(match.position(0));
-        target.numberLength = size_t(match.length(0));
-        target.digits = match.length(1) > 0 ? match[1].str()[0] - '0' : 1;
-    }
-    const size_t percents = size_t(std::count(name.begin(), name.end(), '%'));
-    if (percents != (target.isSequence() ? 1u : 0u))
-        return refused(text, "exactly one place holder such as %04d may be used");
+    auto file = parseNumberedFile(text);
+    if (!file.ok())
+        return file.status();
+    static_cast<NumberedFile&>(target) = std::move(*file);
     if (target.isSequence() && target.kind == OutputKind::Mp4)
         return refused(text, "a video is one file and takes no place holder");
     return target;

@@ -17,22 +17,35 @@ enum class OutputKind
     Mp4,
 };
 
-struct OutputTarget
+/// One file, or one for each frame.
+struct NumberedFile
 {
-    OutputKind kind = OutputKind::Png;
     std::filesystem::path path;
     size_t numberAt = std::string::npos; ///< position of "%0Nd" in the file name; npos for a single file
     size_t numberLength = 0;             ///< [character] length of that placeholder
     int digits = 0;                      ///< minimum number of digits
 
     bool isSequence() const { return numberAt != std::string::npos; }
-    bool isStill() const { return kind != OutputKind::Mp4 && !isSequence(); }
-    /// The file of one frame; `path` itself if there is a single file.
+    /// The file of one frame; `path` itself for a single file.
     std::filesystem::path frame(int64_t number) const;
 };
 
-/// Parses NAME.png, NAME.exr and NAME.mp4, where NAME may contain one placeholder %d, %4d or %04d.
-/// @return InvalidArgument naming the allowed forms, also for "%%"
+struct OutputTarget : NumberedFile
+{
+    OutputKind kind = OutputKind::Png;
+
+    bool isStill() const { return kind != OutputKind::Mp4 && !isSequence(); }
+};
+
+/// Parses NAME and NAME with one placeholder %d, %4d or %04d, whatever the suffix. "%%" is refused.
+/// @return InvalidArgument naming the allowed forms
+base::Result<NumberedFile> parseNumberedFile(const std::string& text);
+
+/// The suffix of a path, in lower case.
+std::string suffixOf(const std::filesystem::path& path);
+
+/// Parses NAME.png, NAME.exr, NAME.mp4 and NAME with one placeholder %d, %4d or %04d. "%%" is refused.
+/// @return InvalidArgument naming the allowed forms
 base::Result<OutputTarget> parseOutputTarget(const std::string& text);
 
 } // namespace fx::cli
