@@ -108,6 +108,8 @@ private:
         blob.layer = base::MediaLayer(uint32_t(newer_.constants()[constant::Layer]));
         blob.instance = newer_.info().instance;
         blob.velocity = worldVelocity(i, old, position);
+        blob.temperature = double(temperature);
+        blob.id = newer_.ids()[i];
         const glm::dvec3 streak =
             rotation * (velocity * scale) * double(newer_.constants()[constant::Shutter]);
         if (!isFinite(blob) || !base::isFinite(temperature) || !base::isFinite(glm::dot(streak, streak))) {

@@ -27,6 +27,8 @@ struct MediumBlob
     base::MediaLayer layer = base::MediaLayer::Smoke; ///< layer of the remaining opacity
     uint64_t instance = 0;                            ///< instance of the scene to which it belongs
     glm::dvec3 velocity{0.0};                         ///< [m/s] world
+    double temperature = 0.0;                         ///< [K]; the emitted light is in `source`
+    uint64_t id = 0;                                  ///< id of the ball in its group of the snapshot
 };
 
 /// Blobs of all groups, and the number of blobs that were omitted because a value was not finite.
