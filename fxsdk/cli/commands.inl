@@ -1,5 +1,6 @@
 // The commands of fx in the order of its help, and where they are.
 FX_COMMAND(Render)     // fxsdk/cli/render
+FX_COMMAND(Export)     // fxsdk/cli/export
 FX_COMMAND(Validate)   // fxsdk/cli/inspect
 FX_COMMAND(Doctor)     // fxsdk/cli/inspect
 FX_COMMAND(Parameters) // fxsdk/cli/inspect

@@ -151,6 +151,7 @@ HAVE_SMALL = ("paper-frame", "billboards", "composition", "detail", "layer-scale
 # Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
     Small(("fx", "render"), {"--size": "48x32"}, {"--frames": "0:1", "--time": "0.1"}),
+    Small(("fx", "export"), {"--quality": "low"}, {"--frames": "0:1", "--time": "0.1", "--voxel-size": "0.5"}, {"--voxels": "100000"}),
     Small(("fx", "bench", "particles"), FEW),
     Small(("fx", "bench", "many-small"), FEW),
     Small(("fx", "bench", "sort"), FEW),

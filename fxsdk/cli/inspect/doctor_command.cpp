@@ -8,6 +8,7 @@
 #include "fxsdk/cli/support/json_line.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/platform/gl_context.h"
+#include "rendering/vdb/vdb_volume.h"
 
 #include <CLI/CLI.hpp>
 
@@ -63,6 +64,14 @@ Check checkFfmpeg()
             "apt-get install ffmpeg"};
 }
 
+Check checkOpenVdb()
+{
+    const std::string version = render::vdbVersion();
+    return {"OpenVDB", !version.empty(), false,
+            version.empty() ? "fx was built without it: no fx export" : version,
+            "apt-get install libopenvdb-dev libboost-dev, then configure and build fx again"};
+}
+
 Check checkDisplay()
 {
     const char* const display = std::getenv("DISPLAY");
@@ -102,7 +111,8 @@ void printJson(const Machine& machine, const std::vector<Check>& checks)
 int runDoctor(bool json)
 {
     Machine machine = readMachine();
-    const std::vector<Check> checks = {checkDevices(), checkGl(machine), checkFfmpeg(), checkDisplay()};
+    const std::vector<Check> checks = {checkDevices(), checkGl(machine), checkFfmpeg(), checkOpenVdb(),
+                                       checkDisplay()};
     if (json)
         printJson(machine, checks);
     else

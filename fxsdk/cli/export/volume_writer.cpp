@@ -1,0 +1,78 @@
+#include "fxsdk/cli/export/volume_writer.h"
+
+#include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/cli/support/interrupt.h"
+#include "rendering/voxelization/ball_voxelizer.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace fx::cli {
+namespace {
+
+constexpr size_t kBatch = 1024; // blocks between two looks at Ctrl-C, 12 MiB
+
+std::string numberText(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+base::Status tooManyVoxels(std::span<const render::VoxelBall> balls, const VolumeOptions& options)
+{
+    const double fits = render::voxelSizeFor(balls, options.maxVoxels, options.voxelSize);
+    return {base::Code::TooLarge, "voxels of " + numberText(options.voxelSize) + " m are more than " +
+                                      std::to_string(options.maxVoxels) + "; give --voxel-size " +
+                                      numberText(fits * 1.01) + " or larger, or a larger --voxels"};
+}
+
+void sumUp(std::span<const render::VoxelBlock> blocks, double volume, VolumeReport& io)
+{
+    for (const render::VoxelBlock& block : blocks)
+        for (const float density : block.density) {
+            io.densityVolume += double(density) * volume;
+            io.largestDensity = std::max(io.largestDensity, double(density));
+        }
+}
+
+} // namespace
+
+base::Result<VolumeReport> writeVolume(std::span<const render::VoxelBall> balls, const VolumeOptions& options,
+                                       const render::VdbMetadata& metadata, const std::filesystem::path& file,
+                                       base::TaskRunner& tasks,
+                                       const std::function<void(uint64_t, uint64_t)>& progress)
+{
+    const auto plan = render::BlockPlan::create(balls, options.voxelSize, options.maxVoxels);
+    if (!plan)
+        return tooManyVoxels(balls, options);
+    const render::BallVoxelizer voxelizer(balls, *plan, tasks);
+    render::VdbVolume volume(options.voxelSize);
+    VolumeReport report;
+    std::vector<render::VoxelBlock> blocks;
+    const size_t count = plan->blocks().size();
+    for (size_t first = 0; first < count; first += kBatch) {
+        if (interruptRequested())
+            return interruptedStatus();
+        voxelizer.fill(first, std::min(kBatch, count - first), blocks);
+        volume.add(blocks);
+        sumUp(blocks, options.voxelSize * options.voxelSize * options.voxelSize, report);
+        progress(first + blocks.size(), count);
+    }
+    if (options.points)
+        volume.addPoints(balls);
+    const auto bytes = volume.encode(metadata, options.half);
+    if (!bytes.ok())
+        return bytes.status();
+    if (interruptRequested())
+        return interruptedStatus();
+    if (base::Status status = writeFileAtomically(file, *bytes); !status)
+        return status;
+    report.voxels = volume.voxels();
+    report.bytes = bytes->size();
+    for (const render::VoxelBall& ball : balls)
+        report.crossSection += ball.crossSection;
+    return report;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,201 @@
+#include "rendering/voxelization/ball_voxelizer.h"
+#include "tests/foundation/real_threads.h"
+#include "tests/rendering/voxelization/voxel_sums.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fx::render {
+namespace {
+
+constexpr double kVoxel = 0.1; // [m]
+
+VoxelBall ballOf(const glm::dvec3& center, double radius)
+{
+    VoxelBall ball;
+    ball.center = center;
+    ball.radius = radius;
+    ball.crossSection = 2.5;
+    ball.temperature = 900.0;
+    ball.luminance = 40.0;
+    ball.velocity = {3.0, -2.0, 0.5};
+    return ball;
+}
+
+/// From a thousandth of a voxel to 25 voxels, some just on either side of a change of the sampling.
+constexpr double kRadii[] = {1e-4, 0.01, 0.05, 0.0999, 0.1, 0.13, 0.1999, 0.2, 0.37, 0.9, 1.59, 1.61, 2.5};
+
+constexpr glm::dvec3 kCenters[] = {
+    {0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {-0.731, 2.417, -0.0333}, {12.34, -5.67, 8.91}};
+
+TEST(BallVoxelizer, theSumOfDensityTimesVolumeIsTheCrossSectionForAnyRadius)
+{
+    for (const double radius : kRadii)
+        for (const glm::dvec3& center : kCenters) {
+            const VoxelBall ball = ballOf(center, radius);
+            EXPECT_NEAR(sumsOf(voxelize({&ball, 1}, kVoxel), kVoxel).mass / ball.crossSection, 1.0, 2e-6)
+                << radius << " at " << center.x;
+        }
+}
+
+TEST(BallVoxelizer, theCenterOfMassIsTheCenterOfTheBallForAnyRadius)
+{
+    for (const double radius : kRadii)
+        for (const glm::dvec3& center : kCenters) {
+            const VoxelBall ball = ballOf(center, radius);
+            const glm::dvec3 away = sumsOf(voxelize({&ball, 1}, kVoxel), kVoxel).center() - center;
+            EXPECT_LT(glm::length(away), 1e-5 * kVoxel + 1e-7 * glm::length(center))
+                << radius << " at " << center.x;
+        }
+}
+
+TEST(BallVoxelizer, mediumLiesInVoxelsLessThanOneVoxelFromTheBallAndFillsTheBall)
+{
+    for (const double radius : kRadii)
+        for (const glm::dvec3& center : kCenters) {
+            const VoxelBall ball = ballOf(center, radius);
+            const VoxelSums sums = sumsOf(voxelize({&ball, 1}, kVoxel), kVoxel);
+            for (int a = 0; a < 3; ++a) {
+                EXPECT_GT(sums.low[a] * kVoxel, center[a] - radius - kVoxel * (1.0 + 1e-9));
+                EXPECT_LT(sums.high[a] * kVoxel, center[a] + radius + kVoxel * (1.0 + 1e-9));
+                EXPECT_LE(sums.low[a] * kVoxel, center[a] - radius + 1.5 * kVoxel);
+                EXPECT_GE(sums.high[a] * kVoxel, center[a] + radius - 1.5 * kVoxel);
+            }
+        }
+}
+
+TEST(BallVoxelizer, theSecondMomentIsThatOfTheKernelAndOfTheTent)
+{
+    // The kernel's mean square distance is r^2 / 3, and a tent of two voxels adds h^2 / 6 along each axis.
+    for (const double radius : {0.2, 0.37, 0.9, 2.5}) {
+        const VoxelBall ball = ballOf(glm::dvec3(0.0137, 0.0411, -0.0222), radius);
+        const VoxelSums sums = sumsOf(voxelize({&ball, 1}, kVoxel), kVoxel);
+        const double spread = sums.squares / sums.mass - glm::dot(ball.center, ball.center);
+        EXPECT_NEAR(spread, radius * radius / 3.0 + kVoxel * kVoxel / 2.0, 0.02 * spread) << radius;
+    }
+}
+
+TEST(BallVoxelizer, aVoxelOfALargeBallHasTheExtinctionOfTheKernel)
+{
+    const VoxelBall ball = ballOf({0.03, -0.02, 0.01}, 3.0); // 30 voxels
+    const double peak = 105.0 / (32.0 * std::numbers::pi) * ball.crossSection / std::pow(ball.radius, 3.0);
+    for (const VoxelBlock& block : voxelize({&ball, 1}, kVoxel))
+        for (int v = 0; v < kBlockVoxels; ++v) {
+            const glm::dvec3 place = glm::dvec3(block.origin + glm::ivec3(v / 64, v / 8 % 8, v % 8)) * kVoxel;
+            const double q =
+                std::max(1.0 - std::pow(glm::distance(place, ball.center) / ball.radius, 2.0), 0.0);
+            // The tent adds h^2/12 times the Laplacian of the kernel, which is at most 12/r^2 of the peak.
+            EXPECT_NEAR(double(block.density[size_t(v)]), peak * q * q, 1.5e-3 * peak);
+        }
+}
+
+TEST(BallVoxelizer, theOpticalDepthThroughAColumnOfVoxelsIsThatOfARay)
+{
+    // Of the formula kernel-optical-depth, (3): tau = 3.5/pi sigma/r^2 (1 - d^2/r^2)^(5/2) at the distance d.
+    const VoxelBall ball = ballOf(glm::dvec3(0.0), 2.0); // 20 voxels
+    const double peak = 3.5 / std::numbers::pi * ball.crossSection / (ball.radius * ball.radius);
+    for (const int column : {0, 5, 10, 15, 19}) {
+        double depth = 0.0;
+        for (const VoxelBlock& block : voxelize({&ball, 1}, kVoxel))
+            for (int v = 0; v < kBlockVoxels; ++v)
+                if (block.origin.x + v / 64 == column && block.origin.y + v / 8 % 8 == 0)
+                    depth += double(block.density[size_t(v)]) * kVoxel;
+        const double d = column * kVoxel / ball.radius;
+        EXPECT_NEAR(depth, peak * std::pow(1.0 - d * d, 2.5), 5e-3 * peak) << column;
+    }
+}
+
+TEST(BallVoxelizer, meansOfTwoBallsAreWeightedWithTheirDensityAndLightIsAdded)
+{
+    VoxelBall balls[] = {ballOf({0.0, 0.0, 0.0}, 0.5), ballOf({0.3, 0.1, 0.0}, 0.04)};
+    balls[1].crossSection = 0.5;
+    balls[1].temperature = 2000.0;
+    balls[1].luminance = 1e5;
+    balls[1].velocity = {0.0, 9.0, 0.0};
+    const auto blocks = voxelize(balls, kVoxel);
+    const VoxelSums sums = sumsOf(blocks, kVoxel);
+    EXPECT_NEAR(sums.mass, 3.0, 3e-6);
+    EXPECT_NEAR(sums.heat, 2.5 * 900.0 + 0.5 * 2000.0, 0.01);
+    EXPECT_NEAR(sums.light, 2.5 * 40.0 + 0.5 * 1e5, 0.2);
+    EXPECT_NEAR(glm::distance(sums.momentum, 2.5 * balls[0].velocity + 0.5 * balls[1].velocity), 0.0, 1e-5);
+    for (const VoxelBlock& block : blocks)
+        for (size_t v = 0; v < size_t(kBlockVoxels); ++v)
+            if (block.density[v] > 0.0f) {
+                EXPECT_GE(block.temperature[v], 899.999f);
+                EXPECT_LE(block.temperature[v], 2000.001f);
+            } else {
+                EXPECT_EQ(block.temperature[v], 0.0f);
+                EXPECT_EQ(block.flame[v], 0.0f);
+            }
+}
+
+TEST(BallVoxelizer, aBallSmallerThanAVoxelMovesThroughTheLatticeWithoutJumps)
+{
+    glm::dvec3 last;
+    for (int step = 0; step <= 40; ++step) {
+        const VoxelBall ball = ballOf({0.01 * step, 0.0123, 0.0}, 0.01);
+        const glm::dvec3 center = sumsOf(voxelize({&ball, 1}, kVoxel), kVoxel).center();
+        if (step > 0) {
+            EXPECT_NEAR(center.x - last.x, 0.01, 1e-6);
+        }
+        last = center;
+    }
+}
+
+TEST(BallVoxelizer, theSumOfWeightsMeetsTheIntegralWhereTheFormulaChanges)
+{
+    const double below = sampleNormalization(15.9999), above = sampleNormalization(16.0001);
+    EXPECT_NEAR(below / above, std::pow(16.0001 / 15.9999, 3.0), 2e-6);
+}
+
+std::vector<VoxelBall> cloud()
+{
+    std::vector<VoxelBall> balls;
+    for (int i = 0; i < 300; ++i) {
+        const double t = 0.1 * i;
+        balls.push_back(ballOf({std::sin(t) * 2.0, 0.03 * i, std::cos(1.7 * t)}, 0.02 + 0.003 * i));
+        balls.back().temperature = 300.0 + i;
+    }
+    return balls;
+}
+
+TEST(BallVoxelizer, anyNumberOfThreadsGivesTheSameBits)
+{
+    const test::RealThreads threadsOfAnyMachine(5);
+    const auto balls = cloud();
+    const auto serial = voxelize(balls, kVoxel);
+    for (const uint32_t threads : {2u, 5u}) {
+        const auto tasks = base::makeTbbRunner(threads);
+        const auto parallel = voxelize(balls, kVoxel, *tasks);
+        ASSERT_EQ(parallel.size(), serial.size());
+        for (size_t b = 0; b < serial.size(); ++b) {
+            EXPECT_EQ(parallel[b].origin, serial[b].origin);
+            EXPECT_EQ(parallel[b].density, serial[b].density);
+            EXPECT_EQ(parallel[b].temperature, serial[b].temperature);
+            EXPECT_EQ(parallel[b].flame, serial[b].flame);
+            EXPECT_EQ(parallel[b].velocity, serial[b].velocity);
+        }
+    }
+}
+
+TEST(BallVoxelizer, blocksFilledInPartsAreThoseFilledAtOnce)
+{
+    const auto balls = cloud();
+    const auto tasks = base::makeSerialRunner();
+    const auto plan = BlockPlan::create(balls, kVoxel, kManyVoxels);
+    ASSERT_TRUE(plan);
+    const auto whole = voxelize(balls, kVoxel);
+    const BallVoxelizer voxelizer(balls, *plan, *tasks);
+    std::vector<VoxelBlock> part;
+    for (size_t first = 0; first < whole.size(); first += part.size()) {
+        voxelizer.fill(first, std::min<size_t>(7, whole.size() - first), part);
+        for (size_t b = 0; b < part.size(); ++b)
+            EXPECT_EQ(part[b].density, whole[first + b].density);
+    }
+}
+
+} // namespace
+} // namespace fx::render

@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""fx export: OpenVDB files, read back with OpenVDB's own Python module where one is installed (python3-openvdb)."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from fx_program import FX, FxTest, fx, wait_until_it_heeds_interrupts
+
+HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
+HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
+BALLS = ((0.3, -1.2, 2.05, 0.9, 2.0), (0.41, 0.2, 0.0, 0.01, 0.5), (-2.0, 0.0, 0.0, 0.25, 1.0))  # the second is far below a voxel
+
+# Prints what a file has, as one JSON object. Runs in an interpreter that has the module.
+READER = """
+import json, sys
+import pyopenvdb as vdb
+grids, metadata = vdb.readAll(sys.argv[1])
+out = {"metadata": {name: value for name, value in metadata.items() if isinstance(value, (str, int, float))}, "grids": {}}
+for grid in grids:
+    facts = {"type": grid.valueTypeName, "voxels": grid.activeVoxelCount(), "unit": grid.metadata.get("unit"),
+             "half": grid.saveFloatAsHalf, "voxel_size": grid.transform.voxelSize()[0]}
+    if grid.valueTypeName == "float":
+        total, moment, most = 0.0, [0.0, 0.0, 0.0], 0.0
+        for item in grid.citerOnValues():
+            volume = item.count * grid.transform.voxelSize()[0] ** 3
+            place = grid.transform.indexToWorld([(a + b) / 2 for a, b in zip(item.min, item.max)])
+            total += item.value * volume
+            most = max(most, item.value)
+            moment = [m + item.value * volume * p for m, p in zip(moment, place)]
+        facts |= {"sum": total, "moment": moment, "most": most}
+    out["grids"][grid.name] = facts
+print(json.dumps(out))
+"""
+
+
+def reader():
+    """An interpreter that can import pyopenvdb; None: there is none."""
+    for program in (sys.executable, "/usr/bin/python3", shutil.which("python3")):
+        if program and pathlib.Path(program).exists() and \
+                subprocess.run([program, "-c", "import pyopenvdb"], capture_output=True).returncode == 0:
+            return program
+    return None
+
+
+READER_PROGRAM = reader() if HAS_OPENVDB else None
+
+
+def read(path):
+    ran = subprocess.run([READER_PROGRAM, "-c", READER, str(path)], capture_output=True, text=True, check=True)
+    return json.loads(ran.stdout)
+
+
+class WithoutOpenVdb(FxTest):
+    @unittest.skipIf(HAS_OPENVDB, "fx has OpenVDB")
+    def test_the_missing_package_is_named(self):
+        outcome = fx("export", "library:explosion", "-o", self.folder / "a.vdb")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("libopenvdb-dev", outcome.err)
+        self.assertEqual(self.names(), [])
+
+    def test_doctor_says_whether_the_module_is_there(self):
+        check = {check["name"]: check for check in json.loads(fx("doctor", "--json").out)["checks"]}["OpenVDB"]
+        self.assertEqual((check["ok"], check["required"]), (HAS_OPENVDB, False))
+        if not HAS_OPENVDB:
+            self.assertIn("libopenvdb-dev", check["remedy"])
+
+
+class CommandLine(FxTest):
+    def test_what_makes_no_sense_is_exit_code_2(self):
+        out, sequence = self.folder / "a.vdb", self.folder / "a.%03d.vdb"
+        for arguments in (["library:sparks"], ["library:sparks", "-o", self.folder / "a.exr"],
+                          ["library:sparks", "-o", out, "--frames", "0:3"], ["library:sparks", "-o", sequence, "--time", "1"],
+                          ["library:sparks", "-o", out, "--voxel-size", "0"], ["library:sparks", "-o", out, "--voxels", "10"],
+                          ["library:sparks", "-o", out, "--voxel-size", "nan"],
+                          ["library:sparks", "-o", sequence, "--frames", "5:2"], ["library:sparks", "-o", out, "--quality", "best"]):
+            outcome = fx("export", *arguments)
+            self.assertEqual(outcome.code, 2, arguments)
+            self.assertTrue(outcome.err.strip(), arguments)
+        self.assertEqual(self.names(), [])
+
+
+@unittest.skipUnless(HAS_OPENVDB, "fx was built without OpenVDB")
+class Export(FxTest):
+    def list_of_balls(self):
+        lines = [",".join(map(str, (*ball, 0.5, 4, 4, 4))) for ball in BALLS]
+        return self.write("balls.blobs.csv", "\n".join([HEADER, *lines]) + "\n")
+
+    def export(self, *arguments):
+        outcome = fx("export", *arguments, "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        return [json.loads(line) for line in outcome.out.splitlines()]
+
+    def test_the_report_has_the_mass_of_the_balls(self):
+        for size in ("0.05", "0.3", "2"):
+            report, = self.export(self.list_of_balls(), "-o", self.folder / "a.vdb", "--voxel-size", size)
+            self.assertEqual(report["cross_section"], 3.5)
+            self.assertAlmostEqual(report["density_volume"], 3.5, delta=1e-5)
+            self.assertEqual(report["voxel_size"], float(size))
+
+    def test_the_budget_of_voxels_is_kept_and_used(self):
+        report, = self.export(self.list_of_balls(), "-o", self.folder / "a.vdb", "--voxels", 200000)
+        self.assertLess(report["voxels"], 200000)
+        self.assertGreater(report["voxels"], 60000)
+
+    def test_too_many_voxels_are_refused_with_a_voxel_size_that_works(self):
+        balls = self.list_of_balls()
+        outcome = fx("export", balls, "-o", self.folder / "a.vdb", "--voxel-size", "0.001", cpu_seconds=60)
+        self.assertEqual(outcome.code, 1)
+        self.assertEqual(self.names(), ["balls.blobs.csv"])
+        words = outcome.err.split()
+        remedy = words[words.index("--voxel-size") + 1]
+        fits = fx("export", balls, "-o", self.folder / "a.vdb", "--voxel-size", remedy, "--voxels", 64000, "--json")
+        self.assertEqual(fits.code, 1)  # of another budget
+        outcome = fx("export", balls, "-o", self.folder / "a.vdb", "--voxel-size", "0.01", "--voxels", 64000)
+        words = outcome.err.split()
+        self.export(balls, "-o", self.folder / "a.vdb", "--voxel-size", words[words.index("--voxel-size") + 1], "--voxels", 64000)
+
+    def test_files_that_cannot_be_read_or_written_are_named(self):
+        for name in ("missing.scene.json", "missing.fx.json", "library:missing", "missing.blobs.csv", "missing.txt"):
+            outcome = fx("export", name, "-o", self.folder / "a.vdb")
+            self.assertEqual(outcome.code, 1)
+            self.assertIn("missing", outcome.err)
+        outcome = fx("export", self.list_of_balls(), "-o", self.folder / "none" / "a.vdb")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("there is no folder", outcome.err)
+
+    def test_a_sequence_has_one_lattice_and_the_values_of_single_files(self):
+        reports = self.export("library:dust-burst", "-o", self.folder / "a.%03d.vdb", "--frames", "3:5", "--fps", 10, "--voxels", 50000)
+        self.assertEqual(self.names(), ["a.003.vdb", "a.004.vdb", "a.005.vdb"])
+        self.assertEqual([pathlib.Path(report["file"]).name for report in reports], self.names())
+        size, = {report["voxel_size"] for report in reports}
+        self.assertGreater(max(report["voxels"] for report in reports), 10000)
+        single, = self.export("library:dust-burst", "-o", self.folder / "b.vdb", "--time", 0.4, "--voxel-size", repr(size))
+        for name in ("time", "voxels", "blobs", "cross_section", "density_volume", "density_max"):
+            self.assertEqual(single[name], reports[1][name], name)
+        self.assertGreater(single["voxels"], 0)
+
+    def test_effects_without_media_give_empty_grids(self):
+        sprites = {"maxParticles": 20, "emission": {"rate": 40}, "lifetime": 1, "radius": 0.3, "speed": 1,
+                   "appearance": {"kind": "sprite"}}
+        preset = self.write("sprites.fx.json", json.dumps({"version": 1, "emitters": [sprites]}))
+        report, = self.export(preset, "-o", self.folder / "a.vdb", "--time", 0.4)
+        self.assertEqual((report["voxels"], report["blobs"], report["density_volume"]), (0, 0, 0))
+
+    def test_the_same_command_writes_the_same_bytes(self):
+        written = []
+        for cores in ({0}, None):
+            limit = "taskset -c 0 " if cores else ""
+            subprocess.run(f"{limit}{FX} export library:dust-burst -o {self.folder}/a.vdb --time 0.3 --voxels 100000", shell=True,
+                           check=True, capture_output=True)
+            written.append((self.folder / "a.vdb").read_bytes())
+        self.assertEqual(written[0], written[1])
+
+    def test_an_interruption_leaves_whole_files_only(self):
+        process = subprocess.Popen([FX, "export", "library:campfire", "-o", str(self.folder / "a.%03d.vdb"), "--frames", "0:999",
+                                    "--voxel-size", "0.05"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        wait_until_it_heeds_interrupts(process)
+        while process.poll() is None and not (self.folder / "a.001.vdb").exists():
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        self.assertEqual(process.returncode, 130)
+        self.assertFalse([name for name in self.names() if not name.startswith("a.")])
+
+    @unittest.skipUnless(READER_PROGRAM, "python3-openvdb is not installed")
+    def test_openvdb_reads_names_units_mass_center_and_light(self):
+        self.export(self.list_of_balls(), "-o", self.folder / "a.vdb", "--voxel-size", "0.1")
+        found = read(self.folder / "a.vdb")
+        grids = found["grids"]
+        self.assertEqual({name: grids[name]["unit"] for name in ("density", "temperature", "flame", "v")},
+                         {"density": "1/m", "temperature": "K", "flame": "cd/m3", "v": "m/s"})
+        self.assertEqual(grids["v"]["type"], "vec3s")
+        density = grids["density"]
+        self.assertAlmostEqual(density["voxel_size"], 0.1, delta=1e-12)
+        self.assertAlmostEqual(density["sum"], 3.5, delta=3.5 * 0.005)
+        for axis in range(3):
+            exact = sum(ball[axis] * ball[4] for ball in BALLS)
+            self.assertAlmostEqual(density["moment"][axis], exact, delta=1e-4)
+        self.assertAlmostEqual(grids["flame"]["sum"], 3.5 * 0.5 * 4, delta=0.01)  # (1 - albedo) e cross section
+        self.assertEqual(found["metadata"]["length_unit"], "m")
+
+    @unittest.skipUnless(READER_PROGRAM, "python3-openvdb is not installed")
+    def test_points_are_a_grid_beside_the_others(self):
+        # Python's module has no points; tests/rendering/voxelization reads them.
+        self.export(self.list_of_balls(), "-o", self.folder / "a.vdb", "--voxel-size", "0.1", "--points")
+        self.assertIn(b"ptdataidx32", (self.folder / "a.vdb").read_bytes())
+        density = "import sys, pyopenvdb as vdb; print(vdb.read(sys.argv[1], 'density').activeVoxelCount())"
+        ran = subprocess.run([READER_PROGRAM, "-c", density, str(self.folder / "a.vdb")], capture_output=True, text=True)
+        report, = self.export(self.list_of_balls(), "-o", self.folder / "b.vdb", "--voxel-size", "0.1")
+        self.assertEqual(ran.stdout.strip(), str(report["voxels"]), ran.stderr)
+        self.assertNotIn(b"ptdataidx32", (self.folder / "b.vdb").read_bytes())
+
+    @unittest.skipUnless(READER_PROGRAM, "python3-openvdb is not installed")
+    def test_an_effect_has_its_mass_and_says_where_it_comes_from(self):
+        for half in (False, True):
+            report, = self.export("library:explosion", "-o", self.folder / "a.vdb", "--time", "0.1", "--quality", "low",
+                                  "--voxels", "60000", "--seed", "7", *(["--half"] if half else []))
+            found = read(self.folder / "a.vdb")
+            density = found["grids"]["density"]
+            self.assertEqual(density["voxels"], report["voxels"])
+            self.assertEqual(density["half"], half)
+            self.assertGreater(report["cross_section"], 0)
+            self.assertAlmostEqual(density["sum"] / report["cross_section"], 1, delta=0.005)
+            self.assertGreater(found["grids"]["temperature"]["most"], 1000)
+            self.assertGreater(found["grids"]["flame"]["most"], 0)
+            metadata = found["metadata"]
+            self.assertEqual((metadata["source"], metadata["seed"], metadata["time"]), ("library:explosion", 7, 0.1))
+            self.assertTrue(metadata["fxsdk_version"])
+
+
+if __name__ == "__main__":
+    if HAS_OPENVDB and not READER_PROGRAM:
+        print("python3-openvdb is not installed: files are not read back", file=sys.stderr)
+    unittest.main()
