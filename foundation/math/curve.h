@@ -14,7 +14,7 @@ constexpr size_t kCurveSamples = 64;
 template <size_t N>
 struct CurveKey
 {
-    float t; ///< [1] age over lifetime, 0..1
+    float t; ///< [1] age divided by lifetime, 0..1
     std::array<float, N> value;
 };
 

@@ -42,7 +42,7 @@ enum : size_t
 namespace blob_constant {
 enum : size_t
 {
-    Layer,        ///< MediaLayer of the opacity and light that FireShare does not assign to Fire
+    Layer, ///< MediaLayer of the part of opacity and light that FireShare does not assign to the layer Fire
     DetailAmount, ///< [1] strength of procedural detail, 0 shows the bare kernel
     DetailScale,  ///< [1] periods of the noise per diameter of a blob
     Anisotropy,   ///< [1] Henyey-Greenstein g of scattering, (-1, 1)

@@ -56,10 +56,10 @@ public:
     /// [s] length of the step that ended with this snapshot; 0 if no step ended with it. Particles that were
     /// born within the step are drawn from their birth on.
     float secondsBack() const { return float(toSeconds(step_)); }
-    Ticks step() const { return step_; } ///< [tick] the same length, as passed to begin()
+    Ticks step() const { return step_; } ///< [tick] length of the step, as passed to begin()
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
-    /// The group at `index`. The first call for a pooled group copies all rows of pools to their groups. It
-    /// allocates nothing.
+    /// The group at `index`. The first call for a pooled group copies the rows of all pools to the pooled
+    /// groups. It allocates nothing.
     const SnapshotGroup& group(size_t index) const
     {
         const uint32_t place = placeOf(index);
@@ -127,7 +127,7 @@ public:
 private:
     friend class UnpackedGroups;
     static constexpr uint32_t kPooled = 1u << 31;
-    /// Index among the added groups; with the bit kPooled, index in the roster.
+    /// Index of a group in groups_; or, if the bit kPooled is set, its index in the roster.
     uint32_t placeOf(size_t index) const { return roster_ ? places_[index] : uint32_t(index); }
     void listPlaces();
     SnapshotGroup& findGroup(KindId kind, size_t capacity, ColumnSet present);
@@ -139,15 +139,15 @@ private:
     uint64_t serial_;
     Ticks step_ = 0;
     size_t groupCount_ = 0;
-    /// The first groupCount_ are valid; the others are kept for their memory.
+    /// The first groupCount_ groups are valid; the others are kept for their memory.
     std::pmr::vector<SnapshotGroup> groups_;
     size_t poolCount_ = 0;
-    std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ are valid
+    std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ pools are valid
     std::shared_ptr<const GroupRoster> roster_;      ///< null without pools
     std::pmr::vector<uint32_t> ends_;                ///< see setRoster()
-    std::pmr::vector<uint32_t> places_;              ///< by group, see placeOf(); used with pools
-    uint64_t listed_ = 0;                            ///< GroupRoster::shape to which places_ and ends_ belong
-    std::unique_ptr<UnpackedGroups> spread_;         ///< null without pools
+    std::pmr::vector<uint32_t> places_;      ///< by group: result of placeOf(); used only if there are pools
+    uint64_t listed_ = 0;                    ///< GroupRoster::shape to which places_ and ends_ belong
+    std::unique_ptr<UnpackedGroups> spread_; ///< null without pools
 };
 
 } // namespace fx::base

@@ -59,7 +59,7 @@ enum : size_t
     Arc, ///< length along the path since birth; if ArcPerTile is 0: 0 at the end of the strip, 1 at its head
     Color,
     Strip,
-    Age, ///< since the birth of the particle
+    Age, ///< age of the particle
     Count
 };
 }
@@ -88,18 +88,20 @@ enum class ParticleShape : uint32_t
 /// Blending with the background.
 enum class ParticleBlend : uint32_t
 {
-    Alpha,    ///< blended over the background by its opacity
-    Additive, ///< adds its light times its opacity
-    Opaque,   ///< opaque where its opacity is at least one half; writes depth
+    Alpha,    ///< the particle covers the background in proportion to its opacity
+    Additive, ///< the light of the particle times its opacity is added to the background
+    Opaque,   ///< the particle is opaque where its opacity is at least one half, and writes depth
 };
 
 /// Orientation of the quad of a sprite.
 enum class SpriteAlignment : uint32_t
 {
-    Camera,   ///< faces the camera
-    Velocity, ///< vertical along the velocity, turned about it to face the camera
-    Axis,     ///< vertical along a fixed axis, turned about it to face the camera
-    Plane,    ///< lies in the plane normal to the axis
+    Camera, ///< faces the camera
+    /// The vertical axis of the quad is along the velocity; the quad is rotated about it to face the camera.
+    Velocity,
+    /// The vertical axis of the quad is along a fixed axis; the quad is rotated about it to face the camera.
+    Axis,
+    Plane, ///< the quad lies in the plane normal to the axis
 };
 
 /// In which order the rows of a group are drawn.
@@ -125,20 +127,21 @@ enum : size_t
     AxisX,     ///< [1] local unit vector of the alignments Axis and Plane
     AxisY,     ///< [1]
     AxisZ,     ///< [1]
-    Aspect,    ///< [1] width over height of a sprite, > 0; radius is half the height
+    /// [1] Width of a sprite divided by its height, > 0; the radius of the particle is half the height.
+    Aspect,
     /// [s] with the alignment Velocity, a sprite is longer by speed times Stretch. The v of its texture runs
     /// along the velocity.
     Stretch,
     Luminance,   ///< [cd/m2] luminance that color 1 emits
     Lit,         ///< [1] share of the scene's light that color 1 scatters, 0..1
     Softness,    ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
-    Texture,     ///< id in the AssetTable; 0: a round spot that fades towards its edge
+    Texture,     ///< id of the texture in the AssetTable; 0: a round spot that fades towards its edge
     TileColumns, ///< [1] frames of the texture side by side, >= 1
     TileRows,    ///< [1] frames of the texture above each other, >= 1
     FrameBlend,  ///< 1: the two nearest frames are mixed by the fraction of Frame; 0: frame floor(Frame)
-    Motion,      ///< id in the AssetTable of the motion vectors (red, green; 0.5 is no motion), 0: none
-    MotionScale, ///< [1] motion by a vector of length 1, over the width of a frame
-    Mesh,        ///< id in the AssetTable, 0: none
+    Motion, ///< id in the AssetTable of the texture of motion vectors (red, green; 0.5 is no motion); 0: none
+    MotionScale, ///< [1] displacement by a motion vector of length 1, in widths of a frame
+    Mesh,        ///< id of the mesh in the AssetTable; 0: none
     ArcPerTile,  ///< [m] length of a ribbon per width of the texture; 0: the texture covers the whole strip
     Edge,        ///< [1] share of a ribbon's half width over which it fades towards its edges, 0..1
     /// [s] age at which a ribbon ends. It may have some older rows, for interpolation to earlier moments.

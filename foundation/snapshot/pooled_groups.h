@@ -121,22 +121,24 @@ struct PooledRows
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
                  uint32_t each);
 
-    SnapshotGroup rows;                ///< columns and constants; only the kind of its info is valid
-    std::array<Range, 2> used;         ///< rows that may contain visible elements
-    std::pmr::vector<uint32_t> owner;  ///< by row: nameOf() its member and its place in the group
-    std::pmr::vector<uint32_t> counts; ///< by member: number of elements of its group
+    SnapshotGroup rows; ///< columns and constants of the rows; of its GroupInfo, only the kind is valid
+    std::array<Range, 2> used; ///< ranges of rows that may contain visible elements
+    /// By row: nameOf(member, place) for the member number of its group and its place in that group.
+    std::pmr::vector<uint32_t> owner;
+    std::pmr::vector<uint32_t> counts; ///< by member number: number of elements of the group
     uint32_t groupCapacity = 0;        ///< capacity of each group
     RowCopier copier;
     size_t radiusColumn = 0; ///< column of the radius; a row of radius 0 is empty
     uint64_t number = 0;     ///< identifies the constants, see SnapshotGroup::keepsConstants()
     float corner = 1;        ///< [1] distance of the farthest drawn corner from the position, over the radius
-    size_t ageColumn = 0;    ///< used if rows have velocities
-    size_t velocityColumn = 0; ///< the first of three; 0: rows have no velocity
-    float along = 0;           ///< [s] a row extends forwards and backwards along its velocity by this time
-    /// [s] For rows of arbitrary orientation: extension in all directions by this time times the speed, over
-    /// `corner`.
+    size_t ageColumn = 0;    ///< column of the age; used only if rows have velocities
+    size_t velocityColumn = 0; ///< first of the three columns of the velocity; 0: rows have no velocity
+    /// [s] a row extends along its velocity, forwards and backwards, by its speed times this time.
+    float along = 0;
+    /// [s] Used for rows of arbitrary orientation: speed times this time is added to the radius of a row,
+    /// before multiplication by `corner`.
     float across = 0;
-    float secondsBack = 0;    ///< [s] rows are drawn along their path of this duration before the snapshot
+    float secondsBack = 0;    ///< [s] a row is also drawn along its path during this time before the snapshot
     uint64_t writer = 0;      ///< identifies the writer of `owner`; 0: none
     uint64_t writtenUpTo = 0; ///< number of the last write, counted by the writer
 
@@ -171,9 +173,10 @@ public:
         : memory_(memory), groups_(memory), scratch_(memory), first_(memory), ends_(memory), rows_(memory)
     {}
 
-    /// Begins a new publication: discards the groups and reserves memory for all. [writer]
+    /// Begins a new publication: discards the groups and reserves memory for all. Called by the thread that
+    /// writes the snapshot.
     void prepare(const FrameSnapshot& snapshot);
-    /// The group of an entry of the snapshot's roster. Any thread.
+    /// The group of an entry of the snapshot's roster. Any thread may call this.
     const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t entry);
     /// Whether group() has been called since prepare().
     bool isDone() const { return done_.load(std::memory_order_acquire); }
@@ -196,11 +199,12 @@ private:
     void open(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
     void fill(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
 
-    std::mutex mutex_;              ///< guards the members below while groups are created
-    std::atomic<bool> done_{false}; ///< groups exist, and are constant until the next publication
-    uint64_t shape_ = 0;            ///< shape for which memory is reserved
+    std::mutex mutex_; ///< guards the members below while groups are created
+    /// True: the groups have been copied, and are constant until the next publication.
+    std::atomic<bool> done_{false};
+    uint64_t shape_ = 0; ///< GroupRoster::shape for which memory is reserved
     std::pmr::memory_resource* memory_;
-    std::pmr::vector<SnapshotGroup> groups_;  ///< by entry of the roster
+    std::pmr::vector<SnapshotGroup> groups_;  ///< by entry of the roster: the group with a copy of its rows
     std::pmr::vector<SnapshotGroup> scratch_; ///< by pool: one group that visit() reuses
     std::pmr::vector<size_t> first_;          ///< by pool: index of its first member in ends_
     std::pmr::vector<uint32_t> ends_;         ///< by member, pool after pool: end of its rows in rows_

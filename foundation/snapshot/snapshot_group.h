@@ -22,12 +22,13 @@ namespace fx::base {
 struct GroupInfo
 {
     KindId kind = 0;
-    uint64_t instance = 0;   ///< identity of the instance within the scene
-    uint32_t solver = 0;     ///< index of the solver in its effect
-    uint32_t count = 0;      ///< elements
-    Placement placement;     ///< positions in columns are relative to it
-    Bounds bounds;           ///< in the local space of the placement; contains every element with its radius
-    bool isCosmetic = false; ///< excluded from the snapshot's hash, because it may be computed on the GPU
+    uint64_t instance = 0; ///< identity of the instance within the scene
+    uint32_t solver = 0;   ///< index of the solver in its effect
+    uint32_t count = 0;    ///< elements
+    Placement placement;   ///< transform from the local space, in which positions in columns are given
+    Bounds bounds;         ///< in the local space of the placement; contains every element with its radius
+    /// True: the snapshot's hash does not include this group, because it may be computed on the GPU.
+    bool isCosmetic = false;
 };
 
 class GpuParticleProgram;
@@ -47,9 +48,11 @@ public:
     uint32_t count() const { return info_.count; }
     /// Ids of the elements; empty when the kind has no ids.
     std::span<const uint64_t> ids() const { return {ids_.data(), hasIds_ ? info_.count : 0}; }
-    /// Column `index` of the kind, which is F32; empty when the group lacks it.
+    /// Column `index` of the kind, which must have the type F32; empty if the group does not have this
+    /// column.
     std::span<const float> column(size_t index) const { return {place(index), has(index) ? info_.count : 0}; }
-    /// Column `index` of the kind, which is U64; empty when the group lacks it.
+    /// Column `index` of the kind, which must have the type U64; empty if the group does not have this
+    /// column.
     std::span<const uint64_t> column64(size_t index) const
     {
         return {reinterpret_cast<const uint64_t*>(place(index)), has(index) ? info_.count : 0};
@@ -80,8 +83,8 @@ public:
     size_t capacity() const { return capacity_; }
     /// True when the group still has the constants that `writer` wrote, so that they need not be written
     /// again. Otherwise the constants become zero and must be written.
-    /// @param writer number of the constants, not 0; different constants have different numbers in the
-    /// process
+    /// @param writer number that identifies the constants, not 0; in a process, different constants have
+    ///         different numbers
     bool keepsConstants(uint64_t writer)
     {
         if (constantsWriter_ == writer)

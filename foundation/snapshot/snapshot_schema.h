@@ -1,5 +1,5 @@
 /// @file snapshot_schema.h
-/// Which kinds of data a snapshot can contain. Techniques register their kinds; the snapshot container
+/// The kinds of data that a snapshot can contain. Techniques register their kinds; the snapshot container
 /// depends on no kind.
 #pragma once
 
@@ -36,8 +36,8 @@ struct KindDesc
     std::string_view name;
     std::span<const ColumnDesc> columns;   ///< per element
     std::span<const ColumnDesc> constants; ///< per group, F32 only
-    /// Elements have ids and are sorted by them; false: the kind defines another way to match elements of two
-    /// snapshots.
+    /// True: elements have ids and are sorted by them. False: the kind defines another way to match elements
+    /// of two snapshots.
     bool hasIds = true;
 
     /// Kinds are equal if their names are equal.
@@ -50,7 +50,7 @@ constexpr size_t kMaxConstants = 24; ///< largest number of constants of a kind
 using KindId = uint32_t;
 constexpr KindId kNoKind = ~0u;
 
-/// Which columns of a kind a group has: bit i for column i.
+/// Set of those columns of a kind that a group has: bit i stands for column i.
 using ColumnSet = uint64_t;
 constexpr ColumnSet kAllColumns = ~ColumnSet(0);
 

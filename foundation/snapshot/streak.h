@@ -7,7 +7,8 @@
 
 namespace fx::base {
 
-inline constexpr int kMaxStreakPieces = 64; ///< limits the cost of one moving ball
+/// Largest number of balls in a streak; limits the cost of one moving ball.
+inline constexpr int kMaxStreakPieces = 64;
 
 /// The balls of one streak. The center of ball k of `count` is behind the moving ball by k / count of the
 /// path length.
@@ -21,8 +22,9 @@ struct Streak
     Real shareOf(int k) const { return Real(2 * (count - k)) / Real(count * (count + 1)); }
 };
 
-/// Neighboring centers are at most one radius apart. If kMaxStreakPieces balls of `radius` are too few for
-/// this, the radius is increased to the distance of neighboring centers.
+/// Computes the streak of a moving ball. Neighboring centers are at most one radius apart. If
+/// kMaxStreakPieces balls of `radius` are too few for this, the radius is increased to the distance of
+/// neighboring centers.
 /// @param length length of the path while the shutter is open, >= 0 and finite
 /// @param radius radius of the moving ball, > 0, in the same unit
 template <typename Real>

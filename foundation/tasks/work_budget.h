@@ -15,8 +15,8 @@ namespace fx::base {
 constexpr uint64_t kNoWorkLimit = UINT64_MAX;
 constexpr double kSecondsPerUnit = 10e-9; ///< [s] approximate time of a unit
 
-/// Units that are left of the granted units. Work that has begun continues to the next point where it can be
-/// interrupted, so that the last piece of work may cost more than is left.
+/// The number of work units that are left of those granted. Work that has begun continues to the next point
+/// where it can be interrupted, so that the last piece of work may cost more than is left.
 class WorkBudget
 {
 public:
