@@ -9,8 +9,8 @@
 
 namespace fx::cli {
 
-/// A logarithmic axis. It has marks at every decade or every second one; if there are few decades, also at 2
-/// and 5.
+/// A logarithmic axis. It has marks at every power of ten or at every second one. If the axis covers few
+/// powers of ten, it also has marks at 2 and 5 times each.
 struct LogAxis
 {
     double low = std::numeric_limits<double>::infinity();

@@ -39,8 +39,9 @@ public:
     /// Sets the position of the camera of draw(). The simulation does not depend on it.
     void moveTo(double x, double y, double z);
     base::Status setView(const FxViewSettings& settings);
-    /// @param isHeld true: the next frames keep the levels of detail of the last frame; setView() ends this
-    ///          too
+    /// Switches the update of levels of detail off or on.
+    /// @param isHeld true: the next frames keep the levels of detail of the last frame, until setView() or a
+    ///          call with false
     void holdDetail(bool isHeld);
     base::Status update();
     base::Status draw();          ///< does nothing without GL

@@ -25,7 +25,7 @@ struct ExplosionSetting
 struct ExplosionState
 {
     double height;      ///< [m] height of the center
-    double radius;      ///< [m] root of the mean square distance from the axis
+    double radius;      ///< [m] root mean square distance from the axis
     double speed;       ///< [m/s] root mean square
     double temperature; ///< [K] mean
 };

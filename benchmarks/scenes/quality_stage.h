@@ -23,7 +23,7 @@ namespace fx::cli {
 enum class StageClock
 {
     Gpu,      ///< timestamps of the GPU
-    Wall,     ///< time from the call until the GPU has finished
+    Wall,     ///< wall time from the call until the GPU has finished
     Processor ///< processor time of all threads of this program: for software renderers on busy machines
 };
 const char* clockName(StageClock clock);

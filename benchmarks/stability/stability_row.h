@@ -30,8 +30,9 @@ struct StabilitySweep
 {
     std::string name;
     StabilityAxis x, y;
-    double limit = 0;       ///< upper limit of the error, inclusive; 0: exact
-    bool isControl = false; ///< naive code at the same points, which must exceed the limit somewhere
+    double limit = 0; ///< upper limit of the error, inclusive; 0: exact
+    /// true: `error` is that of naive code at the same points, which must exceed the limit somewhere
+    bool isControl = false;
     std::function<double(double x, double y)> error;
 };
 

@@ -31,8 +31,9 @@ struct CityPlace
 /// A square grid around the camera; no effect is within 30 m of the camera.
 std::vector<CityPlace> cityPlaces(uint32_t count);
 
-/// One of twelve fountains with different costs.
-/// @param offscreen their policy @param ballistic false: one in three has turbulence
+/// Text of a preset for one of twelve fountains with different costs.
+/// @param offscreen the preset's member "offscreen"  @param ballistic false: one in three fountains has
+///          turbulence
 std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
 
 /// Compares hashes, memory and pictures of the city with those of a city without culling.

@@ -50,10 +50,10 @@ struct LodFlightRules
     uint32_t frames; ///< 0: no flight
 };
 
-/// Draws each frame twice from the same camera: with the levels and impostors of the previous frame, and with
-/// its own. The difference is the effect of changing them.
-/// @param ioWithout changes from frame to frame in the flight without levels of detail; if empty, this flight
-/// is that one and fills it
+/// Draws each frame of a flight twice from the same camera: with the levels and impostors of the previous
+/// frame, and with its own. The difference is the visible effect of changing them.
+/// @param ioWithout changes of the picture from frame to frame without levels of detail. If it is empty, this
+///          flight is made without levels of detail and fills it.
 base::Status fly(BenchScene& scene, const LodFlightRules& rules, const LodCase& what,
                  std::vector<std::vector<float>>& ioWithout, LodFlight& outFlight);
 
