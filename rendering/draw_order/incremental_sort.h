@@ -8,15 +8,15 @@
 
 namespace fx::render {
 
-constexpr size_t kSortedBlock = 8; ///< sorted elements that share an entry of SortedPart::blockEnds
+constexpr size_t kSortedBlock = 8; ///< number of sorted elements that share an entry of SortedPart::blockEnds
 
 /// State of a scan of the last order. Elements that are still in ascending order are moved to the front of
 /// the order.
 struct SortedPart
 {
     const uint32_t* keys; ///< key of each element
-    uint32_t* order;      ///< [0, kept) is sorted, [at, count) is not scanned yet; kept <= at
-    uint32_t* blockEnds;  ///< room for the last key of each sorted block
+    uint32_t* order;      ///< elements: [0, kept) are sorted, [at, count) are not scanned yet; kept <= at
+    uint32_t* blockEnds;  ///< memory for the last key of each sorted block
     size_t kept;
     size_t at;
     size_t count;
@@ -26,8 +26,8 @@ struct SortedPart
     size_t mostDisplaced;
 };
 
-/// Continues the scan by whole vectors of elements. Stops at a vector with an absent element or with more
-/// than one element out of order, or when `displaced` is full.
+/// Continues the scan with one SIMD vector of elements after another. Stops at a vector with an absent
+/// element or with more than one element out of order, or when `displaced` is full.
 void extendSortedByVectors(SortedPart& sorted);
 
 /// Removes the elements of the set `changed` from the last order. The remaining elements are sorted.

@@ -1,9 +1,9 @@
 /// @file exr_encoder.h
 /// Encodes images with named channels as OpenEXR files (scan lines, ZIP).
 ///
-/// The file is encoded in memory, so that the caller can write it completely or not at all. Threads: any. One
-/// call uses up to `threads` workers of OpenEXR's own pool. The encoded bytes do not depend on the number of
-/// workers.
+/// The file is encoded in memory, so that the caller can write it completely or not at all. Threads: any. A
+/// call uses up to `threads` worker threads of OpenEXR's own pool. The encoded bytes do not depend on the
+/// number of workers.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -28,8 +28,8 @@ struct ExrChannel
 {
     std::string name; ///< such as "R" or "layer.R"; unique in the image, not empty, at most 255 bytes
     std::span<const float> values;
-    size_t offset = 0; ///< [float] index of the first value
-    size_t stride = 1; ///< [float] distance of neighboring pixels, >= 1
+    size_t offset = 0; ///< [float] index in `values` of the first value of the channel
+    size_t stride = 1; ///< [float] distance in `values` of neighboring pixels, >= 1
     ExrPrecision precision = ExrPrecision::Half;
 };
 

@@ -27,7 +27,7 @@ public:
         ResourceId balls, fieldTexels, bricks, brickBalls;
         FieldTextures textures;
         uint32_t brickCount;                      ///< > 0
-        ResourceId materials = {}, lumpTile = {}; ///< invalid: no field has detail
+        ResourceId materials = {}, lumpTile = {}; ///< inputs for detail; invalid: no field has detail
     };
     struct Outputs
     {

@@ -10,7 +10,7 @@
 
 namespace fx::render {
 
-/// Single and multiple scattering of the light of the sun, of point lights, of sky and ground; see
+/// Computes single and multiple scattering of the light of the sun, of point lights, of sky and ground; see
 /// shaders/shared/scattered_light.glsl and shaders/shared/sky_light.glsl.
 ///
 /// reads   fields, bricks  as in FieldFillPass
@@ -31,10 +31,10 @@ public:
         LightBindings lights;
         const ViewBlock* view;            ///< of the picture
         uint32_t brickCount;              ///< > 0
-        ResourceId glow = {}, grids = {}; ///< invalid: no field has a grid
+        ResourceId glow = {}, grids = {}; ///< inputs for emitted light; invalid: no field has a grid
         /// Moments of NetworkPasses for the same grids; used instead of `glow`.
         ResourceId network = {};
-        int networkCells = 0; ///< along a side of the network's grids
+        int networkCells = 0; ///< number of cells along a side of the network's grids
     };
     struct Outputs
     {

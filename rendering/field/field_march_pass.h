@@ -19,7 +19,7 @@ struct LooseMedia
     /// Draw arguments of the non-empty tiles, with or without fields; invalid without loose media.
     ResourceId tiles;
     ResourceId lists; ///< numbers of balls, see SlabTilePass
-    ResourceId balls; ///< texture of SlabBallPass; invalid: no balls
+    ResourceId balls; ///< texture written by SlabBallPass; invalid: no balls
     CardLists cards;
     int slabs = 16; ///< least number of slabs along a ray for balls and cards
 };
@@ -42,7 +42,7 @@ public:
         FieldTextures textures;
         ResourceId fieldTexels;   ///< texture of FieldTexelPass
         ResourceId tiles;         ///< buffer of FieldTexels::tiles()
-        ResourceId lumpTile = {}; ///< texture of LumpTilePass; invalid: no field has detail
+        ResourceId lumpTile = {}; ///< texture written by LumpTilePass; invalid: no field has detail
         LooseMedia loose = {};
     };
     /// Value of SlabTilePass::Inputs::maxOfTile. It is low because each step of a ray reads the whole list of

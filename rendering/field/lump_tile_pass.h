@@ -6,7 +6,7 @@
 
 namespace fx::render {
 
-constexpr int kLumpTileTexels = 64; ///< along a side; the texture has 1 MiB
+constexpr int kLumpTileTexels = 64; ///< number of texels along a side; the texture has 1 MiB
 
 extern const ProgramDesc kLumpTileProgram;
 

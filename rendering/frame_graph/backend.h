@@ -68,9 +68,10 @@ struct ProgramDesc
 
 enum class Blend : uint8_t
 {
-    None,          ///< the source replaces the destination
-    Premultiplied, ///< source + (1 - source alpha) * destination, for color and alpha of every target
-    Additive,      ///< source + destination
+    None, ///< the source replaces the destination
+    /// Result = source + (1 - source alpha) * destination, for color and alpha of every target.
+    Premultiplied,
+    Additive, ///< source + destination
 };
 
 enum class Sampling : uint8_t
@@ -78,7 +79,7 @@ enum class Sampling : uint8_t
     Nearest, ///< clamped to the edge
     Linear,  ///< clamped to the edge
     LinearRepeat,
-    Trilinear, ///< also between mip levels; clamped to the edge
+    Trilinear, ///< linear filter, also between mip levels; coordinates are clamped to the edge
     TrilinearRepeat,
 };
 
@@ -92,15 +93,15 @@ struct TextureBinding
 struct ImageBinding
 {
     uint32_t unit;
-    ResourceId texture; ///< written by a compute program
+    ResourceId texture; ///< texture that a compute program writes
 };
 
 struct BufferBinding
 {
     uint32_t binding;
     ResourceId buffer;
-    uint64_t offset = 0;    ///< [byte] a multiple of GlLimits::storageAlignment
-    uint64_t bytes = 0;     ///< [byte] 0: up to the end of the buffer
+    uint64_t offset = 0;    ///< [byte] begin of the range, a multiple of GlLimits::storageAlignment
+    uint64_t bytes = 0;     ///< [byte] size of the range; 0: up to the end of the buffer
     bool isUniform = false; ///< true: a std140 block at uniform binding 1; false: a storage buffer
 };
 
@@ -113,14 +114,14 @@ struct DrawCall
     std::span<const ResourceId> targets = {};
     std::span<const TextureBinding> textures = {};
     std::span<const BufferBinding> buffers = {};
-    std::span<const std::byte> uniforms = {}; ///< std140 block at uniform binding 0
+    std::span<const std::byte> uniforms = {}; ///< data of the std140 block at uniform binding 0
     Blend blend = Blend::None;
     uint32_t vertices = 3;
     uint32_t instances = 1;
-    ResourceId depthTarget = {}; ///< depth texture; tested and written when valid
-    bool reversedDepth = false;  ///< depth test GREATER instead of LESS
-    /// Indirect draw arguments: a buffer that begins with vertices, instances, 0, 0 as 32-bit words. If
-    /// valid, it replaces `vertices` and `instances`. A dispatch writes it.
+    ResourceId depthTarget = {}; ///< depth texture; if it is valid, depth is tested and written
+    bool reversedDepth = false;  ///< true: the depth test is GREATER; false: LESS
+    /// Buffer with indirect draw arguments, which a dispatch has written. It begins with vertices, instances,
+    /// 0, 0 as 32-bit words. If valid, it replaces the members `vertices` and `instances`.
     ResourceId indirect = {};
 };
 

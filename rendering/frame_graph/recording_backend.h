@@ -33,7 +33,7 @@ public:
         Kind kind = Kind::Draw;
         std::string_view pass;
         const ProgramDesc* program = nullptr;
-        std::vector<ResourceId> targets; ///< targets of the draw, clear, upload or copy
+        std::vector<ResourceId> targets; ///< resources to which the draw, clear, upload or copy writes
         std::vector<TextureBinding> textures;
         std::vector<ImageBinding> images;
         std::vector<BufferBinding> buffers;

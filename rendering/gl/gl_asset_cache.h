@@ -45,7 +45,7 @@ public:
     GlAssetCache& operator=(const GlAssetCache&) = delete;
 
     /// The texture array of image `id`, which has `columns` x `rows` frames, row by row from the upper left.
-    /// One white texel if no image has this id.
+    /// If no image has this id, the result is one white texel.
     /// @return OutOfMemory, InvalidArgument (more frames than the context's arrays have layers)
     base::Result<GlAtlas> atlas(const base::AssetTable* table, base::AssetId id, int columns, int rows);
     /// The buffer of mesh `id`. @return OutOfMemory, NotFound if no mesh has this id

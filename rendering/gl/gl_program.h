@@ -26,6 +26,7 @@ struct GlStageSource
 class GlProgram
 {
 public:
+    /// Compiles the stages and links the program.
     /// @return GlFailed with the program's name, the stage and the driver's log
     static base::Result<GlProgram> link(GlDevice& device, const char* name,
                                         std::span<const GlStageSource> stages);

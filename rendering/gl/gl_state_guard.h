@@ -17,7 +17,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// The states that drawing changes as text, one line per state, such as "GL_BLEND (draw buffers 0 to 7)".
+/// Names of the GL states that drawing changes, one per line, such as "GL_BLEND (draw buffers 0 to 7)".
 std::span<const char* const> touchedState();
 
 class GlStateGuard

@@ -21,8 +21,9 @@ struct GlSavedState
 struct GlTouchedState
 {
     const char* name; ///< shown to users
-    GLenum what;      ///< passed to `save` and `restore`
-    uint32_t count;   ///< number of indices (draw buffers, units, bindings); 0 to count - 1 are saved
+    GLenum what;      ///< argument of `save` and `restore`
+    /// Number of indices (of draw buffers, units or bindings); the state is saved at indices 0 to count - 1.
+    uint32_t count;
     void (*save)(const GlFunctions& gl, GLenum what, uint32_t index, GlSavedState& outSaved);
     void (*restore)(const GlFunctions& gl, GLenum what, uint32_t index, const GlSavedState& saved);
 };

@@ -24,7 +24,8 @@ constexpr size_t kMaxPassGroups = 8;
 class PassGroups
 {
 public:
-    /// @param passes their names must stay valid
+    /// Adds passes to their groups.
+    /// @param passes passes whose names must stay valid
     void add(std::span<const TimedPass> passes)
     {
         for (const TimedPass& timed : passes) {

@@ -13,7 +13,7 @@ enum class SlabDetail : uint8_t
 {
     None,
     OfBalls,  ///< noise of single balls
-    OfFields, ///< noise of single balls, and the detail of fields
+    OfFields, ///< both the noise of single balls and the detail of fields
 };
 
 constexpr size_t kSlabPrograms = 2 * 3 * 2;
@@ -28,8 +28,10 @@ const ProgramDesc& slabBallsProgram(bool detail);
 inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
                                                nullptr};
 
-constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame; 4 bytes each
-constexpr uint64_t kMaxCards = uint64_t(1) << 21;       ///< fragments of cards of a frame; 32 bytes each
+/// Largest number of entries in all lists of a frame; 4 bytes each.
+constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23;
+/// Largest number of fragments of cards in a frame; 32 bytes each.
+constexpr uint64_t kMaxCards = uint64_t(1) << 21;
 
 /// Collects the fragments of cards in one linked list per texel. The result does not depend on the drawing
 /// order.
@@ -42,11 +44,11 @@ class SlabCardPass
 public:
     struct Inputs
     {
-        /// of sources without balls; must stay valid, like their sources
+        /// batches of sources without balls; batches and sources must stay valid
         std::span<const DrawBatch> batches;
         const MediaPass::Inputs* media; ///< inputs of the composition
-        uint64_t capacity;              ///< room for fragments; further fragments are dropped and counted
-        bool marks = false;             ///< also collect the data that outputs need
+        uint64_t capacity;  ///< largest number of fragments; further fragments are dropped and counted
+        bool marks = false; ///< true: also collect the data that outputs need
     };
     [[nodiscard]] static CardLists addTo(FrameGraph& graph, const Inputs& in);
 };
@@ -54,7 +56,7 @@ public:
 /// Detail of the fields that balls belong to. Both lists must stay valid until the graph has executed.
 struct BallDetails
 {
-    std::span<const BlobMaterial> materials{}; ///< one per ball; empty: no field has detail
+    std::span<const BlobMaterial> materials{}; ///< one material per ball; empty: no field has detail
     std::span<const FieldDetailBlock> details{};
     ResourceId lumpTile{}; ///< texture of LumpTileTexture
 };
@@ -106,7 +108,7 @@ public:
         uint64_t entries;                ///< total number of tiles in all `rects`
         int width, height;               ///< [texel]
         uint32_t maxOfTile;              ///< largest number of balls in the list of a tile, >= 2
-        float flip;                      ///< sign of window y relative to clip y, 1 or -1
+        float flip; ///< sign of the window's y axis relative to the y axis of clip space, 1 or -1
         CardLists cards;
         ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock; tiles with fields count as not empty
     };
