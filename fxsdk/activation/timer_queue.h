@@ -28,11 +28,12 @@ public:
     void reserve(uint32_t key, size_t count);
     /// Strong guarantee.
     void add(const Timer& timer);
-    /// The key must be in the queue. Allocates nothing.
+    /// Removes a timer. The key must be in the queue. Allocates nothing.
     void remove(uint32_t key);
     bool empty() const { return heap_.empty(); }
     size_t size() const { return heap_.size(); }
-    const Timer& earliest() const { return heap_.front(); } ///< the queue must not be empty
+    /// the earliest timer; the queue must not be empty
+    const Timer& earliest() const { return heap_.front(); }
 
 private:
     void put(size_t at, const Timer& timer);
@@ -40,7 +41,7 @@ private:
     void sink(size_t at);
 
     std::pmr::vector<Timer> heap_;
-    std::pmr::vector<uint32_t> slots_; ///< by key: index in heap_
+    std::pmr::vector<uint32_t> slots_; ///< index in heap_ of the timer of each key
 };
 
 } // namespace fx::activation

@@ -56,7 +56,8 @@ public:
             entered_->close();
             entered_ = nullptr;
         }
-        base::Status status() const ///< constructed on request only, because every call checks it
+        /// the result as a status, constructed on request only, because every call checks the scope
+        base::Status status() const
         {
             if (entered_)
                 return {};
@@ -67,7 +68,7 @@ public:
 
     private:
         SingleCaller* entered_ = nullptr;
-        const char* rule_ = nullptr; ///< the rule that was broken
+        const char* rule_ = nullptr; ///< description of the thread rule that was broken; null if none was
     };
 
     /// Whether a call is in progress. [any thread]
@@ -78,7 +79,7 @@ public:
         closed_.store(true, std::memory_order_relaxed);
         busy_.store(true, std::memory_order_relaxed);
     }
-    /// Whether the object is closed. For functions that may run during another call.
+    /// Whether the object is closed. This query is for functions that may run during another call.
     bool isClosed() const { return closed_.load(std::memory_order_relaxed); }
 
 private:

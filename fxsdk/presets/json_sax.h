@@ -63,23 +63,23 @@ public:
     size_t depth() const { return levels_.size(); }
     bool insideArray() const { return !levels_.empty() && levels_.back().isArray; }
     size_t countInside() const { return levels_.empty() ? 0 : levels_.back().count; }
-    /// Pointer of the value of the last value(), or of the member of the last key().
+    /// JSON pointer of the value of the last call of value(), or of the member of the last call of key().
     std::string pointer() const;
 
 private:
     struct Level
     {
         bool isArray;
-        size_t count;        ///< number of values begun inside
-        size_t parentLength; ///< length of the pointer of the enclosing level
+        size_t count;        ///< number of values of this array or object that have begun
+        size_t parentLength; ///< length of the JSON pointer of the enclosing level
     };
 
     std::string_view text_;
     const char* furthest_;
     size_t lastEnd_ = 0;
     std::vector<Level> levels_;
-    std::string container_; ///< pointer of the innermost array or object
-    std::string key_;       ///< name of the member, escaped
+    std::string container_; ///< JSON pointer of the innermost array or object
+    std::string key_;       ///< name of the current member, escaped
 };
 
 /// `name` with '~' and '/' escaped as in JSON pointers.

@@ -30,7 +30,7 @@ struct CameraPath
     glm::dvec3 position{0, 2, 12}; ///< [m] without keys
     glm::dvec3 target{0, 2, 0};    ///< [m] without keys
     glm::vec3 up{0, 1, 0};
-    float fovYDegrees = 50;       ///< vertical field of view, used when orthographicHeight is 0
+    float fovYDegrees = 50;       ///< [degree] vertical field of view, used when orthographicHeight is 0
     float orthographicHeight = 0; ///< [m] height of the picture of an orthographic camera; 0: perspective
     float nearPlane = 0.1f;       ///< [m] > 0
     std::vector<CameraKey> keys;

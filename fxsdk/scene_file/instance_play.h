@@ -48,8 +48,8 @@ struct InstancePlay
     std::vector<InstanceKey> keys;
     bool moves = false;               ///< keys have positions
     bool turns = false;               ///< keys have rotations
-    std::vector<TimedValue> speed;    ///< [1] before the first: 1
-    std::vector<TimedValue> emitting; ///< 0 or 1; before the first: 1
+    std::vector<TimedValue> speed;    ///< [1] speed of the local time; 1 before the first value
+    std::vector<TimedValue> emitting; ///< 1: births, 0: no births; 1 before the first value
     std::vector<Trigger> triggers;
     std::vector<TimeJump> jumps;
 

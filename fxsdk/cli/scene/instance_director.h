@@ -27,7 +27,7 @@ public:
     base::Status beforeStep(FxScene* scene, base::Ticks from, base::Ticks to);
 
 private:
-    /// One instance, and the number of its events that have been played.
+    /// One instance, and the numbers of its events that have been played so far.
     struct Role
     {
         scene_file::SceneInstance instance;

@@ -129,7 +129,7 @@ typedef enum FxActivityReason
     FX_REASON_NONE = 0,             ///< it is active
     FX_REASON_NOT_STARTED = 1,      ///< its start time has not come
     FX_REASON_OUTSIDE = 2,          ///< outside of every frustum
-    FX_REASON_TOO_FAR = 3,          ///< beyond its own maximum distance or that of the camera
+    FX_REASON_TOO_FAR = 3,          ///< farther away than its own maximum distance or that of the camera
     FX_REASON_TOO_SMALL = 4,        ///< smaller than FxFocus::minPixels
     FX_REASON_OCCLUDED = 5,         ///< FxActivationHints::occluded is set
     FX_REASON_BUDGET = 6,           ///< a budget is exceeded and others are more significant
@@ -156,15 +156,15 @@ typedef struct FxInstanceActivity
     uint32_t state;      ///< FxInstanceState
     uint32_t reason;     ///< FxActivityReason
     uint32_t policy;     ///< FX_CATCH_UP_...
-    uint32_t particles;  ///< number of particles in its solvers
-    float significance;  ///< [pixel] on the picture of the best camera, times priority
+    uint32_t particles;  ///< number of particles of the instance
+    float significance;  ///< [pixel] radius on the picture of the best camera, multiplied by the priority
     float milliseconds;  ///< [ms] estimated time of a step
     float reach;         ///< [m] largest distance of particles from its position; infinite when unknown
     int64_t lagTicks;    ///< [tick] time that is not simulated yet
 } FxInstanceActivity;
 
-/// Counters of the last fxScene_Update(); all but the estimate are exact. Fill structSize with sizeof
-/// before the call.
+/// Counters of the last fxScene_Update(); all but estimatedMilliseconds are exact. Fill structSize with
+/// sizeof before the call.
 typedef struct FxFrameStats
 {
     uint32_t structSize;   ///< set by the caller
@@ -189,10 +189,11 @@ typedef struct FxFrameStats
     uint64_t clamped;              ///< values limited
     uint64_t catchUpParticleSteps; ///< particles advanced while catching up
     int64_t catchUpTicks;          ///< [tick] time caught up, the sum over instances
-    int64_t debtTicks;             ///< [tick] simulated time that gases left out to limit their work
+    int64_t debtTicks;             ///< [tick] simulated time that gases omitted to limit their work
     uint64_t allocations;          ///< from the context's allocator
-    double estimatedMilliseconds;  ///< [ms] of a step of all active instances
-    double nanosecondsPerParticle; ///< [ns] of a step, given or measured; used by the estimate
+    double estimatedMilliseconds;  ///< [ms] estimated time of a step of all active instances
+    /// [ns] time per particle and step, given or measured, on which the estimate is based
+    double nanosecondsPerParticle;
 } FxFrameStats;
 
 /// Sets the cameras of a scene, from the next update on. Cameras only decide which instances are in sight.

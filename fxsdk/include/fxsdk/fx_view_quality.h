@@ -40,13 +40,13 @@ typedef struct FxQualityReport
 /// Quality of one technique in the last frame. Fill structSize with sizeof before the call.
 typedef struct FxQualityChoice
 {
-    uint32_t structSize;         ///< set by the caller
-    uint32_t step;               ///< 0..steps - 1, cheapest first
-    uint32_t steps;              ///< number of scalability levels of the technique
-    float cost;                  ///< [1] of the step, in units of the highest one's
-    float error;                 ///< [1] of the step, against the highest one's picture
-    float weight;                ///< [1] 0..1, about the share of the picture that the technique covers
-    float predictedMilliseconds; ///< [ms] of the step in this scene
+    uint32_t structSize; ///< set by the caller
+    uint32_t step;       ///< 0..steps - 1, cheapest first
+    uint32_t steps;      ///< number of scalability levels of the technique
+    float cost;          ///< [1] cost of the step relative to that of the highest step
+    float error;         ///< [1] error of the step's picture relative to the picture of the highest step
+    float weight;        ///< [1] 0..1, about the share of the picture that the technique covers
+    float predictedMilliseconds; ///< [ms] expected time of the step in this scene
     uint32_t reserved;           ///< 0
     char technique[32];          ///< "media", "shimmer", "dazzle", or "other" for passes without settings
     char setting[96];            ///< for display, such as "particles 0.5, kernel, detail on"

@@ -91,18 +91,18 @@ typedef struct FxViewStatistics
     /// Impostors re-rendered for the frame.
     uint32_t impostorsTaken;
 
-    /// Particles computed on the GPU for the frame, as the capacity of their emitters.
+    /// Particles computed on the GPU for the frame. Each emitter counts with its capacity.
     uint32_t gpuParticles;
 
     /// Sprites, meshes and pieces of ribbons that lodBias left out.
     uint64_t particlesThinned;
 
-    /// [byte] of unchanged sprites, meshes and ribbons that were not uploaded again, while others of the step
-    /// were.
+    /// [byte] of sprites, meshes and ribbons that were not uploaded again because they had not changed,
+    /// counted when other particles of the step were uploaded.
     uint64_t keptRowBytes;
 
-    /// [byte] of the same that were not uploaded because another instance of the same simulation has uploaded
-    /// them.
+    /// [byte] of sprites, meshes and ribbons that were not uploaded because another instance of the same
+    /// simulation has uploaded them.
     uint64_t sharedRowBytes;
 
     /// Sprites drawn, without those that lodBias left out. Emitters on the GPU count with their capacity, as
@@ -115,15 +115,16 @@ typedef struct FxViewStatistics
     /// Pieces of ribbons between two points, counted as sprites.
     uint64_t ribbonPieces;
 
-    /// Particles of media in the lists of all tiles of 16 x 16 pixels at layerScale, counted in each; of
-    /// FX_COMPOSITION_SLABS with countOverdraw.
+    /// Length of all particle lists of FX_COMPOSITION_SLABS: one list for each tile of 16 x 16 pixels at
+    /// layerScale. A particle of media counts once for each tile that it covers. Only with countOverdraw.
     uint64_t listedBlobs;
 
-    /// Blobs that are missing from these lists because the lists were full. The listed blobs are weighted so
-    /// that the mean density of the picture stays the same; its detail is lower.
+    /// Particles of media that are missing from the lists of listedBlobs because the lists were full. The
+    /// listed particles are weighted so that the mean density of the picture stays the same; its detail is
+    /// lower.
     uint64_t spilledBlobs;
 
-    /// Fragments of sprites, meshes, ribbons and impostors that were left out because the lists were full.
+    /// Fragments of sprites, meshes, ribbons and impostors that were omitted because the lists were full.
     uint64_t spilledFragments;
 
     /// FX_COMPOSITION_... with which the frame was drawn. FX_COMPOSITION_AUTOMATIC and the frame budget may
