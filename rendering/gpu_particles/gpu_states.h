@@ -1,10 +1,9 @@
 /// @file gpu_states.h
-/// State on the GPU of particles whose motion is computed in steps, for one view.
+/// GPU state of particles whose motion is computed in steps, for one view.
 ///
-/// Each step continues from the state of an emitter after the last step. The state may belong to another
-/// history, if the host has gone back in time. Or it does not exist, because the view is new or the emitter
-/// was hidden for long. In both cases all steps since the births of the particles are computed again, with
-/// the same bits.
+/// A step continues from the emitter's state after the previous step. This state cannot be used if the host
+/// has gone back in time, and it does not exist if the view is new or if the emitter was hidden for a long
+/// time. In these cases all steps since the births of the particles are computed again, with the same bits.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -34,7 +33,8 @@ public:
     base::Status prepare(const base::SnapshotGroup& group, GpuRowsJob& ioJob);
     /// Deletes states that have not been used for a long time.
     void nextFrame();
-    /// Call this if prepared jobs have not run: all states are computed from the births again.
+    /// Must be called if prepared jobs have not run. Then all states are computed again from the births of
+    /// the particles.
     void forget();
 
     uint64_t bytes() const; ///< [byte] held
@@ -46,7 +46,8 @@ private:
         uint32_t solver;
         std::shared_ptr<const base::GpuParticleProgram> emitter;
         GlBuffer reached;
-        std::array<GlBuffer, 2> steps; ///< used alternately: each of two jobs of a frame needs its own
+        /// Data of steps; two buffers, because each of the two jobs of a frame needs its own.
+        std::array<GlBuffer, 2> steps;
         uint32_t turn = 0;
         base::GpuStepMark mark;
         uint64_t usedFrame = 0;

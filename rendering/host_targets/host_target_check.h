@@ -15,6 +15,7 @@ class HostTargetCheck
 public:
     explicit HostTargetCheck(GlDevice& device) : device_(device), textures_(device) {}
 
+    /// Checks the targets of a request.
     /// @return InvalidArgument; the message states the member of FrameRequest, the fault and the remedy
     base::Status check(const FrameRequest& request);
 

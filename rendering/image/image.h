@@ -1,5 +1,6 @@
 /// @file image.h
-/// Pictures in memory, and their PNG and Radiance files. For tools and scene files; libfxsdk reads no images.
+/// Pictures in memory, and their PNG and Radiance files. Tools and readers of scene files use them; libfxsdk
+/// itself reads no images.
 #pragma once
 
 #include "foundation/result/status.h"

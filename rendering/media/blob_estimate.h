@@ -12,7 +12,7 @@ namespace fx::render {
 
 /// Number of fragments of the bounding rectangles of all blobs, clipped to the window, for each of
 /// kLayerDivisors. Occlusion by opaque surfaces is ignored.
-/// @param width, height of the picture [pixel]
+/// @param width, height [pixel] size of the picture
 FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
                                  int height);
 

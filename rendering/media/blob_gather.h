@@ -21,25 +21,25 @@ namespace fx::render {
 /// A blob relative to the eye, before lighting.
 struct GatheredBlob
 {
-    glm::vec3 center;                   ///< [m] relative to the eye, world axes
-    float radius;                       ///< [m] > 0
-    float crossSection;                 ///< [m2] > 0
-    float temperature;                  ///< [K]
-    glm::vec3 albedo;                   ///< [1]
-    glm::vec3 emission;                 ///< [cd/m2] in addition to black-body emission
-    float fireShare;                    ///< [1]
-    float heat;                         ///< [K]
-    float seed;                         ///< [0, 1) seed of procedural detail, from the id
-    float detailAmount;                 ///< [1]
-    float detailScale;                  ///< [1]
-    float anisotropy;                   ///< [1]
-    uint32_t layer;                     ///< MediaLayer
-    int detail = -1;                    ///< index of the detail of its group; -1: no detail
-    glm::vec3 velocity{0.0f};           ///< [m/s] relative to the world
+    glm::vec3 center;         ///< [m] position relative to the eye, along world axes
+    float radius;             ///< [m] > 0
+    float crossSection;       ///< [m2] > 0
+    float temperature;        ///< [K]
+    glm::vec3 albedo;         ///< [1]
+    glm::vec3 emission;       ///< [cd/m2] emission in addition to black-body emission
+    float fireShare;          ///< [1]
+    float heat;               ///< [K]
+    float seed;               ///< [0, 1) seed of procedural detail, computed from the id of the blob
+    float detailAmount;       ///< [1]
+    float detailScale;        ///< [1]
+    float anisotropy;         ///< [1]
+    uint32_t layer;           ///< MediaLayer
+    int detail = -1;          ///< index of the detail of its group; -1: no detail
+    glm::vec3 velocity{0.0f}; ///< [m/s] velocity relative to the world
     std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
 };
 
-/// Range of the blobs of one instance among the visible ones.
+/// Range of an instance's blobs in the list of visible blobs.
 struct InstanceBlobs
 {
     uint64_t instance;
@@ -51,7 +51,7 @@ struct InstanceBlobs
 struct BlobRun
 {
     size_t instance;                 ///< index in the list of instances
-    int detail;                      ///< index of the group's detail; -1: none
+    int detail;                      ///< index of the detail of the group; -1: no detail
     size_t visibleBegin, visibleEnd; ///< range among the visible blobs
     size_t mediumBegin, mediumEnd;   ///< range among all blobs, visible or not
 };
@@ -73,7 +73,7 @@ struct GatherCounts
 {
     uint32_t culled = 0;
     uint32_t nonFinite = 0;
-    uint32_t thinned = 0; ///< omitted by the level of detail
+    uint32_t thinned = 0; ///< number of blobs that were omitted by the level of detail
 };
 
 /// Appends every visible blob to `outVisible`, in the order of groups and ids. Appends every blob to

@@ -28,7 +28,7 @@ public:
     void build(const SliceStack& stack, std::span<const MediumCaster> casters);
 
     const SliceStack& stack() const { return stack_; }
-    /// [1] Optical depth between the light and a texel of a plane.
+    /// [1] Optical depth of the media between the light and the center of a texel of a plane.
     float at(int plane, int x, int y) const { return depths_[indexOf(plane, x, y)]; }
     /// Optical depths at a point, interpolated linearly between texels and between planes.
     /// @param position [m] relative to the same point as the stack
