@@ -58,7 +58,7 @@ constexpr float kFieldErrorCells = 0.8660255f;
 /// Version of the values of build(). They differ between versions for equal meshes and cells.
 constexpr uint32_t kFieldVersion = 1;
 
-/// Immutable. Sampling allocates nothing. [any thread]
+/// A signed distance field of a mesh, sampled on a grid. Immutable. Sampling allocates nothing. [any thread]
 class DistanceField
 {
 public:
@@ -97,11 +97,11 @@ public:
     const DistanceGrid& grid() const { return grid_; }
     std::span<const float> values() const { return {values_.data(), grid_.count()}; } ///< [m] at the nodes
     float cell() const { return grid_.cell; }
-    /// Hash of nodes and distances, on which steps depend. Never 0.
+    /// Hash of nodes and distances, on which simulation steps depend. Never 0.
     uint64_t hash() const { return hash_; }
 
 private:
-    /// The cell that contains a position.
+    /// The grid cell that contains a position, with the distances at its corners.
     struct Corners
     {
         float d[8]; ///< x fastest, z slowest

@@ -31,7 +31,7 @@ private:
     mutable std::weak_ptr<const ParticleProgram> program_;
 };
 
-/// Immutable while solvers of it exist.
+/// Definition of an emitter. Immutable while solvers of it exist.
 struct EmitterDef final : SolverDef, EmitterSettings
 {
     SharedProgram program;

@@ -42,9 +42,9 @@ public:
     void begin(const base::Placement& placement);
     /// Begins a step, at the end of which the instance has moved by `share` of the way to `placement`.
     void moveTo(const base::Placement& placement, float share = 1.0f);
-    /// Sets the placement without a path to it.
+    /// Sets the placement without motion in between.
     void jumpTo(const base::Placement& placement);
-    /// True when the placement equals that at the end of the last step.
+    /// Whether the placement equals that at the end of the last step.
     bool stands(const base::Placement& placement) const;
 
     const base::Placement& home() const { return home_; }
@@ -72,7 +72,7 @@ private:
     static glm::vec3 turnedBy(const Pose& pose, const glm::vec3& v);
 
     base::Placement home_;
-    base::Placement last_; ///< end of the last step
+    base::Placement last_; ///< placement at the end of the last step
     Pose begin_;           ///< A
     Pose end_;             ///< B
 };
