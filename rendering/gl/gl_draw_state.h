@@ -27,10 +27,10 @@ public:
     void useProgram(uint32_t program);
     /// Sets the viewport to the whole framebuffer.
     void bindFramebuffer(uint32_t framebuffer, int width, int height);
-    /// @param only true: color writes are disabled for draw buffers other than the first.
+    /// If `only` is true, color writes are disabled for draw buffers other than the first.
     void drawToFirst(bool only);
     void setBlend(Blend blend);
-    /// @param tested true: enables both depth test and depth writes.
+    /// If `tested` is true, both depth test and depth writes are enabled.
     void setDepth(bool tested, bool reversed);
     void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);
 

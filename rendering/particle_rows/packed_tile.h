@@ -15,7 +15,7 @@ struct PackedTile
     float red[kRows], green[kRows], blue[kRows], opacity[kRows];
     float velocityX[kRows], velocityY[kRows], velocityZ[kRows], angle[kRows], frame[kRows];
     float qx[kRows], qy[kRows], qz[kRows], qw[kRows];
-    float flip[kRows];    ///< -1 or 1: sign of the orientation quaternion
+    float flip[kRows];    ///< sign of the orientation quaternion, -1 or 1
     uint32_t turn[kRows]; ///< 12 bits, see packed_rows.h
 
     /// Sets rows to 0, which makes them empty.

@@ -27,7 +27,7 @@ public:
         uint32_t count;
         int width, height;
         ViewBlock view;
-        bool isSmall = false; ///< the target has fewer texels than the picture has pixels
+        bool isSmall = false; ///< true: the target has fewer texels than the picture has pixels
     };
     struct Outputs
     {

@@ -22,7 +22,7 @@ public:
     struct Inputs
     {
         ResourceId picture;
-        std::span<const OverlayBox> boxes; ///< must stay valid until the graph has executed
+        std::span<const OverlayBox> boxes; ///< boxes, which must stay valid until the graph has executed
         const CameraView* camera;
         int width, height; ///< [pixel]
     };

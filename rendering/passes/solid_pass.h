@@ -27,8 +27,8 @@ public:
     };
     struct Outputs
     {
-        MediaPass::Outputs under; ///< invalid if nothing is drawn
-        ResourceId distance;      ///< Inputs::distance if nothing is drawn
+        MediaPass::Outputs under; ///< media or layer targets; invalid if nothing is drawn
+        ResourceId distance;      ///< distance to the nearest surface; Inputs::distance if nothing is drawn
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
