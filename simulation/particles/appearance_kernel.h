@@ -44,8 +44,7 @@ struct AppearanceJob
     RowWindow rows;
     base::Ticks now;
     base::Ticks motionBegin; ///< local time at which the motion of particles born before it began
-    /// [m/s2] acceleration by gravity and wind, a + k u of linear-drag-step; only for closed-form motion
-    glm::vec3 pull;
+    glm::vec3 pull; ///< [m/s2] acceleration a + k u of (1), by gravity and wind; only for closed-form motion
     float secondsBack = kLongestStep; ///< [s] time since the previous snapshot, for bounds
 };
 
