@@ -14,8 +14,8 @@
 
 namespace fx::render {
 
-/// Layout of the extension FX_VIEW_EXTRA of the uniform block; shaders/shared/particle_block.glsl explains
-/// each member.
+/// Layout of the uniform block of programs that define FX_VIEW_EXTRA. shaders/shared/particle_block.glsl
+/// explains each member.
 struct ParticleBlock
 {
     ViewBlock view;

@@ -1,7 +1,7 @@
 /// @file dazzle_levels.h
 /// The published glare algorithm for 8-bit pictures, and a corrected version of it.
 ///
-/// One channel of a picture is a list of levels: 0..255 can be displayed, higher levels overflow.
+/// A channel of a picture is a list of levels: levels 0..255 can be displayed, higher levels overflow.
 #pragma once
 
 #include <cstdint>

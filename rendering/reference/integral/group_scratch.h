@@ -21,7 +21,7 @@ template <class T>
 class LineArray
 {
 public:
-    /// Returns room for `count` values, aligned to 64 bytes.
+    /// Returns memory for `count` values, aligned to 64 bytes.
     T* room(size_t count)
     {
         if (count > capacity_) {
@@ -46,7 +46,7 @@ template <class T>
 struct GroupScratch
 {
     LineArray<T> center, chord2, events, perInterval;
-    LineArray<T> offset, square, margin; ///< of nearby blobs; room for two intervals
+    LineArray<T> offset, square, margin; ///< lane arrays of the nearby blobs, for two intervals
     std::vector<uint32_t> nearby;
     uint32_t nearbyCount[2] = {};
     /// 4 numbers per blob: extinction and three sources, divided by radius^(2 degree)
@@ -54,7 +54,7 @@ struct GroupScratch
     T largest = T(0), unit = T(1);        ///< largest radius of the last group, and the power of two below it
     T brightest = T(0), lightUnit = T(1); ///< largest source of the last group, and the power of two below it
     std::vector<T> first, last;           ///< by blob: least begin and largest end over all lanes
-    std::vector<T> low, high;             ///< by event: extremes over all lanes
+    std::vector<T> low, high;             ///< by event: least and largest value over all lanes
     std::vector<uint32_t> byFirst, byLast;
     std::vector<uint64_t> candidates; ///< bit i: blob i may overlap the present interval
 };
@@ -65,7 +65,7 @@ struct NearbyBlobs
 {
     T* offset; ///< d of formula blob-polynomial
     T* square; ///< g of formula blob-polynomial
-    T* margin; ///< > 0 if the lane's interval is within the blob
+    T* margin; ///< > 0 in lanes whose interval is within the blob
     uint32_t* blob;
     uint32_t* count;
 };
@@ -79,7 +79,8 @@ struct BlobLanes
     const T* weights;
     const uint64_t* candidates;
     uint32_t words;
-    /// Two, because the light of an interval may be summed after the extinction of the next one.
+    /// Nearby blobs of two intervals, because the light of an interval may be summed after the extinction of
+    /// the next one.
     NearbyBlobs<T> nearby[2];
 };
 
@@ -89,8 +90,8 @@ struct GroupInput
 {
     uint32_t count; ///< number of blobs
     uint32_t stride;
-    T largest;   ///< [m] largest radius of all blobs of the caller, also of blobs that all rays miss
-    T brightest; ///< [cd/m2] largest source of the same blobs in any channel
+    T largest;   ///< [m] largest radius of all blobs of the caller, including blobs that all rays miss
+    T brightest; ///< [cd/m2] largest source of these blobs in any channel
     const T* center;
     const T* chord2;
     const T* nearest;
@@ -122,7 +123,9 @@ struct GroupRules
 
     IntegralSettings settings;
     T stopDepth;
-    T caps[3]; ///< for kernels of degree 2, 3 and 4: steeper kernels need more nodes for the same accuracy
+    /// Largest optical depths of a part for kernels of degree 2, 3 and 4: steeper kernels need more nodes for
+    /// the same accuracy.
+    T caps[3];
     GaussRule<T> gauss3 = gaussRule<T>(3), gauss5 = gaussRule<T>(5), gauss8 = gaussRule<T>(8);
     std::vector<T> positive; ///< nodes from -1 to 1, see pieceNodes()
 };

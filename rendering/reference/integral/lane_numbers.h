@@ -1,9 +1,9 @@
 /// @file lane_numbers.h
 /// The arithmetic operations of the integral for scalars; pack-inl.h has them for SIMD vectors.
 ///
-/// The code of the integral (*.inl) is a template of a number type V: float, double, __float128, or a SIMD
-/// vector with one ray in each lane. All operations work on each lane separately and are not fused. So each
-/// lane has the same bits as the scalar code.
+/// The code of the integral (*.inl) consists of templates of a number type V: float, double, __float128, or a
+/// SIMD vector with one ray in each lane. All operations work on each lane separately and are not fused. So
+/// each lane has the same bits as the scalar code.
 #pragma once
 
 #include <array>
@@ -56,7 +56,7 @@ struct ExpConstants<double>
     static constexpr int kTerms = 13;
 };
 
-/// Below this argument, expOfMinus() needs no range reduction.
+/// For arguments below this, expOfMinus() needs no range reduction.
 constexpr float kSmallDepth = 0.34f;
 
 /// Entry k is 1 / k!, computed in double and rounded to T.
@@ -140,7 +140,7 @@ inline V smaller(V a, V b)
 {
     return b < a ? b : a;
 }
-/// Minimum, for sorting. For zeros of different sign, the sign of the result is unspecified.
+/// Minimum and maximum, for sorting. For zeros of different sign, the sign of the result is unspecified.
 template <class V>
 inline V minOf(V a, V b)
 {

@@ -11,8 +11,8 @@
 
 namespace fx::render {
 
-/// Keeps its memory between rays. Each thread needs its own object. T is float or double; tests instantiate
-/// ray_integrator-inl.h for __float128.
+/// Integrates single rays. Memory is kept between rays; each thread needs its own object. T is float or
+/// double; tests instantiate ray_integrator-inl.h for __float128.
 template <class T>
 class RayIntegrator
 {

@@ -35,7 +35,8 @@ public:
     {}
 
     std::array<double, 2> pair(); ///< each in [0, 1)
-    /// A number in [0, 1) without stratification, for frequent decisions, such as those of null collisions.
+    /// A random number in [0, 1) without stratification. Used for frequent decisions, such as those of null
+    /// collisions.
     double number();
 
 private:

@@ -45,7 +45,7 @@ public:
         Depth, ///< optical depth only
         Light  ///< optical depth, light, coverage and distance
     };
-    /// @param medium must be built and must outlive the object
+    /// @param medium medium, which must be built and must outlive the object
     DetailedRay(const MediumView& medium, Wanted wanted, double tolerance);
 
     /// Integrates a ray. The functions from opticalDepth() to distance() return the results.
@@ -61,14 +61,14 @@ public:
     /// [m] mean distance of the visible medium, +infinity without medium: formula seen-depth (1).
     double distance() const;
 
-    /// Evaluates the detail at a ray parameter, for share().
+    /// Evaluates the detail at a ray parameter. The results are available from share().
     void look(double parameter);
-    /// [1] Eroded extinction of a blob over its smooth extinction, at the parameter of look().
+    /// [1] Eroded extinction of a blob divided by its smooth extinction, at the parameter passed to look().
     /// @param hit index in `hits`
     double share(size_t hit) const { return mix_.share(hits_->place[hit]); }
 
 private:
-    /// Light towards the eye: per meter of the ray, or of the whole ray.
+    /// Light that reaches the eye: per meter of the ray, or from the whole ray.
     struct Sent
     {
         glm::dvec3 light{0.0}, coverage{0.0};
@@ -84,7 +84,7 @@ private:
         double extinction = 0.0; ///< [1/m]
         Sent sent;
     };
-    /// Half of a piece for which (2) and (3) hold.
+    /// Half of a piece of the ray for which equations (2) and (3) hold.
     struct Piece
     {
         double begin, end;       ///< [m]

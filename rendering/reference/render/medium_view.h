@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// Which light of blobs an integration sums.
+/// Kinds of light of the blobs, of which an integration computes one.
 enum class MediumSource : uint8_t
 {
     Light,    ///< [cd/m2] emitted light
@@ -29,7 +29,7 @@ class MediumView
 public:
     /// @param details detail of the blobs; empty: blobs are smooth
     /// @param pixel width of a pixel of the picture, for the detail
-    /// @param hasTracks track() will be called
+    /// @param hasTracks true: prepares data for track()
     void build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
                const MediumDetails& details = {}, const PixelWidth& pixel = {}, bool hasTracks = false);
 
@@ -54,13 +54,14 @@ public:
     const Scattering& scattering(uint32_t place) const { return scattering_[place]; }
     const DetailedMedium& details() const { return details_; }
     const glm::vec3& scattered(uint32_t place) const { return scattered_[place]; } ///< see setScattered()
-    /// Sets the light that blobs scatter [cd/m2 per optical depth], by place; empty: none.
+    /// Sets the light that each blob scatters, by place [cd/m2 per optical depth]; empty: blobs scatter no
+    /// light.
     void setScattered(std::vector<glm::vec3> light);
-    /// Whether blobs of a layer scatter light.
+    /// True if blobs of a layer scatter light.
     bool scatters(base::MediaLayer layer) const { return scatters_[size_t(layer)]; }
     std::array<double, 3> source(MediumSource source, uint32_t place) const;
     bool isEmpty() const { return count_ == 0; }
-    /// Whether all blobs have the same layers, so that coverage needs no separate integration.
+    /// True if all blobs have the same layers, so that coverage needs no separate integration.
     bool isUniform() const { return isUniform_; }
     /// if isUniform()
     glm::dvec3 coverage() const { return {coverage_[0][0], coverage_[0][1], coverage_[0][2]}; }
@@ -69,7 +70,8 @@ private:
     BallTree tree_;
     size_t count_ = 0;
     std::unique_ptr<BallBlob<double>[]> blobs_;
-    std::vector<std::array<double, 3>> coverage_; ///< one for all blobs if isUniform_
+    /// Opacities of the layers by place; one entry for all blobs if isUniform_.
+    std::vector<std::array<double, 3>> coverage_;
     std::unique_ptr<Scattering[]> scattering_;
     std::vector<glm::vec3> scattered_;
     std::vector<Track> tracks_; ///< empty unless `hasTracks`
@@ -78,7 +80,7 @@ private:
     bool isUniform_ = true;
 };
 
-/// Up to 16 rays of a block of pixels. Distances are ray parameters [m].
+/// Up to 16 rays through a block of pixels. Distances are ray parameters [m].
 struct RayBundle
 {
     uint32_t count = 0;
@@ -108,8 +110,8 @@ public:
     virtual void integrate(MediumSource source, BundleLight& out) = 0;
 };
 
-/// @param isSingle float instead of double; ray parameters are then measured from a point near the first
-///         blob, for the precision of float
+/// @param isSingle true: use float instead of double; ray parameters are then measured from a point near the
+///         first blob, because of the precision of float
 std::unique_ptr<BundleIntegrator> makeBundleIntegrator(const IntegralSettings& settings, bool isSingle);
 
 } // namespace fx::render

@@ -18,11 +18,11 @@ namespace fx::render {
 /// Radiance of rays that hit no triangle. The caller owns `image`.
 struct OpaqueBackground
 {
-    glm::vec3 luminance{0.0f};        ///< [cd/m2] at the zenith, used if `image` is empty
-    glm::vec3 horizon{0.0f};          ///< [cd/m2] at and below the horizon, used if `image` is empty
-    int width = 0, height = 0;        ///< [pixel] of `image`
+    glm::vec3 luminance{0.0f}; ///< [cd/m2] luminance at the zenith, used if `image` is empty
+    glm::vec3 horizon{0.0f};   ///< [cd/m2] luminance at and below the horizon, used if `image` is empty
+    int width = 0, height = 0; ///< [pixel] of `image`
     std::span<const glm::vec3> image; ///< [cd/m2] top row first
-    bool panorama = false;            ///< true: equirectangular around the eye; false: fills the picture
+    bool panorama = false; ///< true: `image` is equirectangular around the eye; false: it fills the picture
 };
 
 /// The opaque part of a scene.
@@ -36,7 +36,7 @@ struct OpaqueScene
     /// Those of `lights` that are not emitted by a medium. The path tracer uses only these, because its media
     /// emit the light of the others.
     std::vector<EffectLight> particleLights;
-    /// There are no surfaces and no background: the picture is transparent behind the medium.
+    /// True: there are no surfaces and no background, so that the picture is transparent behind the medium.
     bool isEmpty = false;
 };
 
@@ -58,7 +58,7 @@ using Illuminance = std::function<glm::dvec3(const glm::dvec3& position, const g
 class OpaqueView
 {
 public:
-    /// @param scene its spans must stay valid
+    /// @param scene scene, whose spans must stay valid
     /// @param eye [m] world position to which rays are relative
     void build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks);
 
@@ -77,13 +77,15 @@ public:
     OpaqueSample sample(const TraceRay& ray, double x, double y, const RayHits& hits, double begin,
                         RayHits& scratch, const Illuminance& illuminance = {}) const;
 
-    /// [m] Distance along the ray to the first triangle, +infinity if there is none. @param scratch memory
+    /// [m] Distance along the ray to the first triangle, +infinity if there is none.
+    /// @param scratch memory that is overwritten
     double distance(const TraceRay& ray, RayHits& scratch) const
     {
         return hasMesh() ? triangles_.trace(ray, 0.0, scratch).distance
                          : std::numeric_limits<double>::infinity();
     }
-    /// Whether a triangle intersects the ray before `distance` [m]. @param scratch memory
+    /// True if a triangle intersects the ray before `distance` [m].
+    /// @param scratch memory that is overwritten
     bool blocks(const TraceRay& ray, double distance, RayHits& scratch) const
     {
         return this->distance(ray, scratch) < distance;
