@@ -27,12 +27,13 @@ struct CaseReport
 
 struct CaseWatch
 {
-    /// Called before each sample with its number and the total.
+    /// Called before each sample with the index of the sample and the number of samples.
     std::function<void(uint32_t sample, uint32_t samples)> progress;
-    /// Called often; returning true ends the run as soon as possible, with Code::Interrupted.
+    /// Called often. When it returns true, the run ends as soon as possible with Code::Interrupted.
     std::function<bool()> stop;
 };
 
+/// Runs a case to its end and measures it.
 /// @tparam T precision of the dynamics
 template <class T>
 base::Result<CaseReport> runCase(GasCase& gasCase, base::TaskRunner& tasks, const CaseWatch& watch = {});

@@ -57,7 +57,7 @@ void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 template <class T>
 void openFrame(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks);
 
-/// [s] Shortest of the steps that the criteria allow.
+/// [s] Shortest of the steps that the criteria allow the particles.
 template <class T>
 double shortestStep(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -73,8 +73,8 @@ void chooseLevels(DynamicsState<T>& state, base::TaskRunner& tasks);
 template <class T>
 uint32_t wakeNeighbors(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Limits the steps that criteria allow by those of the neighbors. For the end of a frame, when all particles
-/// are active and have lists.
+/// Limits the steps that the criteria allow by those of the neighbors. Called at the end of a frame, when all
+/// particles are active and have lists.
 template <class T>
 void limitWantedSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 

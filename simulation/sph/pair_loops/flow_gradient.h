@@ -14,8 +14,9 @@ struct FlowGradient
     T curl;       ///< [1/s] magnitude
 };
 
+/// Computes divergence and curl from the sums M and G of gas-density.
 /// @param moments M_xx, M_xy, M_xz, M_yy, M_yz, M_zz
-/// @param flows   G_xx, G_xy, G_xz, G_yx, ... G_zz
+/// @param flows G_xx, G_xy, G_xz, G_yx, ... G_zz
 template <class T>
 FlowGradient<T> flowGradient(const T* moments, const T* flows)
 {
