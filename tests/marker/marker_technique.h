@@ -14,7 +14,7 @@ namespace fx::test {
 
 extern const render::DrawTechnique kMarkerTechnique;
 
-/// GLSL of the technique's programs, for GlDevice::setSourceOverride().
+/// GLSL source of the technique's programs, for GlDevice::setSourceOverride(); empty for unknown names.
 std::optional<std::string> markerSource(std::string_view name, std::string_view defines);
 
 } // namespace fx::test

@@ -94,7 +94,7 @@ struct FlowSums
     }
 };
 
-/// Positions and velocities of a particle's neighbors relative to it, stored for repeated sums.
+/// Positions and velocities of a particle relative to each of its neighbors, stored for repeated sums.
 template <class T>
 class NeighborBlock
 {

@@ -34,8 +34,8 @@ HWY_INLINE Quad<hn::TFromD<Tag>> loadTransposed(Tag, const hn::TFromD<Tag>* tabl
 
 #else
 
-/// Loads a vector of 128-bit blocks: one block at `field` of the record of each entry. Records are `stride`
-/// values apart.
+/// Loads a vector of 128-bit blocks, one from the record of each of entries[0], entries[stride], entries[2
+/// stride], ... `table` points to the block of the first record.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> loadBlocks(Tag tag, const hn::TFromD<Tag>* table, const uint32_t* entries,
                                    uint32_t stride)
