@@ -39,8 +39,8 @@ struct ImageAsset
 /// A corner of a triangle.
 struct MeshVertex
 {
-    glm::vec3 position; ///< [1] in units of the particle's radius
-    glm::vec3 normal;   ///< unit
+    glm::vec3 position; ///< [1] position in units of the particle's radius
+    glm::vec3 normal;   ///< unit vector
     glm::vec2 texture;  ///< [1] texture coordinates; (0, 0) is the lower left corner of the image
 };
 
@@ -48,7 +48,7 @@ struct MeshVertex
 struct MeshAsset
 {
     std::pmr::vector<MeshVertex> vertices;
-    std::pmr::vector<uint32_t> indices; ///< three per triangle
+    std::pmr::vector<uint32_t> indices; ///< indices of vertices, three for each triangle
     float reach = 0.0f;                 ///< [1] distance of the farthest vertex from the origin
 };
 

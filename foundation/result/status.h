@@ -55,7 +55,7 @@ private:
     std::string message_;
 };
 
-/// A value, or the status of the failure if there is no value.
+/// A value; or, if an operation failed, the status of the failure.
 template <class T>
 class [[nodiscard]] Result
 {

@@ -23,7 +23,7 @@ enum class InstructionSet : uint8_t
     Avx512
 };
 
-/// Name of an instruction set as in FXSDK_SIMD: scalar, sse4, avx2, avx512.
+/// Name of an instruction set, as used in FXSDK_SIMD: scalar, sse4, avx2, avx512.
 std::string_view instructionSetName(InstructionSet set);
 std::optional<InstructionSet> instructionSetOf(std::string_view name);
 
@@ -33,10 +33,11 @@ void applyInstructionSetLimit();
 /// Warning about the environment variable FXSDK_SIMD; empty if it is unset or valid.
 std::string_view instructionSetNote();
 
-/// The instruction set in use: the widest that both the processor and the limit allow.
+/// The instruction set in use: the widest one that both the processor and the limit allow.
 InstructionSet instructionSet();
 
-/// Replaces the limit, for tests and benchmarks. Must not be called while kernels run.
+/// Replaces the limit of instruction sets. Used in tests and benchmarks. Must not be called while kernels
+/// run.
 void limitInstructionSet(InstructionSet widest);
 
 } // namespace fx::base

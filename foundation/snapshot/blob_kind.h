@@ -45,8 +45,8 @@ enum : size_t
     Layer, ///< MediaLayer of the part of opacity and light that FireShare does not assign to the layer Fire
     DetailAmount, ///< [1] strength of procedural detail, 0 shows the bare kernel
     DetailScale,  ///< [1] periods of the noise per diameter of a blob
-    Anisotropy,   ///< [1] Henyey-Greenstein g of scattering, (-1, 1)
-    Shutter,      ///< [s] exposure time of the motion blur; 0: none
+    Anisotropy,   ///< [1] mean cosine g of the Henyey-Greenstein phase function, (-1, 1)
+    Shutter,      ///< [s] exposure time for motion blur; 0: no motion blur
     Count
 };
 }

@@ -70,10 +70,10 @@ public:
     std::vector<GpuModuleUse> uses;
     std::vector<float> numbers;
     uint32_t stepWords = 0; ///< [word] size of the data of all modules in one step, without GpuStepWords
-    bool kills = false;     ///< particles may die before the end of their lifetime
-    bool sticks = false;    ///< particles may come to rest permanently
-    /// The emitter collides with the host's geometry. If the scene has such geometry, the emitter runs on the
-    /// CPU.
+    bool kills = false;     ///< true: particles may die before the end of their lifetime
+    bool sticks = false;    ///< true: particles may come to rest permanently
+    /// True: the emitter collides with the host's geometry. If the scene has such geometry, the emitter runs
+    /// on the CPU.
     bool dependsOnHost = false;
 };
 
@@ -86,7 +86,7 @@ struct GpuStepWords
     float seconds;    ///< [s] length of the step
     float gravity[3]; ///< [m/s2]
     float wind[3];    ///< [m/s]
-    float ground;     ///< [m] height of the ground plane, -infinity for none
+    float ground;     ///< [m] height of the ground plane; -infinity: there is none
     uint32_t unused;
 };
 static_assert(sizeof(GpuStepWords) == 4 * kGpuStepHead);
@@ -106,7 +106,7 @@ struct GpuStepRun
 };
 static_assert(sizeof(GpuStepRun) == 56);
 
-/// Step up to which an emitter has been computed.
+/// The step up to which the particles of an emitter have been computed.
 struct GpuStepMark
 {
     /// GpuStepRun::history of the run that contains the last computed step; 0: no step has been computed.

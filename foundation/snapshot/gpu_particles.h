@@ -65,7 +65,7 @@ enum class GpuShape : uint32_t
     TallCone,
 };
 
-/// How the frame of a flipbook texture is chosen.
+/// Choice of the frame of a flipbook texture.
 enum class GpuFrames : uint32_t
 {
     First,
@@ -87,7 +87,7 @@ struct GpuParticleNumbers
     float tube;          ///< [m] Torus: radius of the tube; TallCone: 1 for births on the side, else 0
     float speed[2];      ///< [m/s]
     float lifetime[2];   ///< [s]
-    float perLife;       ///< [1/s] 1 / lifetime if lifetimes do not vary
+    float perLife;       ///< [1/s] 1 / lifetime, if all particles have the same lifetime
     float radius[2];     ///< [m]
     float opacity[2];    ///< [1]
     float brightness[2]; ///< [1]
@@ -98,7 +98,7 @@ struct GpuParticleNumbers
     float perDrag;       ///< [s] 1 / drag; 0 without drag
     float frames;        ///< [1] number of frames of the texture
     float framesPerSecond;
-    float perFastest; ///< [s/m] 1 / the speed at which the curves over speed end
+    float perFastest; ///< [s/m] 1 / (speed at which the curves over speed end)
     float height;     ///< [m] height of the cone
     float slope[3];   ///< [1] slope of the cone's side in double precision, as the sum of three floats
     /// Red, green, blue, opacity and size over life. Size and opacity multiply the values drawn at birth. A
@@ -115,23 +115,23 @@ struct GpuParticleFeatures
 {
     GpuShape shape = GpuShape::Point;
     GpuFrames frames = GpuFrames::First;
-    bool turned = false; ///< the axis is not +Y
+    bool turned = false; ///< true: the axis is not +Y
     bool brief = false;  ///< ages fit in 32-bit numbers of ticks
     bool lifeVaries = false;
     bool drags = false;
     bool bySpeed = false;
-    bool wide = false;      ///< the shape is computed in double precision, as in ShapeOp on the CPU
-    bool lifeTable = false; ///< curves over life are stored as samples, not as pieces
+    bool wide = false;      ///< true: the shape is computed in double precision, as in ShapeOp on the CPU
+    bool lifeTable = false; ///< true: curves over life are stored as samples; false: as linear pieces
     bool speedTable = false;
-    bool steps = false;    ///< motion has no closed form; `modules` compute it in steps
-    ColumnSet columns = 0; ///< columns of the kind "particle" to compute
+    bool steps = false;    ///< true: motion has no closed form, so that `modules` compute it in steps
+    ColumnSet columns = 0; ///< columns of the kind "particle" that are computed
     std::vector<GpuModuleUse> modules;
     uint32_t stepWords = 0; ///< [word] size of the data of a step, including GpuStepWords
 
     bool operator==(const GpuParticleFeatures&) const = default;
 };
 
-/// An emitter as the GPU computes it. Immutable, shared by all groups and threads.
+/// An emitter whose particles the GPU computes. Immutable; shared by all groups and threads.
 class GpuParticleProgram
 {
 public:
@@ -143,7 +143,7 @@ public:
     uint32_t rows = 0;                ///< number of rows, including rows of dead particles
     bool kills = false;               ///< see GpuModules
     bool dependsOnHost = false;       ///< see GpuModules
-    float meanRadius = 0.0f;          ///< [m] approximate radius, to estimate costs
+    float meanRadius = 0.0f;          ///< [m] approximate mean radius, to estimate costs
 
     /// Computes the particles of `group` on the calling thread, and adds them to `out` as a group of the kind
     /// "particle", equal to the group that the emitter would publish from the CPU. The schema of `out` must
@@ -158,7 +158,9 @@ public:
 /// Consecutive births at equal intervals of time, or all at the same time.
 struct GpuBirthRun
 {
-    uint32_t reach; ///< the first birth of the run has the index GpuParticleMoment::next - reach
+    /// Number of births from the first birth of the run to the next birth: the index of the first one is
+    /// GpuParticleMoment::next - reach.
+    uint32_t reach;
     uint32_t unused;
     int64_t age;          ///< [tick] age of the particle of the first birth
     int64_t stride;       ///< [tick] s of formula birth-runs: the interval, rounded down
@@ -183,8 +185,8 @@ struct GpuParticleMoment
     uint64_t next;       ///< index of the next birth
     int64_t now;         ///< [tick] local time
     uint32_t solver;     ///< counter word 2 of base::philox
-    uint32_t rows;       ///< as in the program
-    uint32_t nextRow;    ///< next mod rows
+    uint32_t rows;       ///< number of rows, as in the program
+    uint32_t nextRow;    ///< row of the next birth: next mod rows
     uint32_t window;     ///< number of births before `next` that may be alive, <= rows
     uint32_t runs;       ///< number of GpuBirthRuns, in order of time; > 0 if window > 0
     uint32_t conditions; ///< number of GpuConditions, > 0, in order of time
@@ -207,7 +209,8 @@ constexpr size_t kMaxSteppedGpuWords = kMaxGpuWords + kMaxGpuStepRuns * sizeof(G
 /// Reads the moment, or the run of steps with number `run`, from the words of a group.
 GpuParticleMoment gpuMomentOf(const SnapshotGroup& group);
 GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& moment, uint32_t run);
-/// Number of steps of a run that had ended at or before `tick`, if the present time is `now`.
+/// Number of steps of a run that ended at or before the local time `tick`, if the present local time is
+/// `now`.
 uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick);
 /// True if the state of the particles at `mark` is valid for `group`, so that only the steps after it must be
 /// computed.

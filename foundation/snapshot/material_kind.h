@@ -54,7 +54,7 @@ enum : size_t
 };
 }
 
-constexpr uint32_t kGenerationCycle = 1u << 20; ///< exact in a float
+constexpr uint32_t kGenerationCycle = 1u << 20; ///< modulus of the numbers of generations; exact in a float
 
 inline constexpr ColumnDesc kMaterialColumns[material_column::Count] = {
     {"place0X", "m"}, {"place0Y", "m"}, {"place0Z", "m"},

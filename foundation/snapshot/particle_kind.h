@@ -78,7 +78,7 @@ enum : size_t
 };
 }
 
-/// How a particle is drawn.
+/// Geometry with which a particle is drawn.
 enum class ParticleShape : uint32_t
 {
     Sprite, ///< a textured square
@@ -104,13 +104,13 @@ enum class SpriteAlignment : uint32_t
     Plane, ///< the quad lies in the plane normal to the axis
 };
 
-/// In which order the rows of a group are drawn.
+/// Order in which the rows of a group are drawn.
 enum class ParticleOrder : uint32_t
 {
-    None,     ///< order of the rows
-    Depth,    ///< far to near
-    Oldest,   ///< oldest first
-    Youngest, ///< youngest first
+    None,     ///< the order of the rows
+    Depth,    ///< from far to near
+    Oldest,   ///< the oldest first
+    Youngest, ///< the youngest first
 };
 
 /// Constants of a group of kinds "particle" and "ribbon", in order.
@@ -121,7 +121,7 @@ enum : size_t
     Layer, ///< MediaLayer to which light and opacity are added
     Blend, ///< ParticleBlend
     Order, ///< ParticleOrder
-    /// [m] > 0 sorts the group as if it were nearer to the camera by this length.
+    /// [m] If > 0, the group is sorted as if it were nearer to the camera by this length.
     OrderBias,
     Alignment, ///< SpriteAlignment
     AxisX,     ///< [1] local unit vector of the alignments Axis and Plane
@@ -129,16 +129,18 @@ enum : size_t
     AxisZ,     ///< [1]
     /// [1] Width of a sprite divided by its height, > 0; the radius of the particle is half the height.
     Aspect,
-    /// [s] with the alignment Velocity, a sprite is longer by speed times Stretch. The v of its texture runs
-    /// along the velocity.
+    /// [s] With the alignment Velocity, a sprite is longer by speed times Stretch. The texture coordinate v
+    /// increases along the velocity.
     Stretch,
     Luminance,   ///< [cd/m2] luminance that color 1 emits
     Lit,         ///< [1] share of the scene's light that color 1 scatters, 0..1
     Softness,    ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
     Texture,     ///< id of the texture in the AssetTable; 0: a round spot that fades towards its edge
-    TileColumns, ///< [1] frames of the texture side by side, >= 1
-    TileRows,    ///< [1] frames of the texture above each other, >= 1
-    FrameBlend,  ///< 1: the two nearest frames are mixed by the fraction of Frame; 0: frame floor(Frame)
+    TileColumns, ///< [1] number of frames of the texture side by side, >= 1
+    TileRows,    ///< [1] number of frames of the texture above each other, >= 1
+    /// 1: the two nearest frames are mixed, with the fractional part of Frame as weight; 0: the frame
+    /// floor(Frame) is shown.
+    FrameBlend,
     Motion, ///< id in the AssetTable of the texture of motion vectors (red, green; 0.5 is no motion); 0: none
     MotionScale, ///< [1] displacement by a motion vector of length 1, in widths of a frame
     Mesh,        ///< id of the mesh in the AssetTable; 0: none

@@ -30,7 +30,7 @@ class RowCopier
 {
 public:
     RowCopier() = default;
-    /// @param each capacity of each group
+    /// @param each capacity of each group of the pool
     RowCopier(const KindDesc& kind, const SnapshotGroup& pool, uint32_t each);
 
     void copy(uint32_t row, float* storage, uint32_t place) const
@@ -79,7 +79,7 @@ struct PooledRows
     };
 
     explicit PooledRows(std::pmr::memory_resource* memory) : rows(memory), owner(memory), counts(memory) {}
-    static constexpr uint32_t kMaxGroupRows = 256; ///< rows
+    static constexpr uint32_t kMaxGroupRows = 256; ///< largest number of rows of a group
     static constexpr uint32_t kMaxMembers = 1u << 24;
     static constexpr uint32_t nameOf(uint32_t member, uint32_t place) { return member << 8 | place; }
     uint32_t memberOf(uint32_t row) const { return owner[row] >> 8; }
@@ -104,7 +104,7 @@ struct PooledRows
         box.add(extent.high, extent.reach * corner);
         return box;
     }
-    /// Extends `io` by a row that contains a visible element.
+    /// Extends `io` by one row, which must contain a visible element.
     void measure(uint32_t row, RowExtent& io) const
     {
         const glm::vec3 at = copier.center(row);
@@ -130,8 +130,9 @@ struct PooledRows
     RowCopier copier;
     size_t radiusColumn = 0; ///< column of the radius; a row of radius 0 is empty
     uint64_t number = 0;     ///< identifies the constants, see SnapshotGroup::keepsConstants()
-    float corner = 1;        ///< [1] distance of the farthest drawn corner from the position, over the radius
-    size_t ageColumn = 0;    ///< column of the age; used only if rows have velocities
+    /// [1] Distance of the farthest drawn corner of an element from its position, divided by the radius.
+    float corner = 1;
+    size_t ageColumn = 0;      ///< column of the age; used only if rows have velocities
     size_t velocityColumn = 0; ///< first of the three columns of the velocity; 0: rows have no velocity
     /// [s] a row extends along its velocity, forwards and backwards, by its speed times this time.
     float along = 0;
@@ -162,10 +163,11 @@ struct GroupRoster
         bool isCosmetic = false;
     };
     std::vector<Entry> entries;
-    uint64_t shape = 0; ///< identifies the pools and their entries; equal shapes mean equal lists
+    /// Identifies the pools and their entries; rosters with the same value have equal lists.
+    uint64_t shape = 0;
 };
 
-/// The pooled groups with their own copies of their rows, created on first access.
+/// Copies of the pooled groups with rows of their own, created on first access.
 class UnpackedGroups
 {
 public:
@@ -178,7 +180,7 @@ public:
     void prepare(const FrameSnapshot& snapshot);
     /// The group of an entry of the snapshot's roster. Any thread may call this.
     const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t entry);
-    /// Whether group() has been called since prepare().
+    /// True if group() has been called since prepare().
     bool isDone() const { return done_.load(std::memory_order_acquire); }
     /// Calls f(group) for all groups in order. Each pooled group is valid only during its call of f; no
     /// memory is allocated for it. Any thread may call this; calls wait for each other.
@@ -204,11 +206,12 @@ private:
     std::atomic<bool> done_{false};
     uint64_t shape_ = 0; ///< GroupRoster::shape for which memory is reserved
     std::pmr::memory_resource* memory_;
-    std::pmr::vector<SnapshotGroup> groups_;  ///< by entry of the roster: the group with a copy of its rows
-    std::pmr::vector<SnapshotGroup> scratch_; ///< by pool: one group that visit() reuses
-    std::pmr::vector<size_t> first_;          ///< by pool: index of its first member in ends_
-    std::pmr::vector<uint32_t> ends_;         ///< by member, pool after pool: end of its rows in rows_
-    std::pmr::vector<uint32_t> rows_;         ///< rows of the pools, grouped by member
+    std::pmr::vector<SnapshotGroup> groups_; ///< by entry of the roster: the group with a copy of its rows
+    /// By pool: a group that visit() reuses for all groups of the pool.
+    std::pmr::vector<SnapshotGroup> scratch_;
+    std::pmr::vector<size_t> first_;  ///< by pool: index of its first member in ends_
+    std::pmr::vector<uint32_t> ends_; ///< by member, pool after pool: index of the end of its rows in rows_
+    std::pmr::vector<uint32_t> rows_; ///< rows of the pools, grouped by member
 };
 
 } // namespace fx::base

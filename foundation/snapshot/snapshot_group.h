@@ -26,7 +26,7 @@ struct GroupInfo
     uint32_t solver = 0;   ///< index of the solver in its effect
     uint32_t count = 0;    ///< elements
     Placement placement;   ///< transform from the local space, in which positions in columns are given
-    Bounds bounds;         ///< in the local space of the placement; contains every element with its radius
+    Bounds bounds; ///< bounds in the local space of the placement; they contain every element with its radius
     /// True: the snapshot's hash does not include this group, because it may be computed on the GPU.
     bool isCosmetic = false;
 };
@@ -59,7 +59,7 @@ public:
     }
     bool has(size_t index) const { return (present_ >> index & 1) != 0; }
     ColumnSet present() const { return present_; }
-    /// Pointer to the first element of a column of floats, valid also when count() is 0.
+    /// Pointer to the first element of a column of floats. It is valid even if count() is 0.
     const float* start(size_t index) const { return place(index); }
     std::span<const float> constants() const { return {constants_.data(), constantCount_}; }
     /// Program of a group of the kind "gpuParticle", see gpu_particles.h; null for other kinds.
@@ -132,7 +132,7 @@ private:
     uint64_t constantsWriter_ = 0;
     uint32_t constantCount_ = 0;
     bool hasIds_ = true;
-    bool isExact_ = false; ///< the memory has exactly the required size
+    bool isExact_ = false; ///< true: the memory has exactly the required size
     std::array<float, kMaxConstants> constants_{};
     std::array<uint32_t, kMaxColumns> lines_{}; ///< number of lines of 64 bytes before each column
     std::pmr::memory_resource* memory_;

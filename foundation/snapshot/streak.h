@@ -15,7 +15,7 @@ inline constexpr int kMaxStreakPieces = 64;
 template <typename Real>
 struct Streak
 {
-    int count;   ///< 1 .. kMaxStreakPieces
+    int count;   ///< number of balls, 1 .. kMaxStreakPieces
     Real radius; ///< radius of each ball, in the unit of the arguments
 
     /// [1] share of the medium in ball k. It decreases linearly with k; the sum over all balls is 1.

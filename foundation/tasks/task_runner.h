@@ -8,12 +8,12 @@
 
 namespace fx::base {
 
-/// Body of a loop: handles the indices [begin, end).
+/// A function that executes the iterations [begin, end) of a loop.
 using LoopBody = void (*)(void* argument, uint32_t begin, uint32_t end);
 
-/// The host's parallel loop. run() must call `body` with ranges of at least `minBatch` indices that cover
-/// every index in [0, count) exactly once; the last range may be shorter. It must return after all calls of
-/// `body` have returned.
+/// A parallel loop that the host provides. run() must call `body` with ranges of at least `minBatch` indices
+/// that cover every index in [0, count) exactly once; the last range may be shorter. It must return after all
+/// calls of `body` have returned.
 struct ParallelForHook
 {
     void* user = nullptr;

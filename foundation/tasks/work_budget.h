@@ -30,7 +30,7 @@ public:
     }
     bool isSpent() const { return left_ == 0; }
     uint64_t left() const { return left_; }
-    /// Number of items, at most `most`, that can begin before the budget is used up, if each item costs
+    /// Number of items, at most `most`, that can be started before the budget is used up, if each item costs
     /// `each` units.
     uint32_t affords(double each, uint32_t most) const
     {

@@ -12,7 +12,7 @@ namespace fx::base {
 /// Result of one advance of the clock.
 struct StepPlan
 {
-    uint32_t steps = 0;     ///< fixed steps to take now
+    uint32_t steps = 0;     ///< number of fixed steps to take now
     Ticks firstStep = 0;    ///< [tick] beginning of the first of these steps
     bool refused = false;   ///< dt was negative or not finite, so that the clock did not advance
     Ticks droppedTicks = 0; ///< time that was dropped because dt exceeded the maximum
@@ -45,7 +45,7 @@ public:
     void takePostponed() { ++steps_; }
     /// [tick] duration of the postponed steps.
     Ticks debt() const { return (now_ / stepTicks_ - steps_) * stepTicks_; }
-    bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< debt() is not 0
+    bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< true if debt() is not 0
     /// Reduces the debt to at most `most` [tick]. @return [tick] the dropped time
     Ticks dropDebt(Ticks most);
 
@@ -61,8 +61,8 @@ public:
         steps_ = state.steps;
         remainder_ = state.remainder;
     }
-    /// Position of now() between the last two steps, in [0, 1): 0 is the older step, 1 the newer. While there
-    /// is debt, the result is just below 1, so that the newer step is shown.
+    /// Position of now() between the last two steps, in [0, 1): 0 is the older step, 1 the newer. If steps
+    /// are postponed, the result is just below 1, so that the newer step is shown.
     double interpolation() const
     {
         return std::min(double(now_ - simulated()) / double(stepTicks_), 1.0 - 0x1p-53);

@@ -26,7 +26,7 @@ public:
     virtual bool hasMedia() const = 0;
 
     /// Adds passes that refine light slices. They run after the slices have been filled with balls and before
-    /// any pass reads them. Called for frames and for the preparation of lights.
+    /// any pass reads them. Called for each frame, and for ViewRenderer::prepareLights().
     /// @return bindings for the following passes
     [[nodiscard]] virtual LightBindings addLightPasses(FrameGraph&, const LightBindings& lights)
     {
@@ -51,7 +51,7 @@ struct MediaComposition
     /// True: the composition needs balls of medium sorted by distance. False: balls have the order in which
     /// they are gathered.
     bool needsOrder = true;
-    /// Creates the state of a view; null: the media pass draws everything.
+    /// Creates the composition's state in a view; null: it has no state, and the media pass draws everything.
     std::unique_ptr<CompositionView> (*create)(const TechniqueSetup& setup) = nullptr;
     /// Returns all programs that the composition may use; null: none.
     std::span<const ProgramDesc* const> (*programs)() = nullptr;

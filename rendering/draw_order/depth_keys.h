@@ -10,9 +10,9 @@
 
 namespace fx::render {
 
-constexpr uint32_t kAbsentKey = ~0u; ///< key of NaN
+constexpr uint32_t kAbsentKey = ~0u; ///< key of elements whose value is NaN
 
-/// Range and order of a list of keys.
+/// Properties of a list of keys.
 struct KeySpan
 {
     uint32_t lowest, highest; ///< smallest and largest key other than kAbsentKey; both 0 if there are none
@@ -21,8 +21,8 @@ struct KeySpan
     uint32_t newcomers;       ///< number of changed keys that were kAbsentKey in the previous list
 };
 
-/// Sets of elements as bits: element i is bit i % 8 of byte i / 8. Each array has room for a multiple of 64
-/// bits.
+/// Two sets of elements, as bits: element i is bit i % 8 of byte i / 8. Each array has space for a multiple
+/// of 64 bits.
 struct KeyChanges
 {
     uint8_t* changed;

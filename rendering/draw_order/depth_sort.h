@@ -29,7 +29,7 @@ public:
     /// @param distances [m] of any sign; elements with the distance NaN are omitted
     /// @return indices into `distances`, farthest first; valid until the next call
     std::span<const uint32_t> farthestFirst(std::span<const float> distances) { return sort(distances, ~0u); }
-    /// As farthestFirst(), but nearest first.
+    /// Does the same as farthestFirst(), with the nearest element first.
     std::span<const uint32_t> nearestFirst(std::span<const float> distances) { return sort(distances, 0u); }
 
     void forget() { order_.clear(); } ///< discards the last order, so that the next call sorts all elements
@@ -45,7 +45,8 @@ private:
     void sortAll();
     void sortMoved(size_t count);
 
-    std::pmr::vector<uint32_t> keys_; ///< sorted in ascending order; ~0 for absent elements
+    /// Keys, whose ascending order is the order of drawing; ~0 for absent elements.
+    std::pmr::vector<uint32_t> keys_;
     std::pmr::vector<uint32_t> order_;
     std::pmr::vector<uint64_t> changed_;   ///< bit set of elements whose keys differ from the previous call
     std::pmr::vector<uint64_t> arrived_;   ///< bit set of elements that were absent in the previous call

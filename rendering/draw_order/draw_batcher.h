@@ -20,7 +20,7 @@ struct DrawStream
     /// [m] distances of the elements; null: all have `distance`, and the stream is not divided
     const float* distances = nullptr;
     const uint32_t* order = nullptr; ///< order[i] is the element that is drawn as number i; farthest first
-    bool isSquared = false;          ///< `distances` holds squares
+    bool isSquared = false;          ///< true: `distances` are squares of distances
     float distance = 0.0f;           ///< [m]
     bool adds = false; ///< true: blending is additive, so that the order among such streams does not matter
     const MediaSource* source = nullptr; ///< draws the elements
@@ -58,7 +58,7 @@ private:
     };
     struct Range
     {
-        float near, far; ///< near > far: empty
+        float near, far; ///< empty if near > far
     };
 
     Range overlapOf(std::span<const DrawStream> streams);
@@ -71,7 +71,7 @@ private:
     std::pmr::vector<uint32_t> begin_;
     std::pmr::vector<Part> parts_;
     std::pmr::vector<DrawBatch> batches_;
-    uint32_t lastStream_ = 0; ///< stream of the last batch in batches_
+    uint32_t lastStream_ = 0; ///< index of the stream of the last batch in batches_
 };
 
 } // namespace fx::render

@@ -21,7 +21,7 @@ struct SortedPart
     size_t at;
     size_t count;
     uint64_t last;       ///< key * 2^32 + element of the last sorted element; 0 if no element is sorted
-    uint64_t* displaced; ///< key * 2^32 + element of each element that is out of order
+    uint64_t* displaced; ///< the values key * 2^32 + element of the elements that are out of order
     size_t displacedCount;
     size_t mostDisplaced;
 };
@@ -35,8 +35,9 @@ void extendSortedByVectors(SortedPart& sorted);
 void keepUnchanged(SortedPart& sorted, const uint8_t* changed);
 
 /// Merges elements into the sorted part. Afterwards its `order` contains all elements.
-/// @param moved key * 2^32 + element, ascending
-/// @param count number of moved elements; SortedPart::order must have room for as many behind its sorted part
+/// @param moved the values key * 2^32 + element of the elements, ascending
+/// @param count number of moved elements; SortedPart::order must have space for as many elements behind its
+///         sorted part
 void mergeMoved(const SortedPart& sorted, const uint64_t* moved, size_t count);
 
 } // namespace fx::render

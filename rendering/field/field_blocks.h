@@ -26,17 +26,20 @@ struct FieldBlock
 };
 static_assert(sizeof(FieldBlock) == 48);
 
-/// The detail of one field; shaders/field/field_detail.glsl reads this layout.
+/// Detail of one field; shaders/field/field_detail.glsl reads this layout.
 struct FieldDetailBlock
 {
     /// Rows of the affine maps from a point p [m] to noise coordinates [cell], three for each generation. A
     /// coordinate is dot(xyz, p) + w. The offsets of balls are added to the result.
     glm::vec4 rows[6];
-    glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest; w ramp
-    glm::vec4 noise;   ///< x gain; y weight of the second generation; z cooling; w glow
-    /// xy size of lumps of each generation [m]; z factor of detail-conservation; w octaves
+    glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest and w ramp of FieldDetailNumbers
+    /// x gain of FieldDetailNumbers; y weight of the second generation; z cooling and w glow of
+    /// FieldDetailNumbers.
+    glm::vec4 noise;
+    /// xy size of the lumps of each generation [m]; z factor of formula detail-conservation; w number of
+    /// octaves
     glm::vec4 lumps;
-    glm::vec4 soft; ///< x softening as the medium thins
+    glm::vec4 soft; ///< x softening of FieldDetailNumbers
 };
 static_assert(sizeof(FieldDetailBlock) == 160);
 
@@ -76,7 +79,7 @@ struct NearBrickBlock
 };
 static_assert(sizeof(NearBrickBlock) == 16);
 
-/// A ball in a brick.
+/// A ball that touches a brick.
 struct NearPartBlock
 {
     uint32_t number; ///< index of the ball

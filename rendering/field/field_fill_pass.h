@@ -36,7 +36,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program with or without layers and detail.
+/// The program of the pass, with or without layers and detail.
 const ProgramDesc& fieldFillProgram(bool layers, bool detail);
 
 } // namespace fx::render

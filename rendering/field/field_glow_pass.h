@@ -37,8 +37,8 @@ public:
     {
         ResourceId fieldTexels;
         FieldTextures field;
-        ResourceId lumpTile; ///< used with detail only
-        bool detail;         ///< some field has detail
+        ResourceId lumpTile; ///< used only if a field has detail
+        bool detail;         ///< true: a field has detail
         ResourceId grids;
         GlowTextures glow;
         uint32_t fieldCount; ///< > 0

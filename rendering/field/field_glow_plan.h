@@ -42,7 +42,7 @@ private:
     /// Overlapping fields that share a grid.
     struct Source
     {
-        glm::vec3 low, high; ///< [m] relative to the eye
+        glm::vec3 low, high; ///< [m] corners of the fields' common box, relative to the eye
         float emitted;       ///< [exposed m2] emitted light; with networks, the size on the picture [sr]
     };
 

@@ -29,10 +29,11 @@ public:
         ResourceId fields, bricks;
         FieldTextures textures;
         LightBindings lights;
-        const ViewBlock* view;            ///< of the picture
+        const ViewBlock* view;            ///< view block of the picture
         uint32_t brickCount;              ///< > 0
         ResourceId glow = {}, grids = {}; ///< inputs for emitted light; invalid: no field has a grid
-        /// Moments of NetworkPasses for the same grids; used instead of `glow`.
+        /// Moments of the light in illumination networks on the same grids, from NetworkPasses; used instead
+        /// of `glow`.
         ResourceId network = {};
         int networkCells = 0; ///< number of cells along a side of the network's grids
     };
@@ -43,7 +44,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program with or without layers and detail.
+/// The program of the pass, with or without layers, detail and illumination networks.
 const ProgramDesc& fieldLightProgram(bool layers, bool detail, bool network = false);
 
 } // namespace fx::render

@@ -36,7 +36,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program with or without layers.
+/// The program of the pass, with or without layers.
 const ProgramDesc& fieldNearProgram(bool layers);
 
 } // namespace fx::render

@@ -27,7 +27,7 @@ struct FieldPlanInputs
     std::span<const BlobInstance> balls; ///< the balls that may be visible
     std::span<const BlobEffect> effects; ///< effects of all balls, in the order of the balls
     const CameraGeometry* camera;
-    int width, height;   ///< [pixel] of the picture
+    int width, height;   ///< [pixel] size of the picture
     int resolution = 96; ///< number of voxels along 16 radii of an effect's balls, 16..256
     /// Largest number of bricks of all fields together; 0: as many as a full cube with `resolution` voxels
     /// along a side has.
@@ -84,7 +84,7 @@ private:
     void chooseVoxels(const FieldPlanInputs& in);
     static void bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect);
     void enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly);
-    bool place(const FieldPlanInputs& in); ///< false: too many bricks
+    bool place(const FieldPlanInputs& in); ///< returns false if there are too many bricks
     bool placeField(Lattice& lattice, int detail, const CameraGeometry& camera);
     static bool isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel);
     uint32_t countBalls(const FieldPlanInputs& in);
@@ -97,7 +97,7 @@ private:
     /// [m] Position of the brick's center relative to the eye.
     glm::vec3 middleOf(const FieldBrickBlock& brick) const;
 
-    std::pmr::vector<Lattice> lattices_; ///< one per effect
+    std::pmr::vector<Lattice> lattices_; ///< lattice of each effect
     std::pmr::vector<FieldBlock> fields_;
     std::pmr::vector<FieldBrickBlock> bricks_;
     std::pmr::vector<uint32_t> table_;
@@ -108,7 +108,8 @@ private:
     FieldGlowPlan glow_;
     FieldNearPlan near_;
     std::pmr::vector<uint32_t> stamps_; ///< by tile: index of the last field that marked it + 1
-    std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and visible field, in the order of fields
+    /// Pairs of a tile and a field that is visible in it, in the order of fields.
+    std::pmr::vector<uint32_t> seen_;
     std::pmr::vector<FieldTileBlock> tiles_;
     std::pmr::vector<uint32_t> tileFields_;
 };

@@ -25,7 +25,7 @@ public:
         ResourceId fieldTexels, table;
         ResourceId change;
         ResourceId stacks;
-        LightBindings lights; ///< must have planes
+        LightBindings lights; ///< lights, which must have planes
         uint32_t fieldCount;
         uint32_t stackCount;
     };

@@ -20,10 +20,11 @@ struct GroupDetail
     /// Linear parts of the affine maps from a point p to the noise coordinates of each generation: toCells p
     /// + first. The offsets of blobs are added to the result.
     glm::mat3 toCells[2];
-    glm::vec3 first[2]; ///< [cell] offset of the map; p [m] is relative to the eye, along world axes
+    glm::vec3 first[2]; ///< [cell] constant parts of the maps; p [m] is relative to the eye, along world axes
     /// [1] Scale of the placement: a length in the world divided by the same length in the group.
     float scale = 1;
-    float factor = 1; ///< [1] multiplies the eroded extinction, so that its integral is preserved
+    /// [1] Factor of the eroded extinction, by which its integral equals that of the smooth extinction.
+    float factor = 1;
 };
 
 /// [1] Symbol v of formula field-detail, for a single ball.
@@ -34,7 +35,7 @@ float thinningOf(const GroupDetail& detail, float crossSection, float radius);
 class BlobDetail
 {
 public:
-    BlobDetail() = default; ///< no detail
+    BlobDetail() = default; ///< has no detail
     /// @param group index of the group of blobs in the newer snapshot
     /// @param t moment between the snapshots: 0 is the older snapshot, 1 the newer
     BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t);

@@ -50,7 +50,7 @@ struct DetailedCaster
 {
     MediumCaster ball;
     std::array<glm::vec3, 2> carried; ///< [cell] coordinates of both generations, see BlobDetail
-    uint64_t id;                      ///< constant during the life of the ball
+    uint64_t id;                      ///< id of the ball, constant during its life
 };
 
 /// Computes the factor f of formula detail-conservation. The memory is kept from call to call. Threads: one

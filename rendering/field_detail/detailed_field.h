@@ -28,7 +28,8 @@ public:
     DetailedField(std::vector<DetailedBall> balls, const FieldDetailNumbers& numbers, const LumpTile& tile);
 
     SmoothMedium smoothAt(const glm::vec3& point) const;
-    /// [1/m] Eroded extinction, multiplied by factor().
+    /// [1/m] Eroded extinction at a point, multiplied by factor().
+    /// @param pixel [m] width of a pixel at the point
     float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
     MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
 

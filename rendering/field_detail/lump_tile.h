@@ -15,7 +15,7 @@ constexpr float kLumpMean = 0.54464f;
 /// [1] Standard deviation of lumpAt(). With linear interpolation between 64 texels it is 5 % less.
 constexpr float kLumpDeviation = 0.13360f;
 
-/// Hash of a corner or a cell of the lattice, 0 .. 2^24 - 1; equal to the one in
+/// Hash of a corner or a cell of the lattice, 0 .. 2^24 - 1; equal to the hash in
 /// shaders/field/lump_tile.comp.glsl.
 uint32_t lumpHash(uint32_t x, uint32_t y, uint32_t z, uint32_t purpose);
 
@@ -23,8 +23,8 @@ uint32_t lumpHash(uint32_t x, uint32_t y, uint32_t z, uint32_t purpose);
 /// @param cells coordinates [cell], each >= -kLumpCells
 float lumpAt(const glm::vec3& cells);
 
-/// lumpAt() at the texels of a cube, normalized to mean 0 and deviation 1; interpolated linearly between
-/// texels. Immutable; callable from any thread.
+/// Values of lumpAt() at the texels of a cube, normalized to mean 0 and deviation 1, and interpolated
+/// linearly between texels. Immutable; callable from any thread.
 class LumpTile
 {
 public:
@@ -33,7 +33,7 @@ public:
 
     float at(const glm::vec3& cells) const;
     int texels() const { return texels_; }
-    const std::vector<float>& values() const { return values_; } ///< x fastest
+    const std::vector<float>& values() const { return values_; } ///< values of the texels, x fastest
 
 private:
     int texels_;

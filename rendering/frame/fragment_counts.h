@@ -11,7 +11,7 @@ namespace fx::render {
 /// Width and height of layers may be those of the picture divided by one of these numbers.
 inline constexpr std::array<int, 3> kLayerDivisors = {1, 2, 4};
 
-/// Number of fragments for layers of each of kLayerDivisors.
+/// Number of fragments, for each divisor in kLayerDivisors.
 using FragmentCounts = std::array<uint64_t, kLayerDivisors.size()>;
 
 inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
@@ -23,7 +23,7 @@ inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
 /// Shares of the picture that techniques cover, [0, 1). They are weights of the errors of scalability levels.
 struct ScreenShare
 {
-    double media = 0; ///< covered by blobs
+    double media = 0; ///< share covered by blobs
     double hot = 0;   ///< share covered by blobs with heat
 };
 

@@ -18,7 +18,7 @@ namespace fx::render {
 struct RowRevision
 {
     uint32_t first = 0, count = 0;
-    uint64_t revision = 0; ///< 0: unknown content
+    uint64_t revision = 0; ///< revision of the columns; 0: the content is unknown
 
     bool operator==(const RowRevision&) const = default;
 };
@@ -56,6 +56,7 @@ class SamePools
 {
 public:
     explicit SamePools(std::pmr::memory_resource* memory) : same_(memory) {}
+    /// Compares the pools of two snapshots.
     /// @param older may be null
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
     bool holdSame(const base::GroupRoster::Entry& newer, const base::GroupRoster::Entry& older) const

@@ -17,7 +17,7 @@ namespace fx::render {
 /// are compared in the order of the pool: equal groups with another order of pooled rows count as different.
 bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b);
 
-/// Revisions of the two snapshots of a frame; 0: no snapshot.
+/// Revisions of the two snapshots of a frame; 0 if there is no snapshot.
 struct RevisionPair
 {
     uint64_t newer = 0;

@@ -29,11 +29,11 @@ struct ViewBlock
 };
 static_assert(sizeof(ViewBlock) == 14 * 16);
 
-/// Values computed from a camera.
+/// Geometry of a camera.
 struct CameraGeometry
 {
     glm::dvec3 eye;               ///< [m] world
-    glm::vec3 right, up, forward; ///< unit, world axes
+    glm::vec3 right, up, forward; ///< unit vectors along world axes
     bool orthographic;
     float nearDistance; ///< [m] distance of the near plane along the view axis
     /// Change of the clip coordinates x, y per unit of slope (perspective) or per meter (orthographic).

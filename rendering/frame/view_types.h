@@ -34,21 +34,24 @@ struct CameraView
     bool operator==(const CameraView&) const = default;
 };
 
-/// How the optical depth of a blob along a ray is computed.
+/// Model by which the optical depth of a blob along a ray is computed.
 enum class BillboardForm : uint8_t
 {
     /// a flat card, whose opacity depends only on the distance to the center, as of classical particles.
     Planar,
     Constant, ///< a homogeneous ball with the same total extinction; [USS06]
-    Kernel,   ///< the quartic kernel of the gas; exact integral with clipping
+    Kernel,   ///< the quartic kernel of the gas, with its exact integral over the visible part of a ray
 };
 
-/// How overlapping media are combined. rendering/compositions has an entry for each value except Automatic.
+/// Way in which overlapping media are combined. rendering/compositions has an entry for each value except
+/// Automatic.
 enum class Composition : uint8_t
 {
-    Sorted,    ///< balls and cards are blended one after another, the farthest first
-    Slabs,     ///< all media are summed in slabs of each ray; the result does not depend on their order
-    Volume,    ///< balls of an effect are summed in voxels; rays march through them; independent of order
+    Sorted, ///< balls and cards are blended one after another, the farthest first
+    Slabs,  ///< all media are summed in slabs along each ray; the result does not depend on their order
+    /// Balls of an effect are summed in voxels, through which rays march; the result does not depend on their
+    /// order.
+    Volume,
     Automatic, ///< the composition that the visible effects prefer; the caller of the renderer chooses it
 };
 constexpr size_t kCompositionCount = size_t(Composition::Automatic);
@@ -63,7 +66,7 @@ inline Composition resolved(Composition asked, Composition preferred)
 namespace view_output {
 enum : uint32_t
 {
-    InstanceId = 1,   ///< id of the instance with the largest share of the pixel
+    InstanceId = 1,   ///< id of the instance with the largest share in the pixel
     Motion = 2,       ///< [pixel] motion since the previous frame
     FirstDepth = 4,   ///< [m] distance at which media begin to be visible
     MeanDepth = 8,    ///< [m] mean distance of visible particles
@@ -76,7 +79,7 @@ constexpr uint32_t kAll = (1u << kCount) - 1;
 /// One directional light (the sun), and uniform light of sky and ground.
 struct Lighting
 {
-    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< towards the light, unit
+    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< unit vector towards the light
     /// [lx] illuminance of a surface perpendicular to the direction; linear Rec. 709, weighted as a luminance
     glm::vec3 sunIlluminance{0.0f};
     glm::vec3 skyLuminance{0.0f}; ///< [cd/m2] luminance of the sky, uniform over all directions
@@ -127,7 +130,7 @@ struct SliceSettings
     SliceResolution resolution;
     int castingPoints = 2; ///< number of brightest point lights for which media cast shadows, 0..4
     int samples = 2;       ///< number of points along a ray through a ball at which light is sampled, 1..4
-    bool multiple = true;  ///< with multiple scattering
+    bool multiple = true;  ///< true: with multiple scattering
     /// True: multiple scattering by an illumination network where media are drawn in voxels. False: by a
     /// formula.
     bool network = false;
@@ -153,7 +156,7 @@ struct ShimmerSettings
     float maxOffset = 12.0f; ///< [pixel] largest offset in a picture of 720 pixels height
 };
 
-/// Glare by overflow redistribution, [UBT96].
+/// Glare by redistribution of overflow, [UBT96].
 struct DazzleSettings
 {
     bool enabled = true;
@@ -164,8 +167,8 @@ struct DazzleSettings
     float a = 0.01f;
     float b = 0.0f;
     float c = 1.0f;         ///< >= 0
-    float riseTime = 0.05f; ///< [s] time constant when glare grows; 0 is immediate
-    float fallTime = 0.4f;  ///< [s] time constant when glare fades
+    float riseTime = 0.05f; ///< [s] time constant for increasing glare; 0: glare increases at once
+    float fallTime = 0.4f;  ///< [s] time constant for decreasing glare
 };
 
 /// Level of detail of distant effects. The simulation does not depend on these settings.
@@ -204,10 +207,10 @@ struct ViewSettings
     int voxels = 96;
     /// True: rendering restores every GL state that it changes; false: the host restores it.
     bool saveState = true;
-    bool detail = true; ///< procedural detail of blobs
+    bool detail = true; ///< true: draw the procedural detail of blobs
     /// [1] Share of the particles that are drawn, (0, 1]. They are enlarged to keep the total cross section.
     float particleShare = 1.0f;
-    bool toneMap = false; ///< write display-referred values
+    bool toneMap = false; ///< true: write display-referred values
     /// True: also write fire, smoke, dust, depth and optical depth to separate textures.
     bool layerOutputs = false;
     uint32_t outputs = 0; ///< bits of view_output; with 0, there is no pass, program or memory for outputs
@@ -224,10 +227,10 @@ struct ViewSettings
     uint64_t fragmentBudget = 0;
 };
 
-/// The host's shadow map of the sun: depth of the host's opaque surfaces, seen from the sun.
+/// The host's shadow map of the sun: depth of the host's opaque surfaces as visible from the sun.
 struct HostShadowMap
 {
-    uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: no surface shadows media
+    uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: surfaces cast no shadow on media
     DepthConvention depth = DepthConvention::Standard;
     /// Affine map from world position minus CameraView::origin [m] to texture coordinates and stored depth,
     /// each 0..1.
@@ -238,7 +241,7 @@ struct HostShadowMap
 /// GL names of the host's targets for one frame; 0 means absent.
 struct HostTargets
 {
-    /// 2-D texture with the opaque picture [cd/m2 times exposure]; read and written
+    /// 2-D texture with the opaque picture [cd/m2 times exposure]; media are drawn into it
     uint32_t color = 0;
     uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
     /// Used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0 of
@@ -262,7 +265,7 @@ struct InstanceNames
 struct OverlayBox
 {
     glm::vec4 centerHalf; ///< [m] xyz center relative to the camera's origin; w half of the side
-    glm::vec4 color;      ///< premultiplied, in the unit of the picture
+    glm::vec4 color;      ///< color, premultiplied, in the unit of the picture
 };
 
 /// Input of one frame.
@@ -283,33 +286,36 @@ struct FrameRequest
 /// Counters of one rendered frame. Counts are exact unless called estimated.
 struct FrameStatistics
 {
-    uint32_t blobs = 0;          ///< drawn after culling
-    uint32_t blobsCulled = 0;    ///< outside the view
+    uint32_t blobs = 0;          ///< blobs that were drawn
+    uint32_t blobsCulled = 0;    ///< blobs that were omitted because they are outside of the view
     uint32_t blobsNonFinite = 0; ///< blobs that were omitted because a value was not finite
     uint32_t blobsThinned = 0;   ///< blobs that were omitted by the level of detail
     uint32_t impostors = 0;      ///< effects drawn as impostors
-    uint32_t impostorsTaken = 0; ///< impostor textures rendered in this frame
+    uint32_t impostorsTaken = 0; ///< number of impostors rendered in this frame
     /// Number of groups of blobs by the share that is drawn: all; at least 1/2; at least 1/8; less.
     uint32_t lodGroups[4] = {0, 0, 0, 0};
     uint64_t particles = 0;        ///< drawn sprites, meshes and pieces of ribbons
-    uint64_t sprites = 0;          ///< part of `particles`
-    uint64_t meshes = 0;           ///< part of `particles`
-    uint64_t ribbonPieces = 0;     ///< part of `particles`
+    uint64_t sprites = 0;          ///< number of sprites in `particles`
+    uint64_t meshes = 0;           ///< number of meshes in `particles`
+    uint64_t ribbonPieces = 0;     ///< number of pieces of ribbons in `particles`
     uint64_t gpuParticles = 0;     ///< drawn particles whose rows the GPU computed
     uint64_t particlesThinned = 0; ///< particles that were omitted by the level of detail
     uint64_t particlesOrdered = 0; ///< drawn particles that were sorted by depth or age
-    uint64_t uploadedBytes = 0;    ///< [byte] data of blobs and particles uploaded for this frame
-    uint64_t keptRowBytes = 0;     ///< [byte] rows that were uploaded for earlier steps and are reused
-    /// [byte] rows that equal those of another group and are uploaded once
+    /// [byte] Size of the data of blobs and particles that were uploaded for this frame.
+    uint64_t uploadedBytes = 0;
+    /// [byte] Size of the rows that were uploaded for earlier steps and are reused.
+    uint64_t keptRowBytes = 0;
+    /// [byte] size of the rows that were not uploaded because they equal those of another group
     uint64_t sharedRowBytes = 0;
-    uint64_t sortedElements = 0; ///< elements sorted by distance or age for this frame
+    uint64_t sortedElements = 0; ///< number of elements that were sorted by distance or age for this frame
     /// True: the gathered, sorted and uploaded data of the last frame were reused.
     bool keptLists = false;
-    uint32_t passes = 0; ///< executed passes
+    uint32_t passes = 0; ///< number of executed passes
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
-    uint32_t programsCompiled = 0; ///< programs compiled during this frame; 0 after warm-up
-    uint64_t textureBytes = 0;     ///< [byte] textures that the view has allocated
+    /// Number of programs that were compiled during this frame; 0 after warm-up.
+    uint32_t programsCompiled = 0;
+    uint64_t textureBytes = 0; ///< [byte] size of the textures that the view has allocated
     /// [byte] size that the frame's transient resources would have without sharing memory
     uint64_t unsharedBytes = 0;
     uint64_t sharedBytes = 0;   ///< [byte] size of the frame's transient resources, which share memory

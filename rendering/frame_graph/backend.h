@@ -46,7 +46,7 @@ constexpr size_t formatBytes(Format format)
     return 0;
 }
 
-/// One version of a texture or buffer of the frame graph. FrameGraph returns these ids.
+/// Id of a version of a texture or buffer in the frame graph.
 struct ResourceId
 {
     uint32_t index = ~0u;
@@ -135,7 +135,7 @@ struct DispatchCall
     uint32_t groups[3] = {1, 1, 1};
 };
 
-/// Executes the operations of a pass. Data of spans is copied before a call returns.
+/// Executes the operations of a pass. The data of spans are copied before a call returns.
 class Backend
 {
 public:
@@ -150,13 +150,14 @@ public:
     /// program.
     virtual void dispatch(const DispatchCall& call) = 0;
     virtual void upload(ResourceId buffer, std::span<const std::byte> bytes) = 0;
-    virtual void copyTexture(ResourceId source, ResourceId destination) = 0; ///< same size and format
+    /// Both textures must have the same size and format.
+    virtual void copyTexture(ResourceId source, ResourceId destination) = 0;
 
     virtual int width(ResourceId texture) const = 0;
     virtual int height(ResourceId texture) const = 0;
 };
 
-/// Bytes of a trivially copyable struct with std140 layout, for uniforms.
+/// The bytes of a trivially copyable struct with std140 layout, for uniforms.
 template <class T>
 std::span<const std::byte> asUniforms(const T& block)
 {

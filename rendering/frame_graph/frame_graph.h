@@ -126,8 +126,8 @@ public:
     /// Planned memory of the frame's transient resources, without imported ones.
     struct Memory
     {
-        uint64_t unshared; ///< [byte] without sharing
-        uint64_t shared;   ///< [byte] with sharing between resources of disjoint lifetimes
+        uint64_t unshared; ///< [byte] size of the resources if they did not share memory
+        uint64_t shared;   ///< [byte] size with memory shared between resources of disjoint lifetimes
     };
     Memory memory() const;
     std::span<const std::string_view> executedPasses() const { return executed_; }
@@ -166,7 +166,7 @@ private:
     {
         std::string_view name;
         uint32_t firstAccess;
-        uint32_t lastAccess; ///< one past the last
+        uint32_t lastAccess; ///< index of the last access + 1
         bool sideEffect;
         bool alive;
         void (*run)(void* state, Backend& backend);
@@ -175,7 +175,7 @@ private:
     /// The use of a resource: indices of executed passes.
     struct Lifetime
     {
-        uint32_t latest; ///< latest version
+        uint32_t latest; ///< latest version of the resource
         uint32_t creator;
         uint32_t first;
         uint32_t last;
@@ -203,7 +203,7 @@ private:
     std::pmr::vector<Version> versions_;
     std::pmr::vector<Pass> passes_;
     std::pmr::vector<Access> accesses_;
-    std::pmr::vector<uint32_t> executedIndex_; ///< by executed pass: index in passes_
+    std::pmr::vector<uint32_t> executedIndex_; ///< by executed pass: its index in passes_
     std::pmr::vector<std::string_view> executed_;
     std::pmr::vector<PhysicalTexture> physicalTextures_;
     std::pmr::vector<size_t> physicalBuffers_;

@@ -37,7 +37,7 @@ public:
         std::vector<TextureBinding> textures;
         std::vector<ImageBinding> images;
         std::vector<BufferBinding> buffers;
-        std::vector<std::byte> bytes; ///< uniforms, or the upload
+        std::vector<std::byte> bytes; ///< data of the uniforms or of the upload
         Blend blend = Blend::None;
         uint32_t vertices = 0;
         uint32_t instances = 0;

@@ -41,8 +41,8 @@ class GlBackend final : public Backend
 {
 public:
     static constexpr uint32_t kTextureUnits = GlDrawState::kUnits;
-    static constexpr uint32_t kImageUnits = 7;      ///< units 0..6
-    static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
+    static constexpr uint32_t kImageUnits = 7;      ///< number of texture units, 0..6
+    static constexpr uint32_t kStorageBindings = 8; ///< number of storage bindings, 0..7
     /// Number of uniform bindings: 0 for the uniforms of the call, and 1.
     static constexpr uint32_t kUniformBindings = 2;
     /// Number of color targets, the minimum that OpenGL 4.5 guarantees.
@@ -54,7 +54,7 @@ public:
     /// `graph` must be compiled and stay valid until endFrame(). A pending GL error of the host is discarded.
     /// @return the graph's own status, GlFailed (context lost), OutOfMemory, InvalidArgument (size)
     base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light);
-    /// @return status()
+    /// Ends the frame. @return status()
     base::Status endFrame();
 
     /// The first failure since beginFrame(), or Ok. After a failure, drawing calls do nothing.
@@ -68,7 +68,7 @@ public:
     /// True if `texture` is the GL name of a transient texture of this backend.
     bool owns(uint32_t texture) const { return pool_.owns(texture); }
 
-    uint32_t drawCalls() const { return drawCalls_; } ///< draws and dispatches of the last frame
+    uint32_t drawCalls() const { return drawCalls_; } ///< number of draws and dispatches of the last frame
     /// [byte] Size of all pooled textures and buffers.
     uint64_t pooledBytes() const { return pool_.bytes() + uniforms_.bytes(); }
     /// Sets the timer, whose functions are called when a pass begins; null: no timer. It must stay valid

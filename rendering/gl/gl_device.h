@@ -25,7 +25,7 @@ namespace fx::render {
 /// Limits of the context. They are queried once, when the device is created.
 struct GlLimits
 {
-    int version = 0;           ///< 10 major + minor
+    int version = 0;           ///< version of OpenGL: 10 major + minor
     int textureSize = 0;       ///< [pixel] largest width and height
     int volumeSize = 0;        ///< [pixel] largest side of a texture of three dimensions
     int uniformAlignment = 0;  ///< [byte] alignment of offsets into uniform buffers
@@ -57,7 +57,7 @@ public:
 
     const GlLimits& limits() const { return limits_; }
     std::pmr::memory_resource* memory() const { return memory_; }
-    uint64_t callCount() const { return gl.monitor.calls; } ///< GL calls since creation
+    uint64_t callCount() const { return gl.monitor.calls; } ///< number of GL calls since creation
 
     /// Compiles the program `desc` in advance, unless it is compiled already. `desc` must have static
     /// storage, because programs are identified by the address of their description.
@@ -72,7 +72,8 @@ public:
     /// if compilation fails; `outStatus` then has the reason.
     uint32_t program(const ProgramDesc& desc, base::Status& outStatus);
 
-    uint32_t programsCompiled() const { return programsCompiled_; } ///< since creation, with lateCompiles()
+    /// Number of programs compiled since creation, including lateCompiles().
+    uint32_t programsCompiled() const { return programsCompiled_; }
     /// Number of programs that were compiled by program() and not in advance by compile().
     uint32_t lateCompiles() const { return lateCompiles_; }
 

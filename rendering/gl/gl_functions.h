@@ -15,8 +15,8 @@
 
 namespace fx::render {
 
-/// The host's loader. Returns a function of the current context by its name ("glDrawArrays"); null if it does
-/// not exist.
+/// The host's loader. It returns a function of the current context by its name ("glDrawArrays"), or null if
+/// it does not exist.
 struct GlLoader
 {
     void* user = nullptr;

@@ -18,7 +18,7 @@ public:
     GlMessages(const GlMessages&) = delete;
     GlMessages& operator=(const GlMessages&) = delete;
 
-    uint32_t errors() const { return errors_; } ///< messages of type error
+    uint32_t errors() const { return errors_; } ///< number of messages of the type error
     /// Number of messages of high severity, including errors.
     uint32_t highSeverity() const { return highSeverity_; }
     /// Number of messages that are errors or have high severity; 0 for a correct program.

@@ -19,15 +19,15 @@ namespace fx::render {
 enum class TimingClock : uint8_t
 {
     Off,
-    Gpu,  ///< GL timestamps, without waiting
+    Gpu,  ///< uses timestamps of the GPU, without waiting
     Host, ///< uses a clock of the host, with glFinish() wherever the group changes
 };
 
 /// Times of one finished frame.
 struct GroupTimes
 {
-    uint64_t tag = 0;                                  ///< argument of beginFrame()
-    std::array<double, kMaxPassGroups> milliseconds{}; ///< by index of PassGroups
+    uint64_t tag = 0;                                  ///< argument that was passed to beginFrame()
+    std::array<double, kMaxPassGroups> milliseconds{}; ///< times of the groups, by their number in PassGroups
     double total() const                               ///< [ms]
     {
         return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
@@ -89,7 +89,7 @@ private:
     size_t waiting_ = 0; ///< number of pending frames
     Frame* open_ = nullptr;
     size_t group_ = 0;
-    int counterBits_ = -1; ///< -1: not queried yet
+    int counterBits_ = -1; ///< number of bits of GL's time counter; -1: not queried yet
 };
 
 } // namespace fx::render

@@ -19,8 +19,8 @@ class GlDevice;
 struct GlStageSource
 {
     GLenum stage;     ///< GL_VERTEX_SHADER, GL_FRAGMENT_SHADER, GL_COMPUTE_SHADER
-    const char* name; ///< for messages
-    std::string text; ///< complete GLSL
+    const char* name; ///< name for messages
+    std::string text; ///< complete text in GLSL
 };
 
 class GlProgram

@@ -51,7 +51,7 @@ private:
     GlDevice& device_;
     std::pmr::vector<PooledTexture> textures_;
     std::pmr::vector<uint32_t> assigned_;    ///< by index of a physical resource: index in textures_
-    std::pmr::vector<PooledBuffer> buffers_; ///< by physical index
+    std::pmr::vector<PooledBuffer> buffers_; ///< by index of a physical resource
     uint64_t frame_ = 0;
 };
 

@@ -30,7 +30,7 @@ public:
     GlStateGuard& operator=(const GlStateGuard&) = delete;
 
 private:
-    GlDevice* device_; ///< null when inactive
+    GlDevice* device_; ///< null if the guard is not active
     std::array<GlSavedState, kGlSavedStates> saved_;
 };
 

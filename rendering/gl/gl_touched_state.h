@@ -20,7 +20,7 @@ struct GlSavedState
 
 struct GlTouchedState
 {
-    const char* name; ///< shown to users
+    const char* name; ///< name of the state, as shown to users
     GLenum what;      ///< argument of `save` and `restore`
     /// Number of indices (of draw buffers, units or bindings); the state is saved at indices 0 to count - 1.
     uint32_t count;
@@ -32,7 +32,7 @@ struct GlTouchedState
 /// saved or restored come first in the table.
 std::span<const GlTouchedState> glTouchedStates();
 
-constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts
+constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts of all states
 constexpr uint32_t kGlTouchedStates = 43;
 
 } // namespace fx::render

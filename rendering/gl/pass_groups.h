@@ -14,7 +14,7 @@ namespace fx::render {
 struct TimedPass
 {
     std::string_view pass;
-    std::string_view group = {}; ///< empty: "other"
+    std::string_view group = {}; ///< name of the group; empty: "other"
 };
 
 constexpr size_t kMaxPassGroups = 8;

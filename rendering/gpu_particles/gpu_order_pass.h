@@ -18,7 +18,7 @@ struct GpuOrderJob
     uint32_t batch;
     bool byAge;       ///< true: sort by age; false: sort by distance
     bool leastFirst;  ///< true: nearest or youngest first; false: farthest or oldest first
-    bool isParallel;  ///< `eye` is a direction
+    bool isParallel;  ///< true: `eye` is a direction
     glm::vec3 eye;    ///< [m] position of the eye in the space of the group
     float scale = 1;  ///< [1] as in rowDistances()
     float offset = 0; ///< [m] as in rowDistances()

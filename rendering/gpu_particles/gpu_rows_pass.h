@@ -12,18 +12,18 @@
 
 namespace fx::render {
 
-/// Input to compute the rows of a group.
+/// A request to compute the rows of a group.
 struct GpuRowsJob
 {
     const ProgramDesc* program;
     uint32_t batch;     ///< index of the batch that draws the rows
     bool isNewer;       ///< true: the job writes the newer rows of the batch; false: the older rows
-    BufferPart numbers; ///< base::GpuParticleNumbers
+    BufferPart numbers; ///< constants of the emitter, as base::GpuParticleNumbers
     BufferPart words;   ///< a base::GpuParticleMoment and the data that follow it
     std::array<int32_t, 16> columns; ///< offsets of the columns, as in ParticleBlock
     uint32_t rows;
     // Only for emitters whose motion is computed in steps, see GpuStates:
-    BufferPart reached = {}; ///< state of the particles
+    BufferPart reached = {}; ///< buffer of the state of the particles
     BufferPart steps = {};   ///< data of the steps that the job computes
     uint32_t stepCount = 0;
     bool meetsDepth = false;

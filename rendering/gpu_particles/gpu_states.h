@@ -27,8 +27,9 @@ class GpuStates
 public:
     GpuStates(GlDevice& device, std::pmr::memory_resource* memory) : device_(device), states_(memory) {}
 
-    /// Sets the members of a job that concern steps. The job must run after jobs that were prepared earlier.
-    /// Does nothing if the group's motion has a closed form. An emitter may have at most two jobs per frame.
+    /// Sets those members of a job that concern steps. Jobs must run in the order in which they were
+    /// prepared. Does nothing if the group's motion has a closed form. An emitter may have at most two jobs
+    /// per frame.
     /// @return OutOfMemory, TooLarge (for the context's storage buffers)
     base::Status prepare(const base::SnapshotGroup& group, GpuRowsJob& ioJob);
     /// Deletes states that have not been used for a long time.
@@ -37,7 +38,7 @@ public:
     /// the particles.
     void forget();
 
-    uint64_t bytes() const; ///< [byte] held
+    uint64_t bytes() const; ///< [byte] size of all buffers
 
 private:
     struct State

@@ -20,7 +20,7 @@ public:
     base::Status check(const FrameRequest& request);
 
 private:
-    /// [pixel] Size of the frame's target; 0 if OpenGL does not provide it, as for a window.
+    /// [pixel] Size of the frame's target; 0 if it cannot be queried from OpenGL, as for a window.
     struct Size
     {
         GLint width = 0;

@@ -17,7 +17,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// Use of a texture of the host by a frame.
+/// Use of a texture of the host in a frame.
 enum class HostUse : uint8_t
 {
     Nothing,
@@ -38,7 +38,7 @@ struct HostTexture
     GLint width = 0;  ///< [texel]
     GLint height = 0; ///< [texel]
     GLint baseLevel = 0;
-    GLint stencilMode = 0; ///< for ReadDepth only
+    GLint stencilMode = 0; ///< used only for ReadDepth
     std::array<GLint, 4> swizzle{};
 
     bool operator==(const HostTexture&) const = default;
@@ -64,8 +64,9 @@ private:
     std::string formatFault(const HostTexture& facts) const;
 
     GlDevice& device_;
-    std::array<HostTexture, 16> good_{}; ///< the last accepted textures; hosts may alternate between several
-    size_t next_ = 0;                    ///< index in good_ of the entry that is replaced next
+    /// The textures that were accepted last; there are several, because hosts may alternate between them.
+    std::array<HostTexture, 16> good_{};
+    size_t next_ = 0; ///< index in good_ of the entry that is replaced next
 };
 
 // Names of OpenGL's enumerants, for messages: host_format_names.cpp.

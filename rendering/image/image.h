@@ -17,7 +17,7 @@ struct Image
 {
     int width = 0;    ///< [pixel]
     int height = 0;   ///< [pixel]
-    int channels = 0; ///< 3 for RGB, 4 for RGBA
+    int channels = 0; ///< number of channels: 3 for RGB, 4 for RGBA
     std::vector<float> pixels;
 
     float* at(int x, int y)

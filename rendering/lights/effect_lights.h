@@ -12,11 +12,11 @@
 
 namespace fx::render {
 
-/// Light of one group of a snapshot.
+/// Light that one group of a snapshot emits.
 struct EffectLight
 {
     glm::dvec3 position; ///< [m] world position of the center of the emitted light
-    glm::vec3 intensity; ///< [cd] in every direction
+    glm::vec3 intensity; ///< [cd] intensity, equal in every direction
     float radius;        ///< [m] root mean square extent of the emission, > 0
     /// True: the light is emitted by balls of medium, whose fields may propagate it more accurately than a
     /// point light does.
@@ -28,7 +28,7 @@ struct EffectLight
 constexpr size_t kMaxEffectLights = 4;  ///< largest number of effect lights that are used for drawing
 constexpr size_t kMaxLightSources = 16; ///< largest number of kinds of snapshot data that emit light
 
-/// How groups of one kind of snapshot data emit light.
+/// Describes how groups of one kind of snapshot data emit light.
 struct LightSource
 {
     const base::KindDesc* kind;
@@ -74,9 +74,9 @@ public:
 
 private:
     glm::vec3 intensity_{0.0f};
-    glm::dvec3 moment_{0.0}; ///< luminous weight times position
+    glm::dvec3 moment_{0.0}; ///< sum of luminous weight times position
     double weight_ = 0.0;
-    double spread_ = 0.0; ///< weight times squared extent
+    double spread_ = 0.0; ///< sum of luminous weight times squared extent
 };
 
 } // namespace fx::render

@@ -59,13 +59,13 @@ public:
         uint64_t content; ///< revision of the shown content
         /// Hash of the lighting; impostors that were rendered with another lighting are not shown.
         uint64_t lighting;
-        bool forget;       ///< the camera has jumped
+        bool forget;       ///< true: the camera has jumped
         bool hold = false; ///< true: impostors and their shares do not change
     };
     void begin(const Frame& frame, const CameraGeometry& camera);
     /// Decides how an effect is drawn. Must be called once for each effect in a frame.
     ImpostorPlan plan(const ImpostorSubject& subject);
-    void end(); ///< frees the tiles of effects that were not planned in this frame
+    void end(); ///< frees the tiles of effects for which plan() was not called in this frame
 
     /// Camera axes and square size of the impostor that is rendered in `slot`.
     const ImpostorTaking& taking(uint32_t slot) const { return takings_[slot]; }
@@ -90,7 +90,7 @@ private:
         uint64_t content = 0;
         uint64_t lighting = 0;
         bool hasPicture = false;
-        bool hasOlder = false; ///< two impostors exist
+        bool hasOlder = false; ///< true: there are two impostors
         bool isUsed = false;
     };
     Entry* find(uint64_t instance);
@@ -101,7 +101,7 @@ private:
     Frame frame_{};
     const CameraGeometry* camera_ = nullptr;
     std::pmr::vector<Entry> entries_; ///< sorted by instance
-    std::pmr::vector<Entry> fresh_;   ///< added in this frame
+    std::pmr::vector<Entry> fresh_;   ///< entries that were added in this frame
     std::pmr::vector<uint32_t> freeTiles_;
     std::pmr::vector<ImpostorTaking> takings_;
     std::pmr::vector<ImpostorInstance> shown_;

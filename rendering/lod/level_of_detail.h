@@ -76,7 +76,7 @@ private:
     float mean_ = 1.0f;
 };
 
-/// How one group is drawn.
+/// Parameters with which the elements of a group are drawn.
 struct LodLevel
 {
     LodRamp ramp;
@@ -84,7 +84,7 @@ struct LodLevel
     float swollenPixels = 0.0f; ///< [pixel] largest increase of the radius of a blob
 };
 
-/// Number of groups by their drawn share: all; at least half; at least an eighth; less.
+/// Number of groups by the share that is drawn: all; at least half; at least an eighth; less.
 using LodCounts = std::array<uint32_t, 4>;
 
 class LevelOfDetail

@@ -18,10 +18,10 @@
 
 namespace fx::render {
 
-/// Number of drawn elements in rows.
+/// Number of elements that are drawn for rows.
 struct DrawnRows
 {
-    uint32_t pieces = 0; ///< particles whose radius is above 0, or pieces of strips
+    uint32_t pieces = 0; ///< number of particles whose radius is above 0, or of pieces of strips
     uint32_t wholes = 0; ///< number of whole particles or strips
 };
 DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon);
@@ -42,11 +42,11 @@ enum class RowShape : uint8_t
     SolidStrip, ///< an opaque ribbon: its width can change, but not its opacity
 };
 
-/// Factors of size and opacity of a row, relative to drawing without a level of detail.
+/// Factors of size and opacity of a row, relative to drawing all rows.
 struct RowFactors
 {
     float size;    ///< [1] factor of the radius, or of the half width of a strip
-    float opacity; ///< [1] factor
+    float opacity; ///< [1] factor of the opacity
 };
 
 /// @formula lod-rows

@@ -16,8 +16,8 @@ namespace fx::render {
 FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
                                  int height);
 
-/// Approximate share of the picture that the blobs cover, which weights their errors. It is 1 - exp(-sum of
-/// areas), which assumes random positions.
+/// Approximate share of the picture that the blobs cover; a weight of their errors. It is 1 - exp(-sum of
+/// areas), which holds for random positions.
 ScreenShare screenShare(std::span<const BlobInstance> blobs, const CameraGeometry& camera);
 
 } // namespace fx::render

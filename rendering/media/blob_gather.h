@@ -44,7 +44,7 @@ struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    ImpostorPlan plan; ///< how the instance is drawn
+    ImpostorPlan plan; ///< decision about how the instance is drawn
 };
 
 /// Consecutive blobs of an instance: those of one group with detail, or of consecutive groups without detail.
@@ -56,7 +56,7 @@ struct BlobRun
     size_t mediumBegin, mediumEnd;   ///< range among all blobs, visible or not
 };
 
-/// Additional data for blobs that are drawn as fields.
+/// Additional data, for blobs that are drawn as fields.
 struct FieldGather
 {
     explicit FieldGather(std::pmr::memory_resource* memory)
@@ -88,13 +88,14 @@ struct GatherCounts
 /// foundation/snapshot/streak.h.
 ///
 /// @param share share of the blobs that is appended to `outVisible`, (0, 1]. Blobs are selected by id, so
-///         that they do not flicker, and get the cross section of the omitted ones. All blobs cast shadows.
+///         that they do not flicker. Their cross sections are increased to represent the omitted blobs. All
+///         blobs cast shadows.
 /// @param impostors selects the effects that are drawn as impostors; null: none. Blobs of an effect that is
 ///         drawn only as an impostor are not gathered, but at most 16 of them are appended to `outMedium`, to
 ///         represent the shadow of all. If an impostor is rendered in this frame, its blobs are gathered also
 ///         outside of the view.
 /// @param lod reduces the blobs of groups that are small on the picture, for shadows too; null: none
-/// @param castsShadows whether effects that are drawn only as an impostor cast shadows
+/// @param castsShadows true: effects that are drawn only as an impostor cast shadows
 /// @param outFields receives the detail of groups, and runs of blobs; may be null
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,

@@ -36,7 +36,7 @@ public:
     std::span<const BlobInstance> blobs() const { return sorted_; }
     /// Effects to which blobs() belong; empty if blobs are sorted.
     std::span<const BlobEffect> effects() const { return effects_; }
-    /// Materials of blobs() for the detail of their fields; empty if they are sorted.
+    /// Materials of blobs(), in the same order, for the detail of their fields; empty if blobs are sorted.
     std::span<const BlobMaterial> materials() const { return materials_; }
     std::span<const GroupDetail> details() const { return fields_.details; }
     /// Marks of blobs(), in the same order; empty without ViewSettings::outputs.
@@ -56,7 +56,7 @@ public:
     /// Blobs of the effects whose impostors are rendered in this frame, relative to takingCamera().
     std::span<const BlobInstance> takenBlobs() const { return sortedTaken_; }
     std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< tile of each rendered impostor
-    /// True if a next frame with the same camera and snapshots would be the same.
+    /// True if a frame with the same camera and snapshots would be the same as the last one.
     bool isSettled() const { return impostors_.isSettled(); }
     /// Must be called if the impostors of the last frame were not rendered.
     void forgetPictures() { mustForget_ = true; }
@@ -80,7 +80,7 @@ private:
     std::pmr::vector<BlobMaterial> materials_;
     std::pmr::vector<BlobMark> marks_, sortedMarks_; ///< marks of shaded_ and sorted_
     InstanceNames names_;
-    bool isMarked_ = false; ///< the frame has marks
+    bool isMarked_ = false; ///< true: the frame has marks
     std::pmr::vector<BlobEffect> effects_;
     std::pmr::vector<std::pair<float, float>> radii_; ///< scratch: radius and cross section
     std::pmr::vector<BlobInstance> sorted_;

@@ -27,7 +27,7 @@ public:
     void find(std::span<const BlobInstance> blobs, const CameraView& camera, int width, int height);
     void clear() { areas_.clear(); }
 
-    /// Areas of the last find().
+    /// The areas that the last find() found.
     std::span<const HotArea> areas() const { return areas_; }
 
 private:

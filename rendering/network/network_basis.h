@@ -47,7 +47,7 @@ std::vector<NeighborDirection> neighborDirections(int count);
 
 /// Values of all harmonics in a direction. @param direction unit vector
 std::array<double, kMaxNetworkMoments> harmonics(const glm::dvec3& direction);
-/// Band of harmonic k: 0, 1 or 2.
+/// Band of the harmonic with the index k: 0, 1 or 2.
 constexpr int harmonicBand(int k)
 {
     return k == 0 ? 0 : k < 4 ? 1 : 2;

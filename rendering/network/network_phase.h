@@ -40,7 +40,7 @@ struct NetworkPhase
     std::array<double, 3> factors{1.0, 0.0, 0.0}; ///< [1] g_l
     int bands = 2;                                ///< L + 1
 
-    double extinctionShare(double albedo) const { return 1.0 - albedo * peak; } ///< [1] k' over k
+    double extinctionShare(double albedo) const { return 1.0 - albedo * peak; } ///< [1] k' / k
     double albedo(double albedo) const { return albedo * (1.0 - peak) / (1.0 - albedo * peak); }
     double series(double cosine) const; ///< [1/sr] P
 };

@@ -32,7 +32,7 @@ struct NetworkSettings
 /// The medium in the cells. Arrays have one value per cell.
 struct NetworkMedium
 {
-    NetworkGrid grid;                  ///< 1 to 256 cells along each axis
+    NetworkGrid grid;                  ///< grid of 1 to 256 cells along each axis
     std::span<const float> extinction; ///< [1/m] >= 0
     std::span<const float> albedo;     ///< [1] 0..1
     /// [cd/m2] Emission per optical depth, >= 0. For a gray body it is (1 - albedo) times the black-body
@@ -48,8 +48,7 @@ struct SweepRules
     double tolerance = 0.0; ///< [1] sweeps end when SweepReport::change is at most this
 };
 
-/// Result of the last sweeps. Scattered light means the power that the medium scatters, summed over all
-/// cells.
+/// Result of the last sweeps. "Scattered light" is the power that the medium scatters, summed over all cells.
 struct SweepReport
 {
     /// Number of sweeps; 0: no sweep was needed, because nothing has changed and the tolerance is met.
@@ -130,7 +129,7 @@ public:
     /// the result.
     SweepReport sweep(const SweepRules& rules, NetworkState& io, base::TaskRunner& tasks);
 
-    /// Energy of the light after one more sweep. The result of this sweep is not stored.
+    /// Computes the energy of the light after one more sweep. The result of this sweep is not stored.
     NetworkEnergy energy(const NetworkState& state, base::TaskRunner& tasks);
 
     /// [1] Optical depth, without the forward peak, along a line through the grid. @param length [m]

@@ -70,7 +70,7 @@ private:
     bool hasFrame_ = false;
 };
 
-/// One picture for each bit of view_output, in the order of bits; invalid if not requested.
+/// The picture of each bit of view_output, in the order of the bits; invalid if it was not requested.
 using OutputTextures = std::array<ResourceId, view_output::kCount>;
 
 /// Computes the outputs of each pixel from the balls, cards and opaque particles on its ray. Outputs have the

@@ -23,7 +23,7 @@ public:
     void readBack(const GlBackend& backend, FrameStatistics& statistics) override;
 
     /// Adds the passes of a frame. PassFrame::distance must include opaque particles.
-    /// @param hostDistance [m] along the ray to the host's opaque geometry, without particles
+    /// @param hostDistance [m] distance along the ray to the host's opaque geometry, without particles
     [[nodiscard]] OutputTextures addTo(FrameGraph& graph, const PassFrame& frame, ResourceId hostDistance,
                                        std::span<const MediaSource* const> solids, const PastFrame& past);
 

@@ -42,7 +42,7 @@ public:
                const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
     /// The snapshots with the merged groups of build(). They may have no groups.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
-    RevisionPair revisions() const { return revisions_; } ///< revisions of merged()
+    RevisionPair revisions() const { return revisions_; } ///< revisions of the snapshots merged()
     /// Revisions of the rows of merged(), with one part per member of a merged group. They are 64-bit hashes
     /// of the revisions of the merged rows.
     SnapshotRowRevisions newerRows() const { return {newerRevisions_, partsBegin_, {}}; }
@@ -68,7 +68,7 @@ private:
     struct Set
     {
         const RowTechnique* technique;
-        uint32_t first, last; ///< members
+        uint32_t first, last; ///< first and last member, as indices in members_
         uint32_t count;
         uint32_t rows;
         size_t group; ///< index of the first member's group in the newer snapshot
@@ -109,7 +109,7 @@ private:
 
     std::span<const RowTechnique* const> techniques_;
     const base::SnapshotSchema* schema_;
-    RevisionPair built_; ///< inputs of merged()
+    RevisionPair built_; ///< revisions of the snapshots from which merged() was built
     RevisionPair revisions_;
     std::pmr::vector<Member> members_;
     std::pmr::vector<Set> sets_;
@@ -117,8 +117,8 @@ private:
     std::pmr::vector<RowPart> parts_;
     /// By group of newer_: index of its first part; then the number of parts.
     std::pmr::vector<size_t> partsBegin_;
-    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by part of parts_
-    std::pmr::vector<Layout> layout_, layoutBefore_;                ///< present and previous layout of newer_
+    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by index of a part in parts_
+    std::pmr::vector<Layout> layout_, layoutBefore_; ///< the present and the previous layout of newer_
     /// Placements of the first members of merged groups.
     std::pmr::vector<base::Placement> anchors_, anchorsBefore_;
     MergedRows rows_;

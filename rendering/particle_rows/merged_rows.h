@@ -41,7 +41,7 @@ public:
 
     void begin(const base::FrameSnapshot& from, base::FrameSnapshot& to);
     /// Adds a merged group of `rows` rows, with the columns, constants and position of `like`.
-    /// @param technique must have a RowMerge and stay valid
+    /// @param technique technique with a RowMerge, which must stay valid
     void addGroup(const RowTechnique& technique, const MergeSource& like, uint32_t rows);
     /// Fills `rows` rows of the last added group, from `firstRow` on, with the rows of `from`. If `from` has
     /// fewer, the remaining rows are empty.
@@ -72,7 +72,7 @@ private:
     PoolScatter scatter_;
     std::pmr::vector<Member> members_;
     std::pmr::vector<size_t> begin_;                   ///< by merged group: index of its first member
-    std::pmr::vector<const RowTechnique*> techniques_; ///< by group
+    std::pmr::vector<const RowTechnique*> techniques_; ///< by merged group
     std::pmr::vector<base::SnapshotGroup*> groups_;
     std::pmr::vector<PlacedRows> placed_; ///< rows of one merged group
     bool anyPooled_ = false;

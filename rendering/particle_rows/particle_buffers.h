@@ -36,7 +36,7 @@
 
 namespace fx::render {
 
-/// Revisions by which rows on the GPU are identified.
+/// Revisions that identify rows on the GPU.
 struct UploadRevisions
 {
     RevisionPair snapshots; ///< revisions of the snapshots; snapshots with equal revisions share a Place
@@ -46,7 +46,7 @@ struct UploadRevisions
 class ParticleBuffers
 {
 public:
-    /// @param techniques techniques whose groups are written; must stay valid
+    /// @param techniques techniques whose groups are written; they must stay valid
     ParticleBuffers(GlDevice& device, std::span<const RowTechnique* const> techniques,
                     std::pmr::memory_resource* memory);
 
@@ -92,7 +92,7 @@ private:
         /// True: the CPU has written the rows. False for groups that are not drawn.
         bool isWritten = false;
         bool isShared = false;             ///< true: the group shares the rows of an earlier group
-        size_t rowsBegin = 0, rowsEnd = 0; ///< range of the group in Place::rows
+        size_t rowsBegin = 0, rowsEnd = 0; ///< range of the group's revisions in Place::rows
     };
     struct Place
     {
@@ -100,10 +100,10 @@ private:
         GlBuffer computed;     ///< rows that the GPU writes
         uint64_t revision = 0; ///< revision of the content; 0: none
         uint64_t usedFrame = 0;
-        bool hasPools = false; ///< includes pooled groups
+        bool hasPools = false; ///< true: includes pooled groups
         std::pmr::vector<GroupPlace> groups;
         std::pmr::vector<RowRevision> rows;        ///< revisions of all groups
-        std::pmr::vector<GroupPlace> groupsBefore; ///< previous content
+        std::pmr::vector<GroupPlace> groupsBefore; ///< location of groups in the previous content
         std::pmr::vector<RowRevision> rowsBefore;
 
         explicit Place(std::pmr::memory_resource* memory)
@@ -120,9 +120,9 @@ private:
     struct Source
     {
         const base::FrameSnapshot* snapshot;
-        uint64_t revision; ///< 0: interpolated
+        uint64_t revision; ///< revision of the snapshot; 0: rows are interpolated
         SnapshotRowRevisions rows;
-        bool withPools; ///< also pooled groups
+        bool withPools; ///< true: also write pooled groups
         bool isOlder;   ///< true: the snapshot is the older one of the frame
         // Only for interpolated rows:
         const base::FrameSnapshot* older = nullptr;

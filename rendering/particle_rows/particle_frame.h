@@ -25,23 +25,24 @@ namespace fx::render {
 enum class OrderForm : uint8_t
 {
     All,            ///< no list: all rows are drawn, in the order of rows
-    Rows,           ///< one word per drawn row: its index
-    FactorsBeside,  ///< two words per drawn row: its index and its factors
-    RowFactorsOnly, ///< one word per row, in the order of rows: its factors
+    Rows,           ///< one word for each drawn row: its index
+    FactorsBeside,  ///< two words for each drawn row: its index, and the factors of size and opacity
+    RowFactorsOnly, ///< one word for each row, in the order of rows: the factors of size and opacity
 };
 
-/// A drawn group. The batch with the same index belongs to it.
+/// A group that is drawn. The batch with the same index belongs to it.
 struct ParticleGroup
 {
     const RowTechnique* technique;
     const base::SnapshotGroup* newer;
     const base::SnapshotGroup* older; ///< null for strips, and if there is no older group
     size_t newerIndex, olderIndex;    ///< indices of the group in the two snapshots
-    /// Rows in the order of drawing; empty: all rows, in the order of rows.
+    /// Indices of rows in the order of drawing; empty: all rows are drawn, in the order of rows.
     std::span<const uint32_t> order;
-    std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: all rows are drawn unchanged
-    uint32_t texture, motion, mesh;    ///< ids in the asset table
-    int columns, rows;                 ///< frames of the texture
+    /// By row: factors of size and opacity, see simplifyRows(); empty: all rows are drawn unchanged.
+    std::span<const uint32_t> factors;
+    uint32_t texture, motion, mesh; ///< ids in the asset table
+    int columns, rows;              ///< number of frames of the texture along x and y
     OrderForm orderForm = OrderForm::All;
 };
 
@@ -84,7 +85,7 @@ public:
     std::span<ParticleBatch> batches() { return batches_; }
     /// Sort order of the rows of computed batches.
     std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
-    /// Streams of batches that are not opaque, for DrawBatcher.
+    /// The streams of those batches that are not opaque, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
     /// True if outputs contain motion. Then the rows of both snapshots are required, and groups are not

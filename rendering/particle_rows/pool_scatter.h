@@ -43,12 +43,12 @@ public:
 private:
     struct Target
     {
-        const base::GroupRoster::Entry* entry = nullptr; ///< null: not copied
+        const base::GroupRoster::Entry* entry = nullptr; ///< null: the entry is not copied
         uint32_t group = 0, firstRow = 0, rows = 0;
     };
     struct Move
     {
-        uint32_t from, to; ///< rows
+        uint32_t from, to; ///< rows in the pool and in the merged group
     };
     void list(const base::PooledRows& pool, std::span<const Target> targets,
               std::span<base::RowExtent> extents);
@@ -65,7 +65,7 @@ private:
     std::pmr::vector<Target> targets_; ///< by member number, pool after pool
     /// By member number: extent of its rows; empty if there are no velocities.
     std::pmr::vector<base::RowExtent> extents_;
-    std::pmr::vector<Move> moves_;       ///< moves of one pool, group after group
+    std::pmr::vector<Move> moves_;       ///< rows of one pool to copy, group after group
     std::pmr::vector<uint32_t> begin_;   ///< by group: begin of its range in moves_
     std::pmr::vector<uint32_t> ends_;    ///< by group: end of its range in moves_
     std::pmr::vector<uint8_t> isSentTo_; ///< by group: 1 if send() was called for it

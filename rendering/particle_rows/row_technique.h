@@ -36,7 +36,7 @@ struct RowMerge
 
     size_t radius;           ///< column of the radius [m], 0 in empty rows
     size_t velocity = kNone; ///< first of the three columns of the velocity, which is rotated with the group
-    size_t orientation = kNone; ///< first of four columns of the orientation
+    size_t orientation = kNone; ///< first of the four columns of the orientation
     /// Column of the strip number. Strip numbers are changed so that different groups have different ones.
     size_t strip = kNone;
     base::ColumnSet copied; ///< columns that are copied without transformation, including the strip number

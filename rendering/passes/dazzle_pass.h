@@ -20,7 +20,7 @@ inline constexpr ProgramDesc kDazzleDealProgram{"dazzle deal", nullptr, nullptr,
 /// first frame.
 struct DazzleHistory
 {
-    double adapted[3];   ///< [1] adapted mean overflow per pixel, in units of white; red, green, blue
+    double adapted[3];   ///< [1] adapted mean overflow per pixel, in units of white, for red, green and blue
     double frameMean[3]; ///< [1] mean overflow per pixel of the last frame, in units of white
     uint32_t valid;      ///< 1 after the first frame, 0 before it
     /// Number of channel values of the last frame that were replaced because they were not finite, negative

@@ -40,7 +40,7 @@ public:
     {
         ResourceId color;
         ResourceId distance;
-        ResourceId heat; ///< invalid: nothing is hot
+        ResourceId heat; ///< invalid if nothing is hot
         /// Areas that together cover every pixel with heat; must stay valid until the graph has executed.
         std::span<const HotArea> areas;
         int width, height;

@@ -34,7 +34,7 @@ public:
     {
         ResourceId distance;
         bool hasDepth;     ///< false: there is no depth, so that distance is +inf everywhere
-        int width, height; ///< [texel] of the layers
+        int width, height; ///< [texel] size of the layers
         int divisor;
     };
     struct Outputs

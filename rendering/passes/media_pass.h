@@ -53,18 +53,18 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in, const Outputs& under);
 };
 
-/// Description of target number `target` of the media pass.
+/// Description of the media pass's target number `target`.
 TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 
-/// The targets of a pass that draws media over others. The execute function of a pass captures this object by
-/// value.
+/// The targets of a pass that draws media over existing targets. The execute function of a pass captures this
+/// object by value.
 class MediaTargets
 {
 public:
     /// Declares that the pass writes the targets of `under`, and creates those that are invalid.
     MediaTargets(FrameGraph::Builder& builder, const MediaPass::Inputs& in, const MediaPass::Outputs& under);
 
-    /// Clears the targets that the pass has created. Call this before drawing.
+    /// Clears the targets that the pass has created. Must be called before drawing.
     void clear(Backend& backend) const;
     std::span<const ResourceId> all() const { return {targets_.data(), layers_ ? targets_.size() : 1}; }
     MediaPass::Outputs outputs() const;

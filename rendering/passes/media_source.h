@@ -87,7 +87,7 @@ protected:
 struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
-    TextureBinding picture{}; ///< bound if valid
+    TextureBinding picture{}; ///< texture that is bound if it is valid
     const LightBindings* lights = nullptr;
     ResourceId blobLights{}; ///< buffer that is bound at kBlobLightBinding, if valid
 };

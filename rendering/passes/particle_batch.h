@@ -33,7 +33,7 @@ struct ParticleBlock
 };
 static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 8 * 16 + 9 * 16);
 
-/// ParticleBlock for programs that write marks, see output_marks.h.
+/// ParticleBlock with additional members, for programs that write marks, see output_marks.h.
 struct MarkedParticleBlock
 {
     ParticleBlock particles;
@@ -54,10 +54,10 @@ enum class BatchShape : uint8_t
 /// Part of a buffer.
 struct BufferPart
 {
-    uint32_t name = 0; ///< GL buffer
+    uint32_t name = 0; ///< name of the GL buffer
     ResourceId id;     ///< id of the buffer in this frame's graph
     uint64_t offset = 0;
-    uint64_t bytes = 0; ///< 0: absent
+    uint64_t bytes = 0; ///< size; 0: there is no data
 };
 
 struct ParticleBatch
@@ -65,11 +65,11 @@ struct ParticleBatch
     ParticleBlock block;
     BatchShape shape = BatchShape::Sprite;
     bool isSolid = false;   ///< true: particles are opaque, write depth, and are drawn before all media
-    bool repeats = false;   ///< the texture repeats
-    uint32_t vertices = 6;  ///< per instance
+    bool repeats = false;   ///< true: the texture repeats
+    uint32_t vertices = 6;  ///< number of vertices per instance
     uint32_t instances = 0; ///< number of drawn rows, or of drawn pieces of ribbons
     BufferPart newer, older, order, mesh;
-    uint32_t texture = 0; ///< GL texture array
+    uint32_t texture = 0; ///< name of the GL texture array
     uint32_t motion = 0;
     ResourceId textureId, motionId;
     bool isComputed = false; ///< true: the GPU computes the rows

@@ -19,7 +19,7 @@ struct GlContextOptions
     bool visible = false; ///< used by GLFW only: true: the window is visible
     int width = 64;       ///< [pixel] width of the window; EGL contexts have no window
     int height = 64;      ///< [pixel]
-    const char* title = "fxsdk"; ///< of the window
+    const char* title = "fxsdk"; ///< title of the window
 };
 
 class GlContext
@@ -33,7 +33,8 @@ public:
     virtual void swapBuffers() = 0;
     /// Handles events of the window. @return true if the user has requested to close the window
     virtual bool closeRequested() { return false; }
-    virtual std::string description() const = 0; ///< kind of context, such as "EGL surfaceless (Mesa)"
+    /// Text about the kind of context, such as "EGL surfaceless (Mesa)".
+    virtual std::string description() const = 0;
 };
 
 /// Creates a context without a window, and makes it current. Tries EGL_MESA_platform_surfaceless, then an EGL

@@ -28,8 +28,8 @@ class GlDevice;
 struct StageMesh
 {
     glm::dvec3 origin{0.0};           ///< [m] world position to which the vertices are relative
-    std::vector<glm::vec3> positions; ///< [m] relative to `origin`
-    std::vector<glm::vec3> normals;   ///< unit
+    std::vector<glm::vec3> positions; ///< [m] positions relative to `origin`
+    std::vector<glm::vec3> normals;   ///< unit vectors
     std::vector<glm::vec3> colors;    ///< [0, 1] linear albedo
 };
 
@@ -39,7 +39,7 @@ struct StageBackground
     glm::vec3 luminance{0.0f}; ///< [cd/m2] luminance at the zenith, used if `image` is empty
     /// [cd/m2] Luminance at and below the horizon; equal to `luminance` for a uniform color.
     glm::vec3 horizon{0.0f};
-    int width = 0, height = 0;    ///< [pixel] of `image`
+    int width = 0, height = 0;    ///< [pixel] size of `image`
     std::vector<glm::vec3> image; ///< [cd/m2] top row first
     bool panorama = false; ///< true: `image` is equirectangular around the eye; false: it fills the picture
 };
@@ -62,7 +62,7 @@ struct StageLighting
 {
     Lighting lighting;
     std::span<const StageLight> lights{}; ///< lights, of which at most kMaxStageLights are used
-    /// Media shadow in the light of the sun; without planes there is no shadow.
+    /// Media shadow in the light of the sun. If it has no planes, media cast no shadow.
     MediaShadowBlock sunShadow;
     /// GL name of the texture of light slices for all media shadows, with linear filter; 0: none.
     uint32_t shadowTexture = 0;

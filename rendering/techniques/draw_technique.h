@@ -80,13 +80,13 @@ struct GatheredFrame
     bool anyHeat = false; ///< true: a blob causes heat shimmer
 };
 
-/// Stages of a frame at which techniques add passes. buildViewGraph() defines the order of all passes.
+/// Stages of a frame in which techniques add passes. buildViewGraph() defines the order of all passes.
 enum class PassStage : uint8_t
 {
     Pictures, ///< stage before all other passes, in which impostors are rendered that the frame draws later
     /// Stage in which data are uploaded or computed; the distance to the host's surfaces is available.
     Upload,
-    Measure, ///< after the media: measurements
+    Measure, ///< stage after the media have been drawn, in which measurements are made
     Refract, ///< stage of refraction; the picture has all media
     Sensor,  ///< stage of effects of the eye or the sensor; the picture is complete
 };
@@ -136,7 +136,7 @@ public:
     virtual bool altersPicture(const PassFrame&) const { return false; }
     virtual void addPasses(PassStage, FrameGraph&, PassFrame&) {}
 
-    virtual void fence() {} ///< called after all draws of the frame have been issued
+    virtual void fence() {} ///< Called after all draws of the frame have been issued.
     /// Invalidates the data of this frame. Called if gathering or drawing has failed.
     virtual void forget() {}
     virtual void endFrame(bool /*succeeded*/) {}
@@ -154,7 +154,7 @@ public:
     /// True if groups of the kind "gpuParticle" can be drawn. False if computing particles has failed in this
     /// context.
     virtual bool canComputeParticles() const { return true; }
-    /// Compiles the compute program of an emitter, if supported.
+    /// Compiles the compute program of an emitter, if the technique computes particles on the GPU.
     virtual void warmUp(const base::GpuParticleProgram&) {}
 };
 
@@ -170,7 +170,7 @@ struct TechniqueSetup
 /// The kinds of data that an effect publishes, from which techniques decide whether the effect uses them.
 struct EffectContent
 {
-    std::span<const base::KindDesc* const> kinds; ///< kinds of its groups
+    std::span<const base::KindDesc* const> kinds; ///< kinds of the effect's groups
     bool isDrawn = false;                         ///< true: a technique draws one of the kinds
     bool bendsLight = false;                      ///< true: media of the effect cause heat shimmer
 };
@@ -181,15 +181,15 @@ struct DrawTechnique
     std::string_view name;
     /// Kind of the technique's snapshot data; null: it has no kind of its own.
     const base::KindDesc* kind = nullptr;
-    /// Conversion of groups of the kind to rows of particles, for techniques that draw rows; otherwise null.
+    /// Conversion of groups of the kind to rows of particles; null for techniques that draw no rows.
     const RowTechnique* rows = nullptr;
     /// Creates the technique's state in a view; null: it has no state. Techniques with the same function
     /// share one state.
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
     /// Returns all programs that the technique may use; null: none.
     std::span<const ProgramDesc* const> (*programs)() = nullptr;
-    /// The passes that the technique adds to a frame, with their timer groups. Techniques that are drawn by
-    /// the media pass include the media pass.
+    /// The passes that the technique adds to a frame, with their timer groups. If the media pass draws the
+    /// technique's elements, it is one of them.
     std::span<const TimedPass> passes = {};
     /// Returns whether an effect with this content uses the technique; null: an effect uses it if it
     /// publishes `kind`.

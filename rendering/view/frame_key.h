@@ -29,7 +29,7 @@ struct FrameKey
     int voxels = 0;
     bool layerOutputs = false;
     uint32_t outputs = 0;
-    const base::AssetTable* assets = nullptr; ///< only compared, not dereferenced
+    const base::AssetTable* assets = nullptr; ///< the address only; it is compared and never dereferenced
 
     bool operator==(const FrameKey&) const = default;
 };

@@ -28,7 +28,7 @@ struct ViewGraphInputs
     CompositionView* composition = nullptr; ///< composition, which draws media before `batches`; null: none
     int layerDivisor = 1;            ///< divisor of layers in this frame, >= ViewSettings::layerDivisor
     OutputView* outputs = nullptr;   ///< outputs of the view; null if the settings request none
-    const PastFrame* past = nullptr; ///< previous frame, for `outputs`
+    const PastFrame* past = nullptr; ///< previous frame, used for `outputs`
 };
 
 /// Resources that exist after the frame, besides the host's picture. Those that were not requested are

@@ -76,7 +76,7 @@ struct ViewRenderer::Impl
     const MediaComposition* composing;      ///< composition of the last frame
     CompositionView* composition = nullptr; ///< the composition in `parts`; null: it has no state
     OutputView* outputView = nullptr;       ///< the outputs in `parts`; null: none are requested
-    FrameHistory history;                   ///< used with outputs
+    FrameHistory history;                   ///< used only with outputs
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;

@@ -32,8 +32,8 @@ struct LayerTextures
 {
     /// RGBA32F premultiplied radiance of the fire layer that reaches the eye; A: visible opacity of the layer
     uint32_t fire = 0;
-    uint32_t smoke = 0;        ///< the same for smoke
-    uint32_t dust = 0;         ///< the same for dust
+    uint32_t smoke = 0;        ///< the same as `fire`, for the layer smoke
+    uint32_t dust = 0;         ///< the same as `fire`, for the layer dust
     uint32_t depth = 0;        ///< R32F [m] transmittance-weighted distance of the media; +inf without media
     uint32_t opticalDepth = 0; ///< R32F [1] optical depth of the media
     uint32_t media = 0;        ///< RGBA32F sum of the layers
@@ -85,7 +85,7 @@ public:
     bool hasGpuClock();
     void setHostClock(HostClock clock);   ///< clock for TimingClock::Host
     bool takeTimes(GroupTimes& out);      ///< see GlPassTimer::take
-    const PassGroups& passGroups() const; ///< groups of takeTimes()
+    const PassGroups& passGroups() const; ///< groups to which takeTimes() refers
     /// [ms] Time to fill light slices in the last timed frame that filled them; 0 if there is no such frame.
     double fillMilliseconds() const;
     /// Shares of the last frame's picture that techniques cover; valid only if frames are timed.

@@ -30,7 +30,7 @@ public:
     struct Lists
     {
         SlabTilePass::Outputs tiles;
-        ResourceId balls; ///< texture of SlabBallPass; invalid: no balls
+        ResourceId balls; ///< texture written by SlabBallPass; invalid: no balls
         SlabDetail detail;
         SlabDetailPass::Outputs fieldDetail;
         CardLists cards;

@@ -27,7 +27,7 @@ struct TileRect
 static_assert(sizeof(TileRect) == 12);
 
 /// Fills `outRects` with one rectangle per ball. The eye may be inside of balls.
-/// @param view of the layers; contains their size [texel] and the least radius of a ball
+/// @param view view block of the layers, with their size [texel] and the least radius of a ball
 /// @return total number of tiles in all rectangles
 uint64_t findTiles(std::span<const BlobInstance> balls, const ViewBlock& view,
                    std::pmr::vector<TileRect>& outRects);

@@ -35,7 +35,7 @@ public:
 
 private:
     GlDevice& device_;
-    std::array<GlTexture, 5> volumes_; ///< in the order of GlowTextures
+    std::array<GlTexture, 5> volumes_; ///< textures in the order of the members of GlowTextures
     GlBuffer buffer_;
     GlowTextures textures_; ///< resource ids in this frame
     ResourceId grids_;      ///< grids of this frame

@@ -44,7 +44,7 @@ public:
     uint64_t bytes() const;
 
 private:
-    static constexpr int kSweeps = 2; ///< per frame
+    static constexpr int kSweeps = 2; ///< number of sweeps per frame
     /// Number of sweeps after the last change, and for grids that begin without light.
     static constexpr int kSettledSweeps = 16;
 
@@ -59,10 +59,10 @@ private:
 
     GlDevice& device_;
     int cells_ = 0;
-    int settled_ = 0; ///< sweeps since the last change
+    int settled_ = 0; ///< number of sweeps since the last change
     std::vector<FieldGlowBlock> grids_;
     std::vector<Known> known_, now_;   ///< grids of the last frame, and of this frame
-    std::array<GlTexture, 7> volumes_; ///< in the order of NetworkTextures
+    std::array<GlTexture, 7> volumes_; ///< textures in the order of the members of NetworkTextures
     GlBuffer buffer_;
     NetworkTextures textures_; ///< resource ids in this frame
     ResourceId gridsId_;       ///< grids in this frame

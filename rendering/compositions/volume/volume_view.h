@@ -90,10 +90,10 @@ private:
     std::span<const std::byte> stacks_; ///< SliceStackBlocks of the frame
     /// LightBindings::filled of the light slices to which detail was last added.
     uint64_t corrected_ = 0;
-    std::span<const BlobMaterial> materials_; ///< of the frame
+    std::span<const BlobMaterial> materials_; ///< materials of the balls in this frame
     VolumeGlow glow_;
-    VolumeNetwork network_;               ///< used instead of glow_ if the settings request it
-    int networkCells_ = 0;                ///< cells along a side of a grid in this frame; 0: no networks
+    VolumeNetwork network_; ///< used instead of glow_ if the settings request it
+    int networkCells_ = 0; ///< number of cells along a side of a network's grid in this frame; 0: no networks
     std::span<const BlobInstance> blobs_; ///< balls of this frame; empty if none has detail
     bool layers_ = false;                 ///< true: the frame has layer outputs
     glm::dvec3 eye_{0.0};                 ///< [m] world position of the eye of the frame
@@ -108,8 +108,8 @@ private:
     int slabs_ = 16; ///< least number of slabs for balls and cards outside of fields
     /// Imported as persistent resources, so that the next frame can reuse their content.
     std::array<GlBuffer, Lists> buffers_;
-    std::array<ResourceId, Lists> ids_;                        ///< of the frame
-    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< also persistent
+    std::array<ResourceId, Lists> ids_;                        ///< resource ids in this frame
+    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< textures of fields; also persistent
     bool isKept_ = false; ///< true: lists and textures are those of the last frame
     uint32_t unused_ = 0; ///< number of successive frames without balls
 };

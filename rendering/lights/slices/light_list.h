@@ -40,12 +40,12 @@ constexpr float kSkyAxisElevation = 0.4472135955f; // 1 / sqrt(5)
 enum class LightKind : uint8_t
 {
     Sun,
-    Host,   ///< ViewSettings::hostLights
-    Effect, ///< light of an effect in the snapshot
-    Sky,    ///< sky and ground, sampled along axes
+    Host,   ///< a light of ViewSettings::hostLights
+    Effect, ///< a light of an effect in the snapshot
+    Sky,    ///< light of sky and ground, sampled along axes
 };
 
-/// Where a light of the list comes from.
+/// The source of a light in the list.
 struct LightOrigin
 {
     LightKind kind = LightKind::Sun;
@@ -67,14 +67,14 @@ struct LightListInputs
 {
     const ViewSettings* settings;
     glm::dvec3 eye;                       ///< [m] world
-    std::span<const EffectLight> effects; ///< brightest first
+    std::span<const EffectLight> effects; ///< lights of the effects, brightest first
     std::span<const MediumCaster> casters;
     bool resetsHistory = false; ///< true: planes do not cross-fade from those of the last frame
 };
 
-/// Lights of a frame in the order in which they get planes: the sun, then the others by their illuminance at
-/// the casters, then the axes of the sky. If texel side or spacing of planes differ from the last frame, the
-/// new planes fade in. Threads: one at a time. Equal sequences of inputs give equal bits.
+/// The lights of a frame, in the order in which they get planes: the sun, then the others by their
+/// illuminance at the casters, then the axes of the sky. If texel side or spacing of planes differ from the
+/// last frame, the new planes fade in. Threads: one at a time. Equal sequences of inputs give equal bits.
 class LightList
 {
 public:
@@ -84,9 +84,9 @@ public:
     void build(const LightListInputs& in);
     /// Discards the result of the last build(), and builds the list of the same frame from other inputs.
     void rebuild(const LightListInputs& in);
-    /// Sets the shadow map with which opaque surfaces shadow media.
+    /// Sets the shadow map by which opaque surfaces cast shadows on media.
     /// @param shift [m] eye minus the origin of the map's coordinates
-    /// @return whether block() has changed
+    /// @return true if block() has changed
     bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
 
     const LightListBlock& block() const { return block_; }
@@ -95,7 +95,7 @@ public:
     {
         return std::span(block_.lights).first(size_t(block_.counts.x + block_.counts.y));
     }
-    /// Origins of the first block().counts.x entries.
+    /// Sources of the first block().counts.x entries.
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
@@ -127,7 +127,7 @@ private:
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
     SliceFades fades_;
-    SliceFades fadesBefore_; ///< fades of the previous frame
+    SliceFades fadesBefore_; ///< cross-fades of the previous frame
     float sunTexel_ = 0.0f;  ///< [m] side of the sun's texels, interpolated during a cross-fade; 0: no planes
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< by stack: index of its light

@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-constexpr int kFadeFrames = 16; ///< length of a cross-fade
+constexpr int kFadeFrames = 16; ///< [frame] duration of a cross-fade
 
 /// Largest planes that cross-fade. Larger ones are replaced at once, because the atlas has no room for old
 /// and new planes together.

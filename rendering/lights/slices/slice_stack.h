@@ -29,7 +29,7 @@ constexpr int kMinSlicePlanes = 3;
 constexpr int kMaxSlicePlanes = 128;
 constexpr int kMaxSliceTexels = 512; ///< largest number of texels along a side of a plane
 
-/// Returns `asked` clamped to the limits, with texels rounded to a multiple of 8.
+/// Clamps a resolution to the limits, and rounds the number of texels to a multiple of 8.
 SliceResolution usableResolution(const SliceResolution& asked);
 
 /// Coordinates in a stack. Texel centers are at x, y = 0.5, 1.5, ...; plane number k is at plane = k.
@@ -51,7 +51,7 @@ struct SliceStack
     /// units of `texel`, and that along `along` in units of `spacing`. For Octahedral, they are in meters.
     glm::dvec3 corner{0};
     float texel = 1.0f;   ///< [m] side of a texel of flat planes
-    float spacing = 1.0f; ///< [m] between two planes
+    float spacing = 1.0f; ///< [m] distance between two planes
     float first = 0.0f;   ///< [m] distance of the first shell from the point light; 0 for flat planes
     /// [m] Radius of the glowing gas that a point light represents. Media within this distance cast no
     /// shadow.
@@ -66,7 +66,7 @@ struct SliceStack
 struct SliceRay
 {
     glm::vec3 start;
-    glm::vec3 direction; ///< unit
+    glm::vec3 direction; ///< unit vector
 };
 
 /// The ray through a point of a texel plane.

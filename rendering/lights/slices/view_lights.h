@@ -80,7 +80,7 @@ private:
     LightList list_;
     glm::dvec3 eye_{0.0}; ///< [m] world position to which the list is relative
     std::pmr::vector<CasterBlock> casters_;
-    /// Casters with which the planes were filled; empty if planes are filled in every frame.
+    /// The casters with which the planes were filled; empty if planes are filled in every frame.
     std::pmr::vector<MediumCaster> held_;
     std::pmr::vector<MediumCaster> shifted_; ///< scratch: held_ relative to the eye of the frame
     glm::dvec3 heldEye_{0.0};                ///< [m] world position to which `held_` is relative

@@ -19,7 +19,7 @@ struct RaySpan
 struct Ray
 {
     glm::dvec3 origin;    ///< [m]
-    glm::dvec3 direction; ///< unit
+    glm::dvec3 direction; ///< unit vector
 };
 
 /// One ball of medium.
@@ -41,7 +41,8 @@ public:
     /// Range of ray parameters outside of which there is no medium on `ray`.
     RaySpan span(const Ray& ray) const;
     double extinctionAt(const glm::dvec3& position) const; ///< [1/m] >= 0
-    glm::dvec3 sourceAt(const glm::dvec3& position) const; ///< [cd/m2] emitted light per optical depth
+    /// [cd/m2] Emitted light per optical depth at a point.
+    glm::dvec3 sourceAt(const glm::dvec3& position) const;
     /// [1] >= 0. Optical depth between the ray parameters `begin` and `end` [m]. It is exact: a sum of
     /// clipped polynomials (formula kernel-optical-depth).
     double opticalDepth(const Ray& ray, double begin, double end) const;

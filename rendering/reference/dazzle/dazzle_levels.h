@@ -38,7 +38,7 @@ namespace fx::render {
 /// @param gain glare per overflow, >= 0; with 1 the whole overflow is distributed
 std::vector<uint8_t> dazzleLevels(std::span<const uint32_t> levels, double gain);
 
-/// The published code with one change: it stops instead of dividing by zero. Used for comparison.
+/// The published algorithm with one change: it stops instead of dividing by zero. Used for comparison.
 std::vector<int64_t> dazzleLevelsAsPrinted(std::span<const uint32_t> levels);
 
 } // namespace fx::render

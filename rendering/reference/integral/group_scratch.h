@@ -15,8 +15,8 @@
 
 namespace fx::render::integral {
 
-/// Memory aligned to a cache line, so that no vector load crosses a line. The content is lost when the array
-/// grows.
+/// An array whose memory is aligned to a cache line, so that no vector load crosses a line. The content is
+/// lost when the array grows.
 template <class T>
 class LineArray
 {
@@ -41,7 +41,7 @@ private:
     size_t capacity_ = 0;
 };
 
-/// Scratch memory of a group with W rays. Lane arrays have W numbers for each blob or event.
+/// Scratch memory of a group of rays. Lane arrays have one number per ray for each blob or event.
 template <class T>
 struct GroupScratch
 {
@@ -49,22 +49,22 @@ struct GroupScratch
     LineArray<T> offset, square, margin; ///< lane arrays of the nearby blobs, for two intervals
     std::vector<uint32_t> nearby;
     uint32_t nearbyCount[2] = {};
-    /// 4 numbers per blob: extinction and three sources, divided by radius^(2 degree)
+    /// four numbers for each blob: extinction and three sources, divided by radius^(2 degree)
     LineArray<T> weights;
     T largest = T(0), unit = T(1);        ///< largest radius of the last group, and the power of two below it
     T brightest = T(0), lightUnit = T(1); ///< largest source of the last group, and the power of two below it
     std::vector<T> first, last;           ///< by blob: least begin and largest end over all lanes
     std::vector<T> low, high;             ///< by event: least and largest value over all lanes
     std::vector<uint32_t> byFirst, byLast;
-    std::vector<uint64_t> candidates; ///< bit i: blob i may overlap the present interval
+    std::vector<uint64_t> candidates; ///< bit i is set if blob i may overlap the present interval
 };
 
 /// The blobs that overlap the present interval, in the order of summation, with terms that several sums use.
 template <class T>
 struct NearbyBlobs
 {
-    T* offset; ///< d of formula blob-polynomial
-    T* square; ///< g of formula blob-polynomial
+    T* offset; ///< symbol d of formula blob-polynomial
+    T* square; ///< symbol g of formula blob-polynomial
     T* margin; ///< > 0 in lanes whose interval is within the blob
     uint32_t* blob;
     uint32_t* count;
@@ -84,7 +84,7 @@ struct BlobLanes
     NearbyBlobs<T> nearby[2];
 };
 
-/// Inputs of the rays of a group. Lane arrays of blob k begin at k * stride.
+/// Inputs of the integral for the rays of a group. Lane arrays of blob k begin at k * stride.
 template <class T>
 struct GroupInput
 {
@@ -109,7 +109,7 @@ struct GroupOutput
     uint32_t* flags;
 };
 
-/// Data shared by all rays.
+/// Settings and quadrature rules that all rays share.
 template <class T>
 struct GroupRules
 {

@@ -14,12 +14,14 @@ namespace fx::render {
 
 enum class IntegralMethod : uint8_t
 {
-    /// Attenuation is linear in the ray parameter within a part; closed form (formula linear-attenuation).
+    /// attenuation is linear in the ray parameter within a part, so that the integral has a closed form
+    /// (formula linear-attenuation)
     Paper,
     Simpson, ///< Simpson's rule with exact optical depth
     Gauss,   ///< Gauss-Legendre nodes with exact optical depth (formula gauss-attenuation)
 
-    /// Source is linear in optical depth between nodes (formula depth-linear-source); bounds always hold.
+    /// the source is linear in optical depth between nodes (formula depth-linear-source); the result is
+    /// always within the bounds of the exact light
     Positive,
     March, ///< equal steps along the whole ray, each with the density at its midpoint
            /// Like Paper, except that a bound of the remaining light determines the parts and the end of the
@@ -45,12 +47,12 @@ struct IntegralScheme
     double cap = 1.0;
     double step = 0.01;       ///< [m] March: step length
     double tolerance = 0.001; ///< [1] Adaptive: error relative to the largest possible light of the ray
-    double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: never
+    double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: it never ends
 };
 
-/// 5 nodes, cap 1.
+/// The scheme gauss-5 with the cap 1.
 IntegralScheme defaultScheme();
-/// 8 nodes, cap 2.
+/// The scheme gauss-8 with the cap 2.
 IntegralScheme highScheme();
 
 /// Parses the name of a scheme, such as paper-1, simpson-4, gauss-5, gauss-8, gauss-5-cap-0.5,

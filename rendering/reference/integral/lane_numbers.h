@@ -59,7 +59,7 @@ struct ExpConstants<double>
 /// For arguments below this, expOfMinus() needs no range reduction.
 constexpr float kSmallDepth = 0.34f;
 
-/// Entry k is 1 / k!, computed in double and rounded to T.
+/// Table of 1 / k! for k = 0..13, computed in double and rounded to T.
 template <class T>
 inline constexpr auto kPerFactorial = [] {
     std::array<T, 14> table{};
@@ -71,7 +71,7 @@ inline constexpr auto kPerFactorial = [] {
     return table;
 }();
 
-/// (3) of attenuation-exponential: e^r.
+/// e^r by equation (3) of formula attenuation-exponential.
 template <class T>
 inline T expSeries(T r)
 {
@@ -195,7 +195,7 @@ inline V highest(V a)
 {
     return a;
 }
-/// e^-x for |x| < kSmallDepth, with the same bits as expOfMinus().
+/// Computes e^-x for |x| < kSmallDepth, with the same bits as expOfMinus().
 template <class V>
 inline V expOfSmall(V x)
 {

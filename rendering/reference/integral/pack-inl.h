@@ -95,8 +95,8 @@ HWY_INLINE T highest(Pack<T> a)
     return hn::GetLane(hn::MaxOfLanes(typename Pack<T>::Tag(), a.v));
 }
 #if HWY_TARGET != HWY_SCALAR
-/// Minimum or maximum of each pair of neighboring lanes: results from `a` in the lower half, from `b` in the
-/// upper.
+/// Minimum or maximum of each pair of neighboring lanes. The lower half of the result has those of `a`, the
+/// upper half those of `b`.
 template <bool kLowest, class T>
 HWY_INLINE Pack<T> foldLanes(Pack<T> a, Pack<T> b)
 {
@@ -135,7 +135,7 @@ HWY_INLINE Pack<T> wholeAbove(Pack<T> a)
     return chooseLess(whole, a, whole + Lanes<Pack<T>>::all(T(1)), whole);
 }
 
-/// (3) of attenuation-exponential.
+/// e^r by equation (3) of formula attenuation-exponential.
 template <class T>
 HWY_INLINE Pack<T> expSeries(Pack<T> r)
 {
@@ -161,7 +161,7 @@ HWY_INLINE Pack<T> expOfMinus(Pack<T> x)
     const auto power = hn::ShiftLeft<C::kMantissa>(hn::BitCast(bits, shifted.v)); // (4)
     return Pack<T>(hn::BitCast(tag, hn::Add(hn::BitCast(bits, sum.v), power)));   // (2)
 }
-/// expOfMinus() without range reduction.
+/// expOfMinus() for small arguments, without range reduction.
 template <class T>
 HWY_INLINE Pack<T> expOfSmall(Pack<T> x)
 {

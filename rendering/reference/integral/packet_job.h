@@ -46,7 +46,7 @@ T brightestSource(const RayPacket<T>& packet)
     return brightest;
 }
 
-/// Input of the group of rays that begins at lane `lane`.
+/// The input for the group of rays that begins at lane number `lane` of the packet.
 template <class T>
 GroupInput<T> inputOf(const PacketJob<T>& job, uint32_t lane, T largest, T brightest)
 {

@@ -27,7 +27,7 @@ struct BallBlob
 {
     T center[3];  ///< [m]
     T radius;     ///< [m] > 0
-    T extinction; ///< [1/m] at the center
+    T extinction; ///< [1/m] extinction at the center
     T source[3];  ///< [cd/m2] emission times (1 - albedo)
 };
 
@@ -36,7 +36,7 @@ template <class T>
 struct alignas(64) PacketRays
 {
     T origin[3][kPacketRays];    ///< [m]
-    T direction[3][kPacketRays]; ///< unit
+    T direction[3][kPacketRays]; ///< unit vector
     T nearest[kPacketRays];      ///< [m] as in RayWindow
     T farthest[kPacketRays];
     T background[3][kPacketRays];
@@ -57,7 +57,7 @@ struct RayPacket
         T source[3];
         uint32_t id;
     };
-    std::vector<Shared> shared; ///< sorted by increasing id
+    std::vector<Shared> shared; ///< blobs, sorted by increasing id
 
     void clear();
     /// Adds a blob and returns its index. Its lanes are initially zero, which means that all rays miss the
@@ -80,7 +80,7 @@ struct alignas(64) PacketLight
 
 /// Appends the balls that at least one ray meets to `packet`, in the order of `candidates`. A candidate is an
 /// index in `balls`, which becomes the id of the blob. Ray parameters are measured from the origins of rays.
-/// Formula ray-ball-approach.
+/// Formula: ray-ball-approach.
 /// @return number of ray-blob hits
 template <class T>
 uint64_t meetBlobs(const PacketRays<T>& rays, std::span<const BallBlob<T>> balls,

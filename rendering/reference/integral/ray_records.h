@@ -16,15 +16,17 @@ namespace fx::render {
 template <class T>
 struct RayBlob
 {
-    T center;                ///< [m] ray parameter of the point nearest to the blob's center
-    T chord2;                ///< [m2] square of half the chord, radius^2 - distance^2; <= 0: the ray misses
+    T center; ///< [m] ray parameter of the point nearest to the blob's center
+    /// [m2] Square of half the chord: radius^2 minus the squared distance of the center from the ray; if it
+    /// is <= 0, the ray misses the blob.
+    T chord2;
     T radius;                ///< [m] > 0
     T extinction;            ///< [1/m] extinction at the blob's center, >= 0
     std::array<T, 3> source; ///< [cd/m2] emission times (1 - albedo), >= 0
     uint32_t id;             ///< number that differs for all blobs of a ray; defines the order of summation
 };
 
-/// The visible part of the ray, and the background behind it.
+/// The visible part of a ray, and the background behind it.
 template <class T>
 struct RayWindow
 {
@@ -40,7 +42,7 @@ enum RayFlag : uint32_t
     kRayStopped = 2,
     /// a part exceeded the cap even after division into 64 parts, so that Positive was used for it.
     kRayFallback = 4,
-    /// a blob was omitted, because the precision is too low for its size relative to the largest
+    /// a blob was omitted, because it is too small relative to the largest blob for the precision
     kRayTooSmall = 8
 };
 
@@ -57,11 +59,11 @@ struct RayLight
 struct RayWork
 {
     uint64_t rays = 0;
-    uint64_t hits = 0;      ///< blobs that rays meet
-    uint64_t intervals = 0; ///< intervals of positive length
-    uint64_t parts = 0;     ///< parts of intervals; March: steps
+    uint64_t hits = 0;      ///< number of blobs that rays meet
+    uint64_t intervals = 0; ///< number of intervals of positive length
+    uint64_t parts = 0;     ///< number of parts of intervals; March: number of steps
     uint64_t blobSums = 0;  ///< number of evaluations of a blob's polynomial or kernel
-    uint64_t nodes = 0;     ///< quadrature nodes
+    uint64_t nodes = 0;     ///< number of quadrature nodes
     uint64_t exponentials = 0;
 
     RayWork& operator+=(const RayWork& other);

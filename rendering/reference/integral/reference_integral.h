@@ -146,7 +146,7 @@ private:
         }
         return sum;
     }
-    /// Equation (3).
+    /// Adds the light of an interval to `io`, by equation (3).
     void add(std::array<T, 3>& io, T begin, T end, T before, const std::array<T, 3>& whole, int level) const
     {
         const T middle = begin + (end - begin) / T(2);

@@ -57,14 +57,14 @@ private:
     const BlobPathMedium& medium_;
     RayHits hits_;
     std::vector<Chord> chords_;      ///< one chord for each of `hits_`
-    double begin_ = 0.0, end_ = 0.0; ///< [m] ends of the part of the ray with medium
+    double begin_ = 0.0, end_ = 0.0; ///< [m] ends of that part of the ray in which there is medium
     double before_ = 0.0;            ///< [1] sum of s_i h_i k(u(a)) in equation (2)
     double depth_ = 0.0;
     double emitted_ = 0.0;
     /// [cd/m2] By hit: emission of the ball; empty if the medium emits nothing.
     std::vector<double> emittedBy_;
     glm::dvec3 origin_{0.0};                         ///< [m] origin of the ray
-    double emissionBegin_ = 0.0, emissionEnd_ = 0.0; ///< [m] arguments of start()
+    double emissionBegin_ = 0.0, emissionEnd_ = 0.0; ///< [m] arguments of the last start()
 };
 
 } // namespace fx::render

@@ -58,7 +58,7 @@ public:
     /// Optical properties of one ball. Balls are in the order of the tree.
     struct Substance
     {
-        double extinction;     ///< [1/m] at the center
+        double extinction;     ///< [1/m] extinction at the center
         double inverseRadius2; ///< [1/m2]
         glm::dvec3 albedo;     ///< [1]
         glm::dvec3 source;     ///< [cd/m2] emitted light per optical depth

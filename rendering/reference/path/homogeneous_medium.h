@@ -11,7 +11,7 @@ struct MediumShape
 {
     enum class Kind
     {
-        Ball, ///< `extent.x` is the radius
+        Ball, ///< ball with the radius `extent.x`
         Slab, ///< points with |y - center.y| <= extent.y; infinite in x and z
         Box   ///< points p with |p - center| <= extent in each coordinate
     };
@@ -32,7 +32,8 @@ public:
         : shape_(shape), point_(point), knowsDepth_(knowsDepth), looseness_(looseness)
     {}
     std::unique_ptr<MediumWalk> walk() const override;
-    /// Null if the extinction differs between channels, or if knowsDepth is false.
+    /// Null if the extinction differs between channels, or if the argument knowsDepth of the constructor was
+    /// false.
     std::unique_ptr<DepthWalk> depthWalk() const override;
     double majorant() const override;
 

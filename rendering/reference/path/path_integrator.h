@@ -39,7 +39,7 @@ struct PathSettings
     uint32_t forcedFlights = 1;
 
     /// [1] Threshold of Russian roulette: paths with a lower throughput end at random. It is relative to the
-    /// share of light after forced collisions. 0: no roulette.
+    /// share of light that remains after forced collisions. 0: no roulette.
     double roulette = 0.1;
 };
 
@@ -55,7 +55,7 @@ struct PathResult
     glm::dvec3 throughput{0.0};
 };
 
-/// Traces paths. Each thread needs its own object.
+/// Traces random paths. Each thread needs its own object.
 class PathIntegrator
 {
 public:
@@ -93,16 +93,17 @@ private:
     ///         light that is scattered to this direction
     template <class Density>
     glm::dvec3 emissionAt(const glm::dvec3& position, const Density& density, PathSampler& sampler);
-    /// Scatters at the end of a segment: returns the scattered light, and samples the next direction.
+    /// Scatters light at the end of a segment: returns the scattered light, and samples the next direction.
     glm::dvec3 scatter(const Way& way, PathSampler& sampler, FlightStart& outNext);
-    /// [1] Opacity of the camera ray up to infinity.
+    /// [1] Opacity along the camera ray, up to infinity.
     double opacity(const Way& way, PathSampler& sampler);
     /// Applies Russian roulette: ends paths of low throughput at random, and increases the weight of the
     /// others.
     /// @param least [1] throughput below which paths may end
     /// @return false if the path ends
     static bool survives(double least, glm::dvec3& io, PathSampler& sampler);
-    /// Reflects at a surface: adds the reflected light of light sources, and samples the next direction.
+    /// Reflects light at a surface: adds the reflected light of light sources, and samples the next
+    /// direction.
     void reflect(const SurfaceHit& hit, const TraceRay& ray, PathSampler& sampler, FlightStart& outNext,
                  glm::dvec3& io, glm::dvec3& outLuminance);
 

@@ -16,7 +16,7 @@ namespace fx::render {
 /// A sampled direction towards a light.
 struct LightSample
 {
-    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
+    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit vector towards the light
     /// [m] distance of the light; objects beyond it do not block it
     double distance = std::numeric_limits<double>::infinity();
     /// [lx] luminance divided by the probability density per solid angle. Its expected value is the
@@ -28,7 +28,7 @@ struct LightSample
 struct LightPlace
 {
     glm::dvec3 center{0.0}; ///< [m]
-    double radius = 0.0;    ///< [m] 0: a point
+    double radius = 0.0;    ///< [m] radius of the light; 0: a point light
 };
 
 /// A light that rays do not hit, so that it must be sampled. Coordinates are those of the rays. Threads: any
@@ -115,7 +115,7 @@ private:
 /// Converts a light of a scene. @param eye [m] world position to which rays are relative
 std::unique_ptr<PathLight> makePathLight(const SceneLight& light, const glm::dvec3& eye);
 
-/// Light from infinity in all directions.
+/// Light from all directions at infinite distance.
 class PathSky
 {
 public:

@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// A medium at one point.
+/// Optical properties of a medium at a point.
 struct MediumPoint
 {
     glm::dvec3 extinction{0.0}; ///< [1/m] extinction of each color channel, >= 0
@@ -24,7 +24,7 @@ struct MediumPoint
     PhaseFunction phase;
 };
 
-/// Segment of a ray with an upper bound of the extinction.
+/// A segment of a ray with an upper bound of the extinction.
 struct MajorantSegment
 {
     double begin = 0.0, end = 0.0; ///< [m] ray parameters
@@ -92,7 +92,7 @@ public:
     virtual double emissionDensity() const = 0;
 };
 
-/// A medium. Coordinates are those of the rays. Threads: any thread may call const functions.
+/// A participating medium. Coordinates are those of the rays. Threads: any thread may call const functions.
 class PathMedium
 {
 public:

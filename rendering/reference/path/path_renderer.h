@@ -51,7 +51,7 @@ enum : uint32_t
 struct PathWork
 {
     uint64_t paths = 0;
-    uint64_t collisions = 0; ///< tentative collisions
+    uint64_t collisions = 0; ///< number of tentative collisions
     uint64_t nonFinite = 0;  ///< number of paths whose result was not finite; they count as black
 };
 
@@ -79,7 +79,7 @@ public:
     /// @return Interrupted if `callbacks` requested it, or the error of the journal
     base::Status render(TileJournal* journal, const RenderCallbacks& callbacks);
 
-    /// One channel (see path_channel), width x height, rows from the top.
+    /// The values of one channel (see path_channel), width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return tiles_.pixels(channel); }
     std::vector<float> interleaved(uint32_t first) const { return tiles_.interleaved(first); }
     PathWork work() const; ///< work of this run, without earlier runs

@@ -16,21 +16,21 @@ namespace fx::render {
 /// Method by which free paths are sampled.
 enum class FlightEstimator : uint8_t
 {
-    Depth, ///< by inverting the optical depth if it has a closed form, otherwise by local majorants
+    Depth, ///< inverts the optical depth if it has a closed form; otherwise uses local majorants
 
-    LocalMajorants, ///< by null collisions, with a majorant for each segment of MediumWalk
+    LocalMajorants, ///< samples null collisions, with a majorant for each segment of MediumWalk
 
-    /// Plain delta tracking [WMHL65], with which the others are compared. It uses one majorant for the whole
-    /// medium, also for shadow rays. Absorption ends paths at random.
+    /// Plain delta tracking [WMHL65], which serves for comparison. It uses one majorant for the whole medium,
+    /// also for shadow rays. Absorption ends paths at random.
     Analog
 };
 
 /// Method by which the transmittance towards lights is computed.
 enum class ShadowEstimator : uint8_t
 {
-    Exact, ///< closed form of the medium if available, otherwise ratio tracking
-    Ratio, ///< ratio tracking: product of the probabilities of null collisions [NSJ14]
-    Delta  ///< 1 if a free path is longer than the distance to the light, otherwise 0
+    Exact, ///< uses the closed form of the medium if there is one; otherwise ratio tracking
+    Ratio, ///< uses ratio tracking: the product of the probabilities of null collisions [NSJ14]
+    Delta  ///< uses 1 if a sampled free path is longer than the distance to the light, otherwise 0
 };
 
 /// Input of a free path.
@@ -138,7 +138,7 @@ private:
 
     ShadowEstimator shadow_;
     std::unique_ptr<MediumWalk> walk_, shadowWalk_;
-    std::unique_ptr<DepthWalk> depthWalk_, emissionWalk_; ///< null: flights by collisions
+    std::unique_ptr<DepthWalk> depthWalk_, emissionWalk_; ///< null if flights are sampled by collisions
     /// [1/m] majorant for the whole medium; 0: local majorants are used
     double majorant_ = 0.0;
     uint64_t collisions_ = 0;

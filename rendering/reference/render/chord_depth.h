@@ -43,7 +43,7 @@ struct BlobChord
     double nearest, half, peak;
 };
 
-/// Optical depth of all hits between two ray parameters.
+/// Optical depth of all hit blobs between two ray parameters.
 inline double opticalDepthOf(const MediumView& medium, const RayHits& hits, double begin, double end)
 {
     double sum = 0.0;

@@ -42,7 +42,7 @@ class DetailedRay
 public:
     enum class Wanted : uint8_t
     {
-        Depth, ///< optical depth only
+        Depth, ///< the optical depth only
         Light  ///< optical depth, light, coverage and distance
     };
     /// @param medium medium, which must be built and must outlive the object
@@ -54,8 +54,8 @@ public:
 
     double opticalDepth() const { return depth_; }
     double opticalDepth(double from, double to) const { return depthTo(to) - depthTo(from); }
-    const glm::dvec3& light() const { return sent_.light; }       ///< [cd/m2] emitted
-    const glm::dvec3& coverage() const { return sent_.coverage; } ///< [1] opacity of fire, smoke, dust
+    const glm::dvec3& light() const { return sent_.light; }       ///< [cd/m2] emitted light
+    const glm::dvec3& coverage() const { return sent_.coverage; } ///< [1] opacities of fire, smoke and dust
     /// [cd/m2] Light scattered by blobs of a layer, see blob_light.h.
     const glm::dvec3& scattered(base::MediaLayer layer) const { return sent_.scattered[size_t(layer)]; }
     /// [m] mean distance of the visible medium, +infinity without medium: formula seen-depth (1).
@@ -110,7 +110,7 @@ private:
     TraceRay ray_{};
     const RayHits* hits_ = nullptr;
     std::vector<BlobChord> chords_;
-    std::vector<Sample> samples_; ///< ends and midpoints of the first pieces
+    std::vector<Sample> samples_; ///< samples at the ends and midpoints of the first pieces
     std::vector<Piece> pieces_;
     double perLength_ = 0.0; ///< [1/m] 1 / L
     double brightest_ = 0.0; ///< [cd/m2] J

@@ -30,16 +30,17 @@ struct MediumDetails
         int32_t group = -1;                 ///< index in `groups`; -1: the ball has no detail
         std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
         float temperature = 0.0f;           ///< [K]
-        float thinning = 0.0f;              ///< [1] v of field-detail
+        float thinning = 0.0f;              ///< [1] symbol v of formula field-detail
     };
     std::vector<Group> groups;
     std::vector<Ball> balls;         ///< detail of each ball of the list; empty if there is no detail
-    int octaves = kMaxDetailOctaves; ///< 1..kMaxDetailOctaves
+    int octaves = kMaxDetailOctaves; ///< number of octaves of noise, 1..kMaxDetailOctaves
 
     bool isGiven() const { return !groups.empty(); }
 };
 
-/// Width of a pixel as a function of distance. Octaves of noise finer than two pixels are faded out.
+/// Width of a pixel as a function of distance. Octaves of noise whose period is less than two pixels are
+/// faded out.
 struct PixelWidth
 {
     glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit vector, view axis
@@ -76,7 +77,8 @@ public:
                     double thinning, const glm::dvec3& point) const;
     /// [cd/m2] Black-body luminance at the temperature of a ball.
     const glm::vec3& thermal(uint32_t place) const { return thermal_[place]; }
-    /// [1/m] Upper bound of the eroded extinction where the smooth extinction is at most `most` [1/m].
+    /// [1/m] Upper bound of the eroded extinction at points where the smooth extinction is at most `most`
+    /// [1/m].
     double maxErodedExtinction(size_t group, double most) const;
     double mostGain(size_t group) const; ///< [1] largest factor by which detail multiplies extinction
 
@@ -122,7 +124,8 @@ public:
     /// @param source emitted light without detail
     glm::dvec3 source(uint32_t place, const glm::dvec3& source, const glm::dvec3& albedo) const;
 
-    /// [1/m] Upper bound of the eroded extinction of all added balls, if add() was called with upper bounds.
+    /// [1/m] Upper bound of the eroded extinction of all added balls. Requires that add() was called with
+    /// upper bounds.
     double maxErodedExtinction() const;
 
 private:

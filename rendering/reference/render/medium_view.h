@@ -17,13 +17,13 @@ namespace fx::render {
 enum class MediumSource : uint8_t
 {
     Light,    ///< [cd/m2] emitted light
-    Coverage, ///< opacity of fire, smoke and dust, in place of red, green and blue
-    Fire,     ///< [cd/m2] light scattered by blobs of this layer, see setScattered()
+    Coverage, ///< opacities of fire, smoke and dust instead of red, green and blue
+    Fire,     ///< [cd/m2] light scattered by blobs of the layer fire, see setScattered()
     Smoke,
     Dust
 };
 
-/// Blobs relative to an eye. Threads: any thread may call const functions after build().
+/// The blobs of a medium relative to an eye. Threads: any thread may call const functions after build().
 class MediumView
 {
 public:
@@ -34,7 +34,7 @@ public:
                const MediumDetails& details = {}, const PixelWidth& pixel = {}, bool hasTracks = false);
 
     const BallTree& tree() const { return tree_; }
-    /// The blob at a place, that is an index in the order of the tree. It is relative to the eye.
+    /// The blob at a place, relative to the eye. A place is an index in the order of the tree.
     const BallBlob<double>& blob(uint32_t place) const { return blobs_[place]; }
     const std::array<double, 3>& coverage(uint32_t place) const { return coverage_[isUniform_ ? 0 : place]; }
     /// Instance and velocity of a blob.
@@ -48,7 +48,7 @@ public:
     struct Scattering
     {
         glm::vec3 albedo; ///< [1]
-        float anisotropy; ///< [1] Henyey-Greenstein g
+        float anisotropy; ///< [1] mean cosine g of the Henyey-Greenstein phase function
         base::MediaLayer layer;
     };
     const Scattering& scattering(uint32_t place) const { return scattering_[place]; }
@@ -63,7 +63,7 @@ public:
     bool isEmpty() const { return count_ == 0; }
     /// True if all blobs have the same layers, so that coverage needs no separate integration.
     bool isUniform() const { return isUniform_; }
-    /// if isUniform()
+    /// valid if isUniform()
     glm::dvec3 coverage() const { return {coverage_[0][0], coverage_[0][1], coverage_[0][2]}; }
 
 private:
@@ -74,7 +74,7 @@ private:
     std::vector<std::array<double, 3>> coverage_;
     std::unique_ptr<Scattering[]> scattering_;
     std::vector<glm::vec3> scattered_;
-    std::vector<Track> tracks_; ///< empty unless `hasTracks`
+    std::vector<Track> tracks_; ///< empty if `hasTracks` was false
     DetailedMedium details_;
     std::array<bool, 3> scatters_{};
     bool isUniform_ = true;
@@ -102,8 +102,8 @@ class BundleIntegrator
 {
 public:
     virtual ~BundleIntegrator() = default;
-    /// Finds the blobs that the bundle meets among `candidates`, which are ascending places. integrate() uses
-    /// them.
+    /// Finds those of `candidates` that the rays of the bundle meet. Candidates are places in ascending
+    /// order. The next integrate() uses the result.
     /// @return number of ray-blob hits
     virtual uint64_t meet(const MediumView& medium, const RayBundle& rays,
                           std::span<const uint32_t> candidates) = 0;

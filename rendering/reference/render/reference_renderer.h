@@ -52,7 +52,7 @@ private:
     TiledPicture tiles_;
     ReferenceWork work_;
 
-    std::mutex mutex_; ///< guards `idle_`
+    std::mutex mutex_; ///< guards the member `idle_`
     std::vector<std::unique_ptr<TileRenderer>> idle_;
 };
 

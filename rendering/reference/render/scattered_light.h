@@ -47,7 +47,7 @@ namespace fx::render {
 class ScatteredLight
 {
 public:
-    using Layers = std::array<glm::dvec3, 3>; ///< by MediaLayer
+    using Layers = std::array<glm::dvec3, 3>; ///< light by MediaLayer
 
     /// @param medium, opaque, lights objects that must outlive this one
     ScatteredLight(const MediumView& medium, const OpaqueView& opaque, const SceneLights& lights)
@@ -60,7 +60,7 @@ public:
     Layers along(const TraceRay& ray, const RayHits& hits, double begin, double end);
 
 private:
-    /// The ray whose light is summed.
+    /// The ray along which light is summed.
     struct Ray
     {
         const TraceRay& ray;
@@ -91,8 +91,8 @@ private:
     DetailedRay detailed_; ///< optical depth along the ray, for media with detail
     std::vector<double> events_;
     SceneLights::Course course_;
-    std::vector<ArrivingLight> arriving_; ///< lights at the current node
-    size_t firstOfSky_ = 0;               ///< index in `arriving_`
+    std::vector<ArrivingLight> arriving_; ///< light from each direction at the current node
+    size_t firstOfSky_ = 0;               ///< index in `arriving_` of the first direction of the sky
     uint32_t node_ = 0;
 };
 

@@ -16,7 +16,7 @@ namespace fx::render {
 /// Light from one direction.
 struct ArrivingLight
 {
-    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
+    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit vector towards the light
     glm::dvec3 illuminance{0.0};         ///< [lx] illuminance of a surface perpendicular to the light
     double distance = 1e30;              ///< [m] distance of the light; objects beyond it do not block it
     /// [sr] solid angle that the direction represents; 0: the light has no extent
@@ -53,7 +53,9 @@ class SceneLights
 public:
     static constexpr int kMaxSkyRings = 64;
 
-    /// @param skyRings 1..kMaxSkyRings: each hemisphere has `skyRings` rings of 2 skyRings directions
+    /// Builds the list of lights.
+    /// @param skyRings number of rings of directions in each hemisphere, 1..kMaxSkyRings; each ring has 2
+    ///         skyRings directions
     void build(const OpaqueScene& scene, const glm::dvec3& eye, int skyRings);
 
     bool hasSun() const { return sun_.illuminance != glm::dvec3(0.0); }
@@ -100,16 +102,16 @@ public:
     /// @param density n is this factor times `skyRings` of build()
     void appendSky(const glm::dvec2& shift, int density, std::vector<ArrivingLight>& out) const;
     bool hasSky() const { return sky_ != glm::dvec3(0.0) || ground_ != glm::dvec3(0.0); }
-    const glm::dvec3& sky() const { return sky_; }       ///< [cd/m2] above the horizon
-    const glm::dvec3& ground() const { return ground_; } ///< [cd/m2] below it
+    const glm::dvec3& sky() const { return sky_; }       ///< [cd/m2] luminance above the horizon
+    const glm::dvec3& ground() const { return ground_; } ///< [cd/m2] luminance below the horizon
 
 private:
     struct Lamp
     {
         glm::dvec3 position, intensity;
         double radius;   ///< [m] radius of a ball, or extent of a glowing group
-        bool isGroup;    ///< a glowing group
-        glm::dvec3 axis; ///< unit, of a spot
+        bool isGroup;    ///< true: the lamp is a glowing group
+        glm::dvec3 axis; ///< unit vector, direction of a spot
         /// [1] Cosines of a spot's inner and outer angle; -2 and below: light in all directions.
         double inner, outer;
         double ownReach = 0; ///< [m] see EffectLight

@@ -42,14 +42,16 @@ void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 class SeenOutputs
 {
 public:
-    static constexpr double kSeenDepth = 0.01; ///< [1] optical depth at which the first depth is measured
+    /// [1] Optical depth at which a medium begins to be visible; the first depth is the distance at which it
+    /// is reached.
+    static constexpr double kSeenDepth = 0.01;
     static constexpr int kSteps = 256;
 
     struct Seen
     {
         double first = std::numeric_limits<double>::infinity(); ///< [m] first depth
         glm::dvec2 motion{0.0}; ///< [pixel] motion to the right and upwards, times `share`
-        double share = 0.0;     ///< [1] opacity
+        double share = 0.0;     ///< [1] opacity of the ray
     };
 
     /// @param eye [m] position of the eye of the picture

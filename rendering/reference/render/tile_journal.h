@@ -59,7 +59,7 @@ private:
     int descriptor_ = -1;
     uint64_t length_ = 0; ///< [byte] length of the part of the file that has complete records
     bool isBroken_ = false;
-    std::mutex mutex_; ///< guards append()
+    std::mutex mutex_; ///< guards the members during append()
 };
 
 } // namespace fx::render

@@ -43,7 +43,7 @@ struct ReferenceSettings
     /// [1] tolerance e of formula detailed-ray-integral, 1e-6..0.1
     double detailTolerance = 1e-3;
     bool outputs = false; ///< true: also compute the channels from reference_channel::InstanceId on
-    ReferencePast past;   ///< previous frame, for motion
+    ReferencePast past;   ///< camera and time of the previous frame, for motion
 
     uint32_t channels() const;
 };
@@ -58,7 +58,7 @@ enum : uint32_t
     Smoke = 12,
     Dust = 16,
     Depth = 20,   ///< [m] mean distance of the visible medium, +infinity without medium
-    OpticalDepth, ///< [1] of the medium
+    OpticalDepth, ///< [1] optical depth of the medium
     Count,
     /// [1] MediumBlob::instance of the instance with the largest share, exact below 2^24; 0 without medium.
     InstanceId = Count,
@@ -88,7 +88,7 @@ struct ReferencePicture
 struct ReferenceWork
 {
     uint64_t rays = 0;
-    uint64_t hits = 0;      ///< blobs that rays met
+    uint64_t hits = 0;      ///< number of blobs that rays met
     uint64_t nonFinite = 0; ///< number of pixel values that were replaced because they were not finite
 
     ReferenceWork& operator+=(const ReferenceWork& other);

@@ -32,7 +32,7 @@ public:
     using RenderTile = std::function<bool(const PixelBlock& block, std::span<float> out)>;
 
     /// Starts a picture without tiles.
-    /// @param edge [pixel] side of a tile; a killed process loses the tiles in progress
+    /// @param edge [pixel] side of a tile; if the process is killed, the tiles in progress are lost
     void start(int width, int height, int edge, uint32_t channels);
     uint32_t tileCount() const { return tilesX_ * tilesY_; }
 

@@ -20,7 +20,7 @@ struct OpaqueMesh
 {
     glm::dvec3 origin{0.0};               ///< [m] world position to which the vertices are relative
     std::span<const glm::vec3> positions; ///< [m]
-    std::span<const glm::vec3> normals;   ///< unit
+    std::span<const glm::vec3> normals;   ///< unit vectors
     std::span<const glm::vec3> colors;    ///< [0, 1] linear albedo
 };
 
@@ -47,8 +47,8 @@ inline glm::dvec3 interpolate(std::span<const glm::vec3> column, const SurfaceHi
            hit.v * glm::dvec3(column[first + 2]);
 }
 
-/// Finds triangles with a tree of their bounding balls. Coordinates are relative to the origin passed to
-/// build().
+/// Intersects rays with triangles, by a tree of their bounding balls. Coordinates are relative to the origin
+/// passed to build().
 class TriangleScene
 {
 public:
@@ -57,8 +57,8 @@ public:
     bool empty() const { return tree_.count() == 0; }
     const BallTree& tree() const { return tree_; }
 
-    /// The nearest intersection after the parameter `begin` with the triangles whose balls are in `hits`.
-    /// Triangles are two-sided.
+    /// The nearest intersection after the ray parameter `begin` with those triangles whose balls are in
+    /// `hits`. Triangles are two-sided.
     SurfaceHit nearest(const TraceRay& ray, const RayHits& hits, double begin) const;
     /// The nearest intersection of a ray with all triangles.
     /// @param scratch memory that is overwritten, and kept from call to call

@@ -86,7 +86,7 @@ HWY_INLINE Balls loadBalls(const double* x, const double* y, const double* z, co
     return {hn::LoadU(tag, x), hn::LoadU(tag, y), hn::LoadU(tag, z), hn::LoadU(tag, radius)};
 }
 
-/// The same ray in every lane.
+/// One ray, copied to every lane.
 struct RayLanes
 {
     HWY_INLINE explicit RayLanes(const TraceRay& ray)
@@ -169,8 +169,8 @@ inline void cutHits(double begin, double end, RayHits& io)
     io.setSize(kept);
 }
 
-/// Computes entry points of hits, and removes hits that lie completely before `begin` or after `end`. Square
-/// roots dominate the cost; they are computed for hits only.
+/// Computes the entry points of hits, and removes hits that lie completely before `begin` or after `end`.
+/// Square roots dominate the cost; they are computed for hits only.
 HWY_INLINE void finishHits(double begin, double end, RayHits& io)
 {
     const DoubleTag tag;

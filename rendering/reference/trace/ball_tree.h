@@ -50,8 +50,9 @@ public:
         float extent[3][kWidth]; ///< [m] half of the box's side; a large negative value for missing children
     };
 
-    /// @param origin [m] origin of rays and results, preferably the eye, so that the picture does not depend
-    ///         on the position of the scene in the world
+    /// Builds the tree.
+    /// @param origin [m] origin of rays and results. It should be the eye, so that the picture does not
+    ///         depend on the position of the scene in the world
     void build(std::span<const TraceBall> balls, const glm::dvec3& origin, base::TaskRunner& tasks);
 
     uint32_t count() const { return count_; }

@@ -14,7 +14,7 @@ namespace fx::render {
 struct TraceRay
 {
     glm::dvec3 origin;    ///< [m]
-    glm::dvec3 direction; ///< unit
+    glm::dvec3 direction; ///< unit vector
 };
 
 /// A rectangle of pixels, or of positions in the picture: pixel (i, j) covers [i, i + 1) x [j, j + 1).
@@ -44,7 +44,7 @@ struct TileFrustum
 {
     struct Plane
     {
-        glm::dvec3 normal{0.0}; ///< unit, inwards
+        glm::dvec3 normal{0.0}; ///< unit vector that points inwards
         double offset = 0.0;    ///< [m]
     };
     static constexpr uint32_t kPlanes = 6;

@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-/// The pixels [x0, x1) x [y0, y1).
+/// A block of pixels: [x0, x1) x [y0, y1).
 struct PixelBlock
 {
     int x0, y0, x1, y1;

@@ -42,7 +42,7 @@ private:
     GlDevice& device_;
     FrameBuilder builder_;
     BlobSource blobs_;
-    BlobSource takenBlobs_; ///< blobs of impostors that are rendered in this frame
+    BlobSource takenBlobs_; ///< source of the blobs of those impostors that are rendered in this frame
     DrawBatch takenBatch_;
     ImpostorSource impostors_;
     GlBuffer blobBuffer_;  ///< buffer of blobs; persistent, so that the next frame can reuse its content
@@ -52,7 +52,7 @@ private:
     bool isKept_ = false;          ///< true: lists and buffers are those of the last frame
     uint32_t blobsUnused_ = 0;     ///< consecutive frames without blobs
     uint32_t impostorsUnused_ = 0; ///< consecutive frames without impostors
-    uint32_t restingFrames_ = 0;   ///< consecutive frames at rest
+    uint32_t restingFrames_ = 0;   ///< number of consecutive calls of rest()
     ResourceId overdraw_;          ///< output of OverdrawPass; invalid: fragments are not counted
     int layerWidth_ = 0, layerHeight_ = 0;
 };

@@ -51,7 +51,7 @@ private:
     std::pmr::vector<ParticleBatch> batches_;
     BatchSource source_;
     bool isKept_ = false;
-    bool isMerged_ = true; ///< small groups are merged
+    bool isMerged_ = true; ///< true: small groups are merged
 };
 
 } // namespace fx::render
