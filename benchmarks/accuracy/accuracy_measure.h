@@ -27,7 +27,8 @@ struct MeasureRules
 {
     AccuracyScale scale;
     uint32_t repetitions = 7;
-    bool useCallgrind = false; ///< count instructions with callgrind if the system cannot count them
+    /// true: instructions are counted with callgrind if the system cannot count them
+    bool useCallgrind = false;
     std::function<bool()> stop;
     std::function<void(uint64_t done, uint64_t all)> progress;
 };

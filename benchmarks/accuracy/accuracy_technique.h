@@ -103,9 +103,9 @@ struct AccuracyTechniqueEntry
     ShownError shown;
     std::vector<std::string> scenes;
     size_t usualScenes; ///< if no scene is named, the first `usualScenes` elements of `scenes` run
-    bool isScalable;    ///< the technique uses the members `particles` and `threads` of AccuracyScale
+    bool isScalable;    ///< true: the technique uses the members `particles` and `threads` of AccuracyScale
     std::unique_ptr<AccuracyTechnique> (*make)(const std::string& scene, const AccuracyScale& scale);
-    bool hasFrames = false; ///< the technique uses --frames; it takes long, so "all" excludes it
+    bool hasFrames = false; ///< true: the technique uses --frames. It takes long, so "all" excludes it
 };
 
 /// All techniques, in the order of techniques/CMakeLists.txt.

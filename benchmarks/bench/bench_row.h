@@ -22,8 +22,8 @@ struct BenchSettings
     uint32_t threads = 1; ///< number of threads; 0: as many as the machine supports
     uint32_t steps = 0;   ///< number of timed steps; 0: enough for about a second
     std::string variant;  ///< name of the variant to measure; empty: all variants of the entry
-    bool gpu = false;     ///< particles are computed on the GPU if possible
-    bool gl = false;      ///< a view draws each frame as well
+    bool gpu = false;     ///< true: particles are computed on the GPU if possible
+    bool gl = false;      ///< true: a view draws each frame as well
 };
 
 /// One measurement.
@@ -49,9 +49,9 @@ struct BenchEntry
     std::string_view name;
     std::string_view summary;
     std::span<const std::string_view> variants;
-    bool hasThreads; ///< uses BenchSettings::threads
-    bool hasGpu;     ///< uses BenchSettings::gpu
-    bool hasGl;      ///< uses BenchSettings::gl
+    bool hasThreads; ///< true: the measurement uses BenchSettings::threads
+    bool hasGpu;     ///< true: the measurement uses BenchSettings::gpu
+    bool hasGl;      ///< true: the measurement uses BenchSettings::gl
     uint64_t usualCount;
     uint64_t mostCount;
     std::string_view elements; ///< name of the counted elements in error messages

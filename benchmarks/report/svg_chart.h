@@ -15,8 +15,8 @@ struct LogAxis
 {
     double low = std::numeric_limits<double>::infinity();
     double high = 0;
-    double from = 0; ///< [pixel] of low
-    double to = 1;   ///< [pixel] of high
+    double from = 0; ///< [pixel] position of `low`
+    double to = 1;   ///< [pixel] position of `high`
 
     void include(double value);
     void widen(double below, double above);

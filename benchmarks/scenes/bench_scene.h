@@ -49,7 +49,7 @@ public:
     void clear();                 ///< clears the picture to black before draw()
     void clearPicture();          ///< clears the picture to a uniform gray
     std::vector<float> picture(); ///< RGBA, row by row; empty without GL
-    uint64_t bytesInUse() const;  ///< [byte] of the context
+    uint64_t bytesInUse() const;  ///< [byte] memory that the context uses
     FxFrameStats frameStats() const;
     void remove(size_t index); ///< @param index in instances()
 

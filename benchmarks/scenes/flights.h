@@ -33,9 +33,9 @@ struct FlightName
     FlightSubject subject;
     uint32_t frames; ///< number of frames of the whole flight
 
-    /// A control of a few large balls, in which a change of order is visible: if they are blended in sorted
-    /// order, they violate the bound. In effects of hundreds of balls, the motion of the media hides such
-    /// changes.
+    /// Whether the flight has a control of a few large balls, in which a change of order is visible: if they
+    /// are blended in sorted order, they violate the bound. In effects of hundreds of balls, the motion of
+    /// the media hides such changes.
     bool hasControl = false;
 };
 

@@ -53,7 +53,7 @@ std::vector<render::MediumBlob> blobsOf(const BallOfMedia& ball);
 struct LitSize
 {
     int width = 96, height = 96; ///< [pixel]
-    uint32_t paths = 64;         ///< per pixel
+    uint32_t paths = 64;         ///< number of paths per pixel
     int rays = 1;                ///< the ray integral takes the mean of rays x rays rays per pixel
     int skyRings = 3;            ///< the ray integral uses 4 skyRings^2 directions of the sky
 };

@@ -65,7 +65,7 @@ private:
 /// Parameters of a network around a cloud.
 struct CloudNetwork
 {
-    int cells = 32; ///< along an axis
+    int cells = 32; ///< number of cells along an axis
     render::NetworkSettings settings;
     double albedo = 0.9; ///< [1]
 };

@@ -16,7 +16,7 @@ namespace fx::cli {
 
 struct StabilityAxis
 {
-    std::string name; ///< with unit, lower case
+    std::string name; ///< name of the parameter with its unit, lower case
     std::vector<double> values;
 };
 
@@ -42,7 +42,7 @@ StabilitySweep controlOf(const StabilitySweep& sweep, std::string name,
 
 struct StabilityRow
 {
-    std::string_view id; ///< as in docs/stability.md
+    std::string_view id; ///< identifier of the row, as in docs/stability.md
     std::string_view says;
     std::string_view reference; ///< reference of the errors
     std::vector<StabilitySweep> (*sweeps)(bool isQuick);

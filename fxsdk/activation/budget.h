@@ -26,7 +26,7 @@ struct Candidate
     uint64_t particles = 0;
     uint64_t bytes = 0; ///< [byte]
     uint32_t key = 0;
-    bool runs = false;    ///< is simulated now
+    bool runs = false;    ///< whether the instance is simulated now
     bool must = false;    ///< true: the instance is simulated in any case
     bool granted = false; ///< result: whether the instance is simulated
 };

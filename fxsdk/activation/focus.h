@@ -36,10 +36,10 @@ class Frustum
 public:
     struct Limits
     {
-        double maxDistance = std::numeric_limits<double>::infinity(); ///< [m] from the eye
+        double maxDistance = std::numeric_limits<double>::infinity(); ///< [m] largest distance from the eye
         double margin = 0;    ///< [m] distance by which the frustum is widened
         double minPixels = 0; ///< [pixel] smallest radius on the picture; smaller instances are out of sight
-        double height = 1080; ///< [pixel] of the picture
+        double height = 1080; ///< [pixel] height of the picture
     };
     /// Creates the frustum of a camera with a projection that is not degenerate.
     /// @param origin [m] world position that the matrices are relative to

@@ -83,8 +83,8 @@ public:
     bool isClosed() const { return closed_.load(std::memory_order_relaxed); }
 
 private:
-    std::atomic<bool> busy_{false};   ///< written by the owning thread only
-    std::atomic<bool> closed_{false}; ///< likewise
+    std::atomic<bool> busy_{false};   ///< whether a call is in progress; written by the owning thread only
+    std::atomic<bool> closed_{false}; ///< whether the object is closed; written by the owning thread only
 };
 
 /// Guards an object that many threads use one after another and that callbacks must not re-enter.

@@ -54,7 +54,7 @@ public:
         renamings_.push_back({std::move(now), std::move(before)});
     }
 
-    bool full() const { return list_.size() >= kLimit; } ///< further findings are dropped
+    bool full() const { return list_.size() >= kLimit; } ///< whether further findings are dropped
     bool hasErrors() const { return firstCode_ != base::Code::Ok; }
     base::Code firstCode() const { return firstCode_; } ///< code of the first error; Ok without errors
     size_t size() const { return list_.size(); }

@@ -16,7 +16,7 @@ namespace fx::preset {
 /// Limits of a JSON document. They are checked before or while the document is parsed.
 struct JsonLimits
 {
-    uint64_t bytes;         ///< [byte] of text
+    uint64_t bytes;         ///< [byte] maximum length of the text
     size_t depth;           ///< maximum nesting of arrays and objects
     size_t nodes;           ///< maximum number of values
     size_t tokenBytes;      ///< [byte] maximum length of a string or number

@@ -39,7 +39,8 @@ public:
 
     struct Frame
     {
-        double budget = 0;    ///< [ms] > 0
+        /// true: the frame is not typical, because the host loads or catches up, and quality does not change
+        double budget = 0;
         double deltaTime = 0; ///< [s] since the last call, >= 0
         /// The frame is not typical, because the host loads or catches up: quality does not change.
         bool hold = false;

@@ -42,8 +42,9 @@ struct SceneOptions
     /// time out of sight after which memory is released
     base::Ticks releaseAfter = 5 * base::kTicksPerSecond;
     base::Ticks maxCatchUp = 30 * base::kTicksPerSecond; ///< longest absence that is replayed
-    uint64_t catchUpSteps = 200'000;          ///< particle steps that one update may spend on replays
-    uint64_t workBudget = base::kNoWorkLimit; ///< [unit] of base::WorkBudget that one update may spend
+    uint64_t catchUpSteps = 200'000; ///< particle steps that one update may spend on replays
+    /// [unit of base::WorkBudget] largest amount of work of one update
+    uint64_t workBudget = base::kNoWorkLimit;
 };
 
 /// Lifecycle state of an instance. An update does not visit dormant, hidden, resting and finished instances.
@@ -278,7 +279,9 @@ private:
         sim::CatchUp policy = sim::CatchUp::Replay;
         activation::SphereHierarchy::Leaf leaf = activation::SphereHierarchy::kNone;
         bool hasAlarm = false;
-        bool wasResting = false; ///< whether it was resting when it began to wake
+        /// true: the instance is waking, and its replay exceeded the work of the update in which it began to
+        /// wake
+        bool wasResting = false;
         /// waking, and its replay exceeded the work of the update in which it began to wake
         bool isLate = false;
         uint32_t lastParticles = 0; ///< number of particles when it was hidden
@@ -403,9 +406,9 @@ private:
     uint64_t shownWork_ = 0;
     base::Ticks published_ = 0;       ///< scene time of the last publication
     std::pmr::vector<LocalId> moved_; ///< instances with InstanceSetup::cameFrom, and possibly others
-    bool visibilityStale_ = false;    ///< an instance or a camera has moved
+    bool visibilityStale_ = false;    ///< true: an instance or a camera has moved since visibility was tested
     bool memoryFailed_ = false;
-    bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
+    bool sought_ = false; ///< true: seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;
     /// Number of empty publications after which a further one has no effect.
     static constexpr uint32_t kMaxEmptyPublications = 2;
@@ -422,7 +425,8 @@ private:
     /// guards the publication and the members below, so that acquire() reads consistent values
     std::mutex presentation_;
     std::atomic<double> interpolation_{0}; ///< changed without the mutex while nothing is visible
-    std::atomic<double> shownTime_{0};     ///< likewise
+    /// [s] scene time of the picture; changed without the mutex while nothing is visible
+    std::atomic<double> shownTime_{0};
     std::atomic<bool> showsNothing_{false};
     sim::HintCounts preferring_; ///< numbers of instances by drawing hint, without instances that have ended
     std::atomic<sim::DrawingHints> hints_{sim::DrawingHints()};

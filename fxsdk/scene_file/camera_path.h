@@ -27,8 +27,8 @@ struct CameraPose
 /// still.
 struct CameraPath
 {
-    glm::dvec3 position{0, 2, 12}; ///< [m] without keys
-    glm::dvec3 target{0, 2, 0};    ///< [m] without keys
+    glm::dvec3 position{0, 2, 12}; ///< [m] position of a camera without keys
+    glm::dvec3 target{0, 2, 0};    ///< [m] target of a camera without keys
     glm::vec3 up{0, 1, 0};
     float fovYDegrees = 50;       ///< [degree] vertical field of view, used when orthographicHeight is 0
     float orthographicHeight = 0; ///< [m] height of the picture of an orthographic camera; 0: perspective

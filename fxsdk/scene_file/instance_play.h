@@ -46,8 +46,8 @@ struct TimeJump
 struct InstancePlay
 {
     std::vector<InstanceKey> keys;
-    bool moves = false;               ///< keys have positions
-    bool turns = false;               ///< keys have rotations
+    bool moves = false;               ///< true: the keys have positions
+    bool turns = false;               ///< true: the keys have rotations
     std::vector<TimedValue> speed;    ///< [1] speed of the local time; 1 before the first value
     std::vector<TimedValue> emitting; ///< 1: births, 0: no births; 1 before the first value
     std::vector<Trigger> triggers;

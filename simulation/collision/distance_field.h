@@ -95,7 +95,8 @@ public:
 
     const glm::dvec3& origin() const { return origin_; } ///< [m] world
     const DistanceGrid& grid() const { return grid_; }
-    std::span<const float> values() const { return {values_.data(), grid_.count()}; } ///< [m] at the nodes
+    /// [m] signed distances at the nodes
+    std::span<const float> values() const { return {values_.data(), grid_.count()}; }
     float cell() const { return grid_.cell; }
     /// Hash of nodes and distances, on which simulation steps depend. Never 0.
     uint64_t hash() const { return hash_; }

@@ -48,7 +48,7 @@ public:
         double distance;   ///< [m]
         uint32_t triangle; ///< position in the tree; kNone when no triangle is nearer than the limit
         Feature feature;
-        glm::dvec3 point; ///< [m] of the triangle
+        glm::dvec3 point; ///< [m] nearest point of the triangle
     };
     static constexpr uint32_t kNone = ~0u;
 

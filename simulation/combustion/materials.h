@@ -21,7 +21,7 @@ struct JwlConstants
     double omega = 0;
     double energy = 0;  ///< [J/m3] energy per volume of the unreacted material
     double density = 0; ///< [kg/m3] density of the unreacted material
-    double speed = 0;   ///< [m/s] of the detonation
+    double speed = 0;   ///< [m/s] speed of the detonation
 };
 
 /// Extinction by one kind of particles, per kilogram of particles.

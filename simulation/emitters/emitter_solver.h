@@ -146,7 +146,7 @@ public:
     static uint64_t bytesOf(const EmitterDef& def, const ParticleProgram& program);
 
 private:
-    /// [unit] of base::WorkBudget for a step that is not divided.
+    /// [unit of base::WorkBudget] Work of a step that is not divided.
     uint64_t workOf(const StepCounters& done) const
     {
         return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
@@ -234,7 +234,7 @@ private:
         glm::vec3 position{0.0f}; ///< [m] added to the position that the birth shape gives
         glm::vec3 velocity{0.0f}; ///< [m/s] velocity of the origin
         glm::vec3 tint{1.0f};     ///< [1] factor on the color
-        bool fed = false;         ///< the birth was caused by an event of a particle
+        bool fed = false;         ///< true: an event of a particle caused the birth
         bool byClock = true;
     };
     // for particles that stay in world space
@@ -338,7 +338,7 @@ private:
     bool isDivided_;            ///< whether steps are divided, see proceed()
     uint64_t refusedInRow_ = 0; ///< number of consecutive births whose row was occupied
     base::Ticks fullUntil_ = 0; ///< local time up to which all rows are certainly occupied
-    double stepWork_;           ///< [unit] of base::WorkBudget, of a particle in a sub-step
+    double stepWork_;           ///< [unit of base::WorkBudget] work of a particle in a sub-step
 };
 
 } // namespace fx::sim

@@ -52,7 +52,7 @@
 
 namespace fx::sim {
 
-constexpr float kAirDensity = 1.204f; ///< [kg/m3] at 20 degrees C
+constexpr float kAirDensity = 1.204f; ///< [kg/m3] density of air at 20 degrees C
 
 /// [1/m] b of (1).
 float dragPerMeter(const FragmentMatter& matter, float size);

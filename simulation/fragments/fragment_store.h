@@ -33,7 +33,7 @@ enum : size_t
 /// The fragments of one instance. Rows are in the order of fragment numbers.
 struct FragmentStore
 {
-    /// [byte] of a row.
+    /// [byte] Memory of a row.
     static constexpr uint64_t kRowBytes =
         2 * sizeof(uint32_t) + sizeof(base::Ticks) + fragment_column::Count * sizeof(float);
 

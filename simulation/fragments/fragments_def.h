@@ -79,7 +79,7 @@ struct FragmentsDef final : SolverDef
     uint32_t count = 100;      ///< 1 .. 8192
     float start = 0.0f;        ///< [s]
     glm::vec3 position{0.0f};  ///< [m] center of the ball in which the fragments start
-    float originRadius = 0.2f; ///< [m] of that ball
+    float originRadius = 0.2f; ///< [m] radius of the ball in which the fragments start
     FragmentShape shape = FragmentShape::Sphere;
     float angle = 0.5235988f;        ///< [rad] half angle of the cone
     base::Range speed{10.0f, 30.0f}; ///< [m/s]
@@ -90,7 +90,7 @@ struct FragmentsDef final : SolverDef
     /// [1] for the power law: the number of fragments larger than d is proportional to d^-exponent; > 0
     float exponent = 2.5f;
 
-    base::Range temperature{1300.0f, 1700.0f}; ///< [K] at the start
+    base::Range temperature{1300.0f, 1700.0f}; ///< [K] temperature of fragments at the start
     base::Range lifetime{6.0f, 9.0f};          ///< [s] time after which the fragment is removed
     FragmentMatter matter;
     TrailDef trail;

@@ -62,7 +62,7 @@ struct AppearanceColumns
     float* frame;
     float* orientation[4];
     uint64_t* index;
-    bool stream; ///< use non-temporal stores
+    bool stream; ///< true: columns are written with non-temporal stores
 };
 
 /// Box of the centers, and the largest half height of a drawn particle.

@@ -68,7 +68,7 @@ struct ParticleEvent
     /// For EventKind::Age: index among the ages of the emitter. For Collision: see TileContact.
     uint32_t number = 0;
     float speed = 0.0f;  ///< [m/s] for EventKind::Collision: see TileContact
-    bool isLast = false; ///< with Collision: see TileContact
+    bool isLast = false; ///< for EventKind::Collision: see TileContact
 };
 
 /// The order (3).

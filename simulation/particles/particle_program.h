@@ -27,10 +27,10 @@ enum : size_t
     VelocityY,
     VelocityZ,
     PerLife,    ///< [1/s] reciprocal of the lifetime
-    Radius,     ///< [m] at birth
+    Radius,     ///< [m] radius at birth
     Amount,     ///< [m2] cross section of a medium at birth, or [1] opacity at birth
     Excess,     ///< [K] temperature above that of the air, at birth
-    Angle,      ///< [rad] at birth
+    Angle,      ///< [rad] angle of rotation at birth
     Spin,       ///< [rad/s]
     Frame,      ///< [1] frame of the flipbook texture at birth
     Brightness, ///< [1]

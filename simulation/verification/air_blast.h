@@ -29,7 +29,7 @@
 namespace fx::sim {
 
 constexpr double kAirPressure = 101325;  ///< [Pa]
-constexpr double kAirDensity = 1.225;    ///< [kg/m3] at 15 degrees
+constexpr double kAirDensity = 1.225;    ///< [kg/m3] density of air at 15 degrees C
 constexpr double kEnergyOfTnt = 4.184e6; ///< [J/kg] by definition
 
 double kinneyGrahamOverpressure(double scaledDistance);   ///< [Pa]

@@ -40,7 +40,7 @@ struct SimulationConditions
     /// [m/s] the host's wind in world space, if the effect depends on the placement
     glm::vec3 worldWind{0.0f};
 
-    /// Compares bit for bit.
+    /// Whether all members are equal, bit for bit.
     bool equals(const SimulationConditions& other) const;
     uint64_t hash() const;
 };
@@ -111,8 +111,8 @@ struct SharedSimulation
     bool arriving = false;      ///< true: a prewarm or seek from `reached` to `target` is in progress
     uint32_t stepped = 0;       ///< number of solvers that have finished the open sub-step
     base::Ticks part = 0;       ///< number of complete sub-steps of the step
-    base::Ticks stepTick = 0;   ///< [tick] of the scene at which the step begins
-    base::Ticks stepLength = 0; ///< [tick] of the scene
+    base::Ticks stepTick = 0;   ///< [tick] scene time at which the step begins
+    base::Ticks stepLength = 0; ///< [tick] length of the step in scene time
     base::Ticks reached = 0;    ///< [tick] local
     base::Ticks target = 0;     ///< [tick] local
     /// events of a sub-step; exists while the simulation catches up separately

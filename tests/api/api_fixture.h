@@ -78,7 +78,7 @@ protected:
     std::vector<std::byte> savedState() const;
     FxResult restore(const std::vector<std::byte>& state) const;
     void play(int frames) const;
-    uint64_t bytesInUse() const; ///< [byte] of the context
+    uint64_t bytesInUse() const; ///< [byte] memory that the context uses
 
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;

@@ -123,7 +123,7 @@ private:
     InputReader recording_; ///< calls to come
     InputReader input_;     ///< arguments of this call
     std::array<PlayedContext, 3> contexts_;
-    int depth_ = 0;          ///< of calls within callbacks
+    int depth_ = 0;          ///< depth of nested calls within callbacks
     uint32_t calls_ = 0;     ///< made so far
     uint32_t intruders_ = 0; ///< number of callbacks that may still make a call
 };

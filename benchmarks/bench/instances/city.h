@@ -15,8 +15,8 @@ struct BenchCityOptions
     uint32_t frames = 240;
     /// [degree] rotation of the camera per frame; above 0: update times during the rotation are measured
     double turn = 0;
-    bool gl = false;    ///< draw each frame as well
-    bool check = false; ///< compare with a city without culling, instead of measuring time
+    bool gl = false;    ///< true: each frame is drawn as well
+    bool check = false; ///< true: results are compared with a city without culling, instead of measuring time
     bool json = false;
 };
 

@@ -13,7 +13,7 @@ struct Check
     std::string name;
     bool ok = true;
     bool required = false; ///< true if fx render cannot work without it
-    std::string detail;    ///< what was found
+    std::string detail;    ///< description of the result
     std::string remedy;    ///< advice for the user, printed if `ok` is false
 };
 

@@ -47,7 +47,7 @@ struct MeshSampler
 
 struct VolumeSampler
 {
-    glm::vec3 low{0.0f};  ///< [m] the first node
+    glm::vec3 low{0.0f};  ///< [m] position of the first node
     glm::vec3 cell{1.0f}; ///< [m]
     /// [1] positions of the nodes with a density above 0, in cells from the first node
     std::vector<glm::vec3> nodes;

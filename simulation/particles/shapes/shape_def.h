@@ -29,7 +29,7 @@ enum class ShapeKind : uint8_t
     /// births in the tube of radius `tube` around the circle of radius size.x, or on its surface; direction
     /// outwards
     Torus,
-    Mesh,   ///< on the triangles; direction along their normals
+    Mesh,   ///< births on the triangles of the mesh; direction along their normals
     Spline, ///< births on the curve; direction along its tangent
     Volume, ///< births distributed by the density of the grid; direction along the axis
 };

@@ -67,7 +67,7 @@ struct DynamicsState
     GasDynamicsDef def;
     DensityRules densityRules;
     ForceRules forceRules;
-    double pressureScale = 1; ///< [1] of GasDynamics::setPressureScale
+    double pressureScale = 1; ///< [1] factor of GasDynamics::setPressureScale()
     double soundScale = 1;    ///< [1] its square root
 
     uint32_t count = 0;
@@ -98,7 +98,7 @@ struct DynamicsState
     uint32_t round = 0;                 ///< number of the last prediction
     bool recordsAreComplete = false;    ///< true: the last prediction has written all records
 
-    uint64_t now = 0;              ///< [tick] of the frame
+    uint64_t now = 0;              ///< [tick] present time within the frame
     double tick = 0;               ///< [s] length of a tick
     base::Column<uint32_t> active; ///< slots of the particles whose step ends now (active slots), ascending
     uint32_t activeCount = 0;

@@ -53,7 +53,7 @@ struct ViscosityRules
     double decay = 0.005;       ///< [1] decay rate of alpha in units of the speed of sound c over h = H / 2
     double beta = 2;            ///< [1]
     double conductivity = 0.08; ///< [1]
-    bool limiter = true;        ///< Balsara
+    bool limiter = true;        ///< true: the Balsara limiter reduces the viscosity in shear flows
 };
 
 struct GasDynamicsDef

@@ -120,7 +120,7 @@ public:
         : setup_(setup), image_(image), query_(query), out_(out)
     {}
 
-    /// Adjacent runs are merged.
+    /// Adds a run of slots. Adjacent runs are merged.
     bool operator()(uint32_t begin, uint32_t end)
     {
         if (begin == end_) {

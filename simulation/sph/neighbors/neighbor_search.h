@@ -26,7 +26,8 @@ struct SeenImage
     uint32_t bits = 0; ///< mirror bits of the entries of this image, kMirrorX << axis for each mirrored axis
 };
 
-constexpr uint32_t kMaxImages = 27; ///< on each of three axes: no mirror, the low wall or the high wall
+/// maximum number of images: on each of three axes no mirror, the low wall or the high wall
+constexpr uint32_t kMaxImages = 27;
 
 /// Inputs of a search.
 template <class T>

@@ -86,7 +86,7 @@ private:
     void measureLoosening();
 
     uint32_t count_ = 0;
-    bool fresh_ = true; ///< sorted, not yet refit
+    bool fresh_ = true; ///< true: the tree was sorted and not yet refitted
     double loosened_ = 0;
     uint32_t levels_ = 0;
     std::array<uint32_t, kMaxTreeLevels> levelFirst_{};

@@ -70,7 +70,7 @@ struct DensityResults
     T* support;          ///< [m] input: initial guess of the support H, > 0; output: H
     T* density;          ///< [kg/m3]
     T* correction;       ///< [1] correction f, in [0.2, 5]; 1 where H is the smallest or largest support
-    T* divergence;       ///< [1/s] of the velocity
+    T* divergence;       ///< [1/s] divergence of the velocity
     T* curl;             ///< [1/s] magnitude of the curl of the velocity
     uint8_t* wantsReach; ///< 1 if H would have to exceed the range of the list, otherwise 0
     /// number of particles within H, including mirror images, without the particle itself

@@ -11,7 +11,7 @@ template <class T>
 struct FlowGradient
 {
     T divergence; ///< [1/s]
-    T curl;       ///< [1/s] magnitude
+    T curl;       ///< [1/s] magnitude of the curl of the velocity
 };
 
 /// Computes divergence and curl from the sums M and G of gas-density.

@@ -31,8 +31,8 @@ public:
 
     T support() const { return support_; }
     bool isDone() const { return done_; }
-    bool isAtTop() const { return atTop_; }       ///< the solution exceeds `top`
-    bool isAtBottom() const { return atBottom_; } ///< the solution is below `bottom`
+    bool isAtTop() const { return atTop_; }       ///< true: the solution exceeds `top`
+    bool isAtBottom() const { return atBottom_; } ///< true: the solution is below `bottom`
 
     /// Passes the sums at support() and computes the next support.
     /// @param mass [kg] S at support()
