@@ -39,10 +39,9 @@ public:
 
     struct Frame
     {
-        /// true: the frame is not typical, because the host loads or catches up, and quality does not change
-        double budget = 0;
+        double budget = 0;    ///< [ms] > 0
         double deltaTime = 0; ///< [s] since the last call, >= 0
-        /// The frame is not typical, because the host loads or catches up: quality does not change.
+        /// true: the frame is not typical, because the host loads or catches up, and quality does not change
         bool hold = false;
         std::span<const double> weights; ///< [1] >= 0, weight of the error of each technique
     };

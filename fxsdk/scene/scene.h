@@ -279,10 +279,9 @@ private:
         sim::CatchUp policy = sim::CatchUp::Replay;
         activation::SphereHierarchy::Leaf leaf = activation::SphereHierarchy::kNone;
         bool hasAlarm = false;
+        bool wasResting = false; ///< whether it was resting when it began to wake
         /// true: the instance is waking, and its replay exceeded the work of the update in which it began to
         /// wake
-        bool wasResting = false;
-        /// waking, and its replay exceeded the work of the update in which it began to wake
         bool isLate = false;
         uint32_t lastParticles = 0; ///< number of particles when it was hidden
         ActivationHints hints;
