@@ -1,6 +1,6 @@
 /// @file geometry.h
-/// Boxes and placements. World positions are double. Positions of particles are float, relative to the
-/// position of their instance.
+/// Boxes and placements. World positions have double precision. Positions of particles have single precision
+/// and are relative to the position of their instance.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>

@@ -1,5 +1,5 @@
 /// @file host_memory.h
-/// Memory from the host's allocator, in the shape of a std::pmr resource, with counters.
+/// A std::pmr memory resource that gets memory from the host's allocator and counts it.
 #pragma once
 
 #include <atomic>

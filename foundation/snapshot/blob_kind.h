@@ -12,7 +12,7 @@
 
 namespace fx::base {
 
-/// Columns of the kind, in order.
+/// Indices of the columns of the kind.
 namespace blob_column {
 enum : size_t
 {
@@ -38,7 +38,7 @@ enum : size_t
 };
 }
 
-/// Constants of a group, in order.
+/// Indices of the constants of a group.
 namespace blob_constant {
 enum : size_t
 {

@@ -38,7 +38,7 @@ inline GroupName nameOf(const GroupInfo& info)
     return {info.instance, info.solver, info.kind};
 }
 
-/// All groups after the step that ended at `tick`.
+/// All groups of a scene at the end of the step that ended at `tick`.
 class FrameSnapshot
 {
 public:

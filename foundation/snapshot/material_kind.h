@@ -17,7 +17,7 @@
 
 namespace fx::base {
 
-/// Columns of the kind, in order.
+/// Indices of the columns of the kind.
 namespace material_column {
 enum : size_t
 {
@@ -31,7 +31,7 @@ enum : size_t
 };
 }
 
-/// Constants of a group, in order.
+/// Indices of the constants of a group.
 namespace material_constant {
 enum : size_t
 {

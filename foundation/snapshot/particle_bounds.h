@@ -1,6 +1,6 @@
 /// @file particle_bounds.h
-/// Bounds of a group of particles or ribbons, computed from its state. All drawn geometry of the group lies
-/// inside.
+/// Computes the bounds of a group of particles or ribbons from its state. All drawn geometry of the group
+/// lies inside.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"

@@ -16,7 +16,7 @@
 
 namespace fx::base {
 
-/// Columns of the kind "particle", in order. Those after Color exist only where an emitter needs them.
+/// Indices of the columns of the kind "particle". Columns after Color exist only for emitters that need them.
 namespace particle_column {
 enum : size_t
 {
@@ -48,7 +48,8 @@ constexpr uint64_t kOrientation = uint64_t(15) << OrientationX;
 constexpr uint64_t kIndex = uint64_t(1) << Index;
 } // namespace particle_column
 
-/// Columns of the kind "ribbon", in order: points along strips, newest first in each strip.
+/// Indices of the columns of the kind "ribbon". Elements are points along strips, the newest first in each
+/// strip.
 namespace ribbon_column {
 enum : size_t
 {
@@ -64,7 +65,7 @@ enum : size_t
 };
 }
 
-/// Columns of the kind "light", in order.
+/// Indices of the columns of the kind "light".
 namespace light_column {
 enum : size_t
 {
@@ -107,13 +108,13 @@ enum class SpriteAlignment : uint32_t
 /// Order in which the rows of a group are drawn.
 enum class ParticleOrder : uint32_t
 {
-    None,     ///< the order of the rows
-    Depth,    ///< from far to near
+    None,     ///< the rows are drawn in the order in which they are stored
+    Depth,    ///< the farthest first
     Oldest,   ///< the oldest first
     Youngest, ///< the youngest first
 };
 
-/// Constants of a group of kinds "particle" and "ribbon", in order.
+/// Indices of the constants of a group of the kind "particle" or "ribbon".
 namespace particle_constant {
 enum : size_t
 {

@@ -43,7 +43,7 @@ public:
                                                      const MediaPass::Outputs& under) = 0;
 };
 
-/// One composition. Has static storage.
+/// Description of one composition. Objects of this type have static storage.
 struct MediaComposition
 {
     Composition value;        ///< the value in ViewSettings

@@ -19,7 +19,7 @@ struct DrawStream
     uint32_t count = 0;
     /// [m] distances of the elements; null: all have `distance`, and the stream is not divided
     const float* distances = nullptr;
-    const uint32_t* order = nullptr; ///< order[i] is the element that is drawn as number i; farthest first
+    const uint32_t* order = nullptr; ///< indices of the elements in the order of drawing, farthest first
     bool isSquared = false;          ///< true: `distances` are squares of distances
     float distance = 0.0f;           ///< [m]
     bool adds = false; ///< true: blending is additive, so that the order among such streams does not matter

@@ -1,6 +1,6 @@
 /// @file incremental_sort.h
-/// Incremental sorting: keeps the sorted part of the last order and merges the moved elements. The loops are
-/// vectorized and compiled for each instruction set.
+/// Sorts incrementally: keeps the sorted part of the last order, and merges the moved elements into it. The
+/// loops are vectorized and compiled for each instruction set.
 #pragma once
 
 #include <cstddef>

@@ -11,6 +11,7 @@ namespace fx::render {
 
 extern const ProgramDesc kFieldSlicesProgram;
 
+/// Adds the change of extinction by the detail of fields to light slices.
 /// reads   fieldTexels    of FieldTexelPass
 ///         table          table of bricks, of FieldFillPass
 ///         change         change of extinction by detail, see FieldTextures

@@ -1,5 +1,5 @@
 /// @file blob_detail.h
-/// The detail of a group of blobs at a moment between two snapshots, relative to the eye.
+/// Computes the detail of a group of blobs at a moment between two snapshots, relative to the eye.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -47,7 +47,7 @@ public:
     /// Offset of a blob's noise coordinates [cell], for each generation.
     /// @param newer, older indices of the blob in the newer and in the older group; `older` is used only if
     ///         hasOlder
-    /// @param position [m] of the blob at the shown time, in the space of the group
+    /// @param position [m] position of the blob at the shown time, in the space of the group
     std::array<glm::vec3, 2> carried(size_t newer, size_t older, bool hasOlder,
                                      const glm::vec3& position) const;
 

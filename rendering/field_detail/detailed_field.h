@@ -1,5 +1,6 @@
 /// @file detailed_field.h
-/// Reference evaluation of the field of a group of balls with its detail, at single points; simple and slow.
+/// Evaluates the field of a group of balls with its detail at single points. It is a simple and slow
+/// reference.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"

@@ -1,5 +1,6 @@
 /// @file fragment_counts.h
-/// Number of fragments of a frame for each size of layers, and the share of the picture that media cover.
+/// Types for the number of fragments of a frame with each size of layers, and for the share of the picture
+/// that media cover.
 #pragma once
 
 #include <array>

@@ -37,7 +37,7 @@ struct CameraView
 /// Model by which the optical depth of a blob along a ray is computed.
 enum class BillboardForm : uint8_t
 {
-    /// a flat card, whose opacity depends only on the distance to the center, as of classical particles.
+    /// a flat card whose opacity depends only on the distance from its center, as for classical particles.
     Planar,
     Constant, ///< a homogeneous ball with the same total extinction; [USS06]
     Kernel,   ///< the quartic kernel of the gas, with its exact integral over the visible part of a ray
@@ -80,7 +80,8 @@ constexpr uint32_t kAll = (1u << kCount) - 1;
 struct Lighting
 {
     glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< unit vector towards the light
-    /// [lx] illuminance of a surface perpendicular to the direction; linear Rec. 709, weighted as a luminance
+    /// [lx] Illuminance of a surface perpendicular to the direction, in channels of linear Rec. 709; (E, E,
+    /// E) is white light of E lx.
     glm::vec3 sunIlluminance{0.0f};
     glm::vec3 skyLuminance{0.0f}; ///< [cd/m2] luminance of the sky, uniform over all directions
     float groundAlbedo = 0.2f;    ///< [1] albedo of the ground, which reflects light from below

@@ -72,9 +72,8 @@ private:
     struct Frame
     {
         std::array<uint32_t, kStamps> queries{};
-        /// Groups[i] is the group of the passes that follow timestamp i.
-        std::array<size_t, kStamps> groups{};
-        std::array<double, kStamps> host{}; ///< [ms]
+        std::array<size_t, kStamps> groups{}; ///< by index of a timestamp: group of the passes that follow it
+        std::array<double, kStamps> host{};   ///< [ms]
         size_t stamps = 0;
         uint64_t tag = 0;
         TimingClock clock = TimingClock::Off;

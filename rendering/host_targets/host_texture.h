@@ -73,6 +73,7 @@ private:
 
 /// Name of the format, such as "GL_RGBA8UI"; the number as text for unknown formats.
 std::string glFormatName(GLenum internalFormat);
-std::string glTargetName(GLenum target); ///< "GL_TEXTURE_2D_MULTISAMPLE"; a number otherwise
+/// Name of the target, such as "GL_TEXTURE_2D_MULTISAMPLE"; the number as text for unknown targets.
+std::string glTargetName(GLenum target);
 
 } // namespace fx::render

@@ -1,5 +1,6 @@
 /// @file level_of_detail.h
-/// Share of the particles of each effect that a view draws, by the size of the effect on the picture.
+/// Computes the share of the particles of each effect that a view draws, from the size of the effect on the
+/// picture.
 ///
 /// Particles are omitted in an order that is fixed for their lifetime, so that they do not flicker. The
 /// remaining particles are enlarged or made more opaque to represent the omitted ones. All changes are

@@ -1,5 +1,5 @@
 /// @file hot_areas.h
-/// Areas of the picture that may contain hot gas, for heat shimmer.
+/// Finds the areas of the picture that may contain hot gas, for heat shimmer.
 #pragma once
 
 #include "rendering/frame/view_block.h"

@@ -1,5 +1,6 @@
 /// @file network_gather.h
-/// Light that a medium scatters and emits to an eye, from the light in the cells of an illumination network.
+/// Computes the light that a medium scatters and emits to an eye, from the light in the cells of an
+/// illumination network.
 #pragma once
 
 #include "rendering/network/network_phase.h"

@@ -132,7 +132,8 @@ public:
     /// Computes the energy of the light after one more sweep. The result of this sweep is not stored.
     NetworkEnergy energy(const NetworkState& state, base::TaskRunner& tasks);
 
-    /// [1] Optical depth, without the forward peak, along a line through the grid. @param length [m]
+    /// [1] Optical depth, without the forward peak, along a line through the grid. @param length [m] length
+    /// of the line
     double opticalDepth(const glm::dvec3& from, const glm::dvec3& direction, double length) const;
 
     const NetworkGrid& grid() const { return grid_; }

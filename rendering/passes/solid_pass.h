@@ -5,8 +5,8 @@
 
 namespace fx::render {
 
-/// Draws opaque particles with depth test before any media. The media pass blends over them, and its rays end
-/// at them. The host's depth is read, not written.
+/// Draws opaque particles, with depth test, before any media are drawn. The media pass blends over them, and
+/// its rays end at them. The host's depth is read, not written.
 ///
 /// reads   distance  [m] along the ray to the host's opaque geometry
 /// writes  under     media or layer targets, as written by MediaPass: exposed radiance with opacity 1, or 0

@@ -175,7 +175,7 @@ struct EffectContent
     bool bendsLight = false;                      ///< true: media of the effect cause heat shimmer
 };
 
-/// One technique. Has static storage.
+/// Description of one technique. Objects of this type have static storage.
 struct DrawTechnique
 {
     std::string_view name;

@@ -22,8 +22,9 @@ struct QualityKnob
         Switch,
     };
 
-    std::string_view name;  ///< name in calibrations
-    std::string_view label; ///< text before a displayed value; for a choice, only the name is displayed
+    std::string_view name; ///< name in calibrations
+    /// Text that is displayed before the value; for a choice, only the name of the value is displayed.
+    std::string_view label;
     Type type;
     /// Names of the values of a choice, cheapest first; empty for other types.
     std::span<const std::string_view> choices;

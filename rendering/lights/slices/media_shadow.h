@@ -1,6 +1,6 @@
 /// @file media_shadow.h
-/// The shadow of media on surfaces that the host draws: the uniforms with which
-/// shaders/shared/media_shadow.glsl samples light slices.
+/// Uniforms for the shadow of media on surfaces that the host draws; shaders/shared/media_shadow.glsl samples
+/// light slices with them.
 #pragma once
 
 #include "rendering/lights/slices/light_list.h"

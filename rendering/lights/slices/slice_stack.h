@@ -93,7 +93,7 @@ bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> c
 
 /// Fits shells around a glowing ball, from the nearest to the farthest caster. The distances of shells are
 /// multiples of a power of 2^(1/4) m.
-/// @param light [m] position of the ball relative to the eye  @param radius [m] of the ball
+/// @param light [m] position of the ball relative to the eye  @param radius [m] radius of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
                     const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack,
                     const SliceFit& fit = {});

@@ -51,7 +51,7 @@ class SunLight final : public PathLight
 public:
     /// @param direction unit vector towards the center of the disc
     /// @param illuminance [lx] illuminance of a surface perpendicular to it
-    /// @param angularRadius [rad] 0..pi/2; 0: parallel light
+    /// @param angularRadius [rad] angular radius of the disc, 0..pi/2; 0: parallel light
     SunLight(const glm::dvec3& direction, const glm::dvec3& illuminance, double angularRadius);
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
 

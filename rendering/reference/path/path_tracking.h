@@ -1,5 +1,6 @@
 /// @file path_tracking.h
-/// Free paths through a medium, the light that the medium emits along them, and transmittances.
+/// Samples free paths through a medium, and computes the light that the medium emits along them and
+/// transmittances.
 #pragma once
 
 #include "rendering/reference/path/path_medium.h"

@@ -1,5 +1,5 @@
 /// @file chord_depth.h
-/// Optical depth of blobs along a ray, computed from the chords in RayHits.
+/// Computes the optical depth of blobs along a ray, from the chords in RayHits.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"

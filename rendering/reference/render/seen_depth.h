@@ -36,7 +36,7 @@ struct MediumDepth
 class SeenDepth
 {
 public:
-    /// Computes a ray.
+    /// Computes distance and optical depth of the medium along a ray.
     /// @param hits blobs of `medium` that the ray meets between its parameters `begin` and `end`
     MediumDepth along(const MediumView& medium, const RayHits& hits, double begin, double end);
 

@@ -1,5 +1,5 @@
 /// @file shadow_ray.h
-/// Attenuation of light on its way to a point, by the medium and the triangles of a scene.
+/// Computes the attenuation of light on its way to a point, by the medium and the triangles of a scene.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"

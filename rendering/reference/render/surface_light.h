@@ -1,5 +1,5 @@
 /// @file surface_light.h
-/// Illuminance of the triangles of a scene, with shadows of media and of other triangles.
+/// Computes the illuminance of the triangles of a scene, with shadows of media and of other triangles.
 #pragma once
 
 #include "rendering/reference/render/scene_lights.h"

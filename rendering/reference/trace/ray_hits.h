@@ -1,5 +1,5 @@
 /// @file ray_hits.h
-/// The balls that one ray meets.
+/// List of the balls that one ray meets.
 #pragma once
 
 #include <cstddef>
