@@ -24,7 +24,8 @@ namespace fx::cli {
 struct AccuracySetting
 {
     std::string name;
-    std::string tier; ///< empty, "low", "default" or "high"
+    /// quality level of the product that uses the setting: "low", "default" or "high"; empty: none
+    std::string tier;
     nlohmann::json parameters = nlohmann::json::object();
 };
 

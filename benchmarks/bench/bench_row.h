@@ -64,8 +64,9 @@ struct BenchEntry
 /// Creates the subcommand that measures `entry`, which must have static storage.
 BenchMeasurement measurementOf(const BenchEntry& entry);
 
-/// @return one row per requested variant; InvalidArgument for more than entry.mostCount elements; otherwise
-///         the first error of a variant, such as Interrupted
+/// Measures the requested variants of an entry.
+/// @return one row per variant; InvalidArgument for more than entry.mostCount elements; otherwise the first
+///         error of a variant, such as Interrupted
 base::Result<std::vector<BenchRow>> measureVariants(const BenchEntry& entry, const BenchSettings& settings);
 
 nlohmann::json toJson(const BenchRow& row);

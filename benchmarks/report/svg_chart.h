@@ -35,7 +35,8 @@ std::string svgFormat(const char* pattern, Numbers... numbers)
     return buffer;
 }
 
-/// @param anchor start, middle or end
+/// Creates a text element.
+/// @param anchor "start", "middle" or "end"
 std::string svgText(double x, double y, const char* anchor, const std::string& text, const char* more = "");
 std::string svgLine(double x1, double y1, double x2, double y2, const char* stroke);
 

@@ -24,7 +24,8 @@ class CardPicture
 public:
     static constexpr float kFarthest = 40.0f; ///< [m] largest distance of a surface
 
-    /// @param width, height [pixel]
+    /// Creates a renderer of pictures.
+    /// @param width, height [pixel] size of pictures
     /// @param field [m] width of the scene in the picture
     static base::Result<std::unique_ptr<CardPicture>> create(int width, int height, float field);
 

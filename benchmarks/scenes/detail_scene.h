@@ -38,7 +38,8 @@ public:
     {
         return create(subject, subject.time);
     }
-    /// @param time [s] first time to be shown
+    /// Creates the scene of a subject at a time.
+    /// @param time [s] time to be shown first
     static base::Result<std::unique_ptr<DetailScene>> create(const DetailSubject& subject, double time);
 
     /// Advances to another time. @param time [s] not before the last one

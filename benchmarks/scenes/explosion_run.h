@@ -33,6 +33,7 @@ struct ExplosionState
 class ExplosionRun
 {
 public:
+    /// Creates a run of the library's explosion.
     /// @param tasks must outlive the run
     /// @return NotFound when the library has no explosion of gas
     static base::Result<std::unique_ptr<ExplosionRun>> create(const ExplosionSetting& setting,

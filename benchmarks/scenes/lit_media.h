@@ -73,6 +73,7 @@ class LitPainter
 public:
     static base::Result<std::unique_ptr<LitPainter>> create(int width, int height);
 
+    /// Draws a picture of blobs.
     /// @param slices settings of light slices
     base::Result<LitPicture> paint(std::span<const render::MediumBlob> blobs, const LitView& view,
                                    const render::SliceSettings& slices);

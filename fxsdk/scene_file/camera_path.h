@@ -41,7 +41,8 @@ struct CameraPath
 
     /// Rotation from world to eye. Use it with an origin at the camera's position.
     glm::mat4 viewRotation(double time) const;
-    /// Infinite far plane for perspective, 10 km for orthographic; OpenGL clip space, z in [-w, w].
+    /// Matrix from eye to clip space, OpenGL convention with z in [-w, w]. The far plane is infinite for
+    /// perspective cameras and at 10 km for orthographic ones.
     glm::mat4 projection(float aspect) const;
 };
 

@@ -16,9 +16,10 @@ namespace fx::scene_file {
 /// Placement of the effect at one time.
 struct InstanceKey
 {
-    double time = 0;               ///< [s] later than that of the previous key
-    glm::dvec3 position{0};        ///< [m] world; used only if InstancePlay::moves
-    glm::dvec3 rotationDegrees{0}; ///< about x, then y, then z; used only if InstancePlay::turns
+    double time = 0;        ///< [s] later than that of the previous key
+    glm::dvec3 position{0}; ///< [m] world; used only if InstancePlay::moves
+    /// [degree] rotation about x, then y, then z; used only if InstancePlay::turns
+    glm::dvec3 rotationDegrees{0};
 };
 
 /// A value that is valid from a time on.
@@ -62,7 +63,7 @@ struct InstancePlay
 /// The last value with a time up to `time`; `before` if there is none.
 double valueAt(const std::vector<TimedValue>& values, double time, double before);
 
-/// Rotation about x, then y, then z.
+/// Converts angles [degree] to a rotation about x, then y, then z.
 glm::quat rotationOf(const glm::dvec3& degrees);
 
 } // namespace fx::scene_file

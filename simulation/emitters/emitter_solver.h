@@ -162,7 +162,7 @@ private:
         Births,
         Young,  ///< moves the new particles
         Move,   ///< moves all particles, without events
-        Answer, ///< events that cause births in other emitters
+        Answer, ///< processes events that cause births in other emitters
         Follow, ///< update of trails
     };
     struct Linked;

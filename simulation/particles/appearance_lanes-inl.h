@@ -315,7 +315,7 @@ HWY_INLINE void AppearanceLanes::writeMore(uint32_t row, Which alive, const Moti
             out_.index[row + i] = job_->store->index[row + i];
 }
 
-/// The rotation by an angle about the particle's axis.
+/// Writes the rotation by an angle about the particle's axis.
 HWY_INLINE void AppearanceLanes::writeOrientation(uint32_t row, Which alive, Floats angle) const
 {
     const SinCosLanes half = sinCosTurns(angle * all(0.0795774715f)); // half of it, in turns

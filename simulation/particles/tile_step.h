@@ -16,8 +16,8 @@ struct PreparedOp
     const void* scratch;
 };
 
-/// Called for each tile after its modules have run and before the tile is stored, and for each contact while
-/// the modules run. Called by several threads at once.
+/// Interface that is called for each tile after its modules have run and before the tile is stored, and for
+/// each contact while the modules run. It is called by several threads at once.
 class TileWatch : public ContactListener
 {
 public:

@@ -14,10 +14,13 @@ struct CaseReport
 {
     CaseMeasures measures;
     uint32_t particles = 0;
-    double seconds = 0;         ///< [s] simulated time
-    double energyStart = 0;     ///< [J]
-    double energyDrift = 0;     ///< [1] (E - E_start) / E_start at the end
-    double momentumDrift = 0;   ///< [1] |P - P_start| / sum m |v|; not measured if there are walls
+    double seconds = 0;     ///< [s] simulated time
+    double energyStart = 0; ///< [J]
+    /// [1] change of the total energy from the start to the end, relative to that at the start
+    double energyDrift = 0;
+    /// [1] magnitude of the change of the total momentum over the sum of mass times speed; not measured if
+    /// there are walls
+    double momentumDrift = 0;
     AdvanceReport work;         ///< total of all steps
     double initialSeconds = 0;  ///< [s] wall time before the first step
     double steppingSeconds = 0; ///< [s] wall time of the steps, without sampling

@@ -14,7 +14,8 @@
 
 namespace fx::test {
 
-/// An allocator that counts, and that can be set to fail. Several threads may call its hooks at once.
+/// An allocator that counts blocks and bytes, and that can be set to fail. Several threads may call its hooks
+/// at once.
 class HostAllocator
 {
 public:

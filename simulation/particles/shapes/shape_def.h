@@ -34,7 +34,7 @@ enum class ShapeKind : uint8_t
     Volume, ///< births distributed by the density of the grid; direction along the axis
 };
 
-/// All lengths are in the instance's local space.
+/// Definition of the shape of births. All lengths are in the instance's local space.
 struct ShapeDef
 {
     ShapeKind kind = ShapeKind::Point;
