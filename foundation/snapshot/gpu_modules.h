@@ -1,6 +1,6 @@
 /// @file gpu_modules.h
 /// Modules of emitters whose motion has no closed form. A compute shader is assembled from the list of
-/// modules; this header also describes the steps that the shader takes.
+/// modules; this header also describes the data of the time steps that the shader computes.
 ///
 /// shaders/gpu_particles/gpu_particle_forces.glsl and gpu_particle_contacts.glsl implement the modules and
 /// describe their numbers.

@@ -1,5 +1,5 @@
 /// @file pooled_groups.h
-/// Many small groups of one kind that are published as one pool of rows, in any order.
+/// Many small groups of one kind that are published as one pool of rows. The rows of a pool are in any order.
 ///
 /// Readers call FrameSnapshot::group() as for any other group: the first call copies each row of each pool to
 /// its group. Views read the rows in the pools, so that nothing is copied.

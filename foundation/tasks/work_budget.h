@@ -2,8 +2,9 @@
 /// Limit of the work of one update. Work is counted, not timed. So the same calls stop at the same point on
 /// every machine and with any number of threads.
 ///
-/// The unit is about 10 ns of one core of 2020: a particle that a force moves costs one or a few units. The
-/// units of each kind of work were fitted with `fx bench work-units`, see docs/howto/bounded-updates.md.
+/// The unit is about 10 ns of one processor core of the year 2020: a particle that a force moves costs one or
+/// a few units. The units of each kind of work were fitted with `fx bench work-units`, see
+/// docs/howto/bounded-updates.md.
 #pragma once
 
 #include <algorithm>

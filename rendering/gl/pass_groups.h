@@ -1,5 +1,5 @@
 /// @file pass_groups.h
-/// Groups of passes whose times are added.
+/// Groups of passes. The times of the passes of a group are added.
 #pragma once
 
 #include <array>

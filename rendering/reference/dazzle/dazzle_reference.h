@@ -1,6 +1,6 @@
 /// @file dazzle_reference.h
-/// The glare computed on the CPU, with 128-bit integers. It equals DazzlePass bit for bit, for every sensor
-/// law. It is the reference of the GPU programs and the implementation without a GPU.
+/// Computes the glare on the CPU, with 128-bit integers. The result equals that of DazzlePass bit for bit,
+/// for every sensor law. It is the reference of the GPU programs and the implementation without a GPU.
 #pragma once
 
 #include "rendering/passes/dazzle_pass.h"

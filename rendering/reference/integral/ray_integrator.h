@@ -1,6 +1,6 @@
 /// @file ray_integrator.h
-/// The light along one ray through overlapping blobs. For many rays, ray_packet.h is faster and gives the
-/// same bits.
+/// Computes the light along one ray through overlapping blobs. For many rays, ray_packet.h is faster and
+/// gives the same bits.
 #pragma once
 
 #include "rendering/reference/integral/integral_scheme.h"

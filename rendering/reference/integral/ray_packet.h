@@ -1,6 +1,6 @@
 /// @file ray_packet.h
-/// The light along 16 neighboring rays at once. With every instruction set, each ray gets the same bits as
-/// from RayIntegrator.
+/// Computes the light along 16 neighboring rays at once. With every instruction set, each ray gets the same
+/// bits as from RayIntegrator.
 ///
 /// Use, for a tile of 4 x 4 pixels: find the blobs that rays of the tile may meet, in the order of their ids.
 /// Then call packet.clear(), meetBlobs() and integrate().

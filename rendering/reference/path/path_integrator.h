@@ -1,5 +1,5 @@
 /// @file path_integrator.h
-/// Light along random paths of any length through media and over surfaces.
+/// Computes the light along random paths of any length through media and over surfaces.
 #pragma once
 
 #include "rendering/reference/path/path_lights.h"

@@ -1,5 +1,6 @@
 /// @file detailed_ray.h
-/// Light and optical depth along a ray through fields with detail, for which there is no closed form.
+/// Computes light and optical depth along a ray through fields with detail, for which there is no closed
+/// form.
 #pragma once
 
 #include "rendering/reference/render/chord_depth.h"

@@ -1,5 +1,5 @@
 /// @file scattered_light.h
-/// Single scattering of the light of a scene in a medium, by shadow rays from points along each ray.
+/// Computes single scattering of the light of a scene in a medium, by shadow rays from points along each ray.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"
