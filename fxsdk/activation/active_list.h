@@ -16,7 +16,8 @@ public:
     explicit ActiveList(std::pmr::memory_resource* memory) : serials_(memory), keys_(memory), slots_(memory)
     {}
 
-    /// Reserves memory, so that insert() does not allocate up to a size of `count`.
+    /// Reserves memory, after which insert() allocates nothing as long as the list has at most `count`
+    /// entries.
     void reserve(size_t count);
     /// Adds an entry.
     /// @param serial order of creation, unique

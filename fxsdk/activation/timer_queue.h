@@ -24,9 +24,10 @@ class TimerQueue
 public:
     explicit TimerQueue(std::pmr::memory_resource* memory) : heap_(memory), slots_(memory) {}
 
-    /// Reserves memory, so that add() of keys up to `key` does not allocate up to a size of `count`.
+    /// Reserves memory, after which add() allocates nothing as long as keys are at most `key` and the queue
+    /// has at most `count` timers.
     void reserve(uint32_t key, size_t count);
-    /// Strong guarantee.
+    /// Adds a timer. Strong exception guarantee.
     void add(const Timer& timer);
     /// Removes a timer. The key must be in the queue. Allocates nothing.
     void remove(uint32_t key);

@@ -26,7 +26,7 @@ struct FxScene
     fx::scene::Scene scene;
     /// quality of instances that are created with FX_QUALITY_DEFAULT
     fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium;
-    uint64_t updateAllocations = 0;                                   ///< during the last update
+    uint64_t updateAllocations = 0; ///< number of allocations during the last update
     std::pmr::vector<fx::activation::Frustum> foci{&context->memory}; ///< scratch of fxScene_SetFocus
     fx::api::HeldSnapshots held;
     std::atomic<uint32_t> views{0}; ///< number of views that show this scene

@@ -50,7 +50,7 @@ struct FxView
     std::pmr::vector<fx::render::OverlayBox> overlay;
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;
-    uint64_t allocations = 0; ///< during the last frame
+    uint64_t allocations = 0; ///< number of allocations during the last frame
     /// True when the last frame drew no element. As long as the scene is empty, the next frame draws none
     /// either.
     bool sleeps = false;

@@ -93,10 +93,10 @@ struct ActivationHints
 /// Counters of the last update; all but the estimate are exact.
 struct UpdateCounters
 {
-    uint32_t judged = 0;   ///< instances and tree nodes that were tested against the frusta
-    uint32_t hidden = 0;   ///< instances that went out of sight
-    uint32_t returned = 0; ///< instances that have reached the present again
-    uint32_t denied = 0;   ///< instances that are now in sight but beyond the budget
+    uint32_t judged = 0;   ///< number of instances and tree nodes that were tested against the frusta
+    uint32_t hidden = 0;   ///< number of instances that went out of sight
+    uint32_t returned = 0; ///< number of instances that have reached the present again
+    uint32_t denied = 0;   ///< number of instances that are now in sight but beyond the budget
     base::Ticks catchUpTicks = 0;
     uint64_t catchUpParticleSteps = 0;
     uint64_t workUnits = 0; ///< [unit of base::WorkBudget] work, including that of catching up
@@ -403,9 +403,10 @@ private:
     uint64_t stepWork_ = 0;        ///< [unit of base::WorkBudget] work spent on the open step
     /// [unit of base::WorkBudget] work spent on the open publication, or else on the last one
     uint64_t shownWork_ = 0;
-    base::Ticks published_ = 0;       ///< scene time of the last publication
-    std::pmr::vector<LocalId> moved_; ///< instances with InstanceSetup::cameFrom, and possibly others
-    bool visibilityStale_ = false;    ///< true: an instance or a camera has moved since visibility was tested
+    base::Ticks published_ = 0; ///< scene time of the last publication
+    /// ids of instances whose InstanceSetup::cameFrom is set; may contain other ids
+    std::pmr::vector<LocalId> moved_;
+    bool visibilityStale_ = false; ///< true: an instance or a camera has moved since visibility was tested
     bool memoryFailed_ = false;
     bool sought_ = false; ///< true: seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;

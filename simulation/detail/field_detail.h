@@ -40,8 +40,8 @@ struct DetailGenerations
     float radiusNow[2] = {1, 1}; ///< [m] present median radius of the balls that radius[] refers to
 };
 
-/// Adds a group of the kind "material" for the group of blobs that was added last, with its constants and
-/// ids. The caller then writes the columns.
+/// Adds a group of the kind "material", which belongs to the group of blobs added last, and writes its
+/// constants and ids. The caller then writes the columns.
 /// @param capacity maximum number of elements of the solver
 base::SnapshotGroup& addMaterial(const FieldDetail& detail, const DetailGenerations& generations,
                                  base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot);

@@ -68,8 +68,8 @@ struct EmitterDef final : SolverDef, EmitterSettings
 
 struct EffectDef;
 
-/// The definitions of an effect's emitters by solver index, null for its other solvers. For code that
-/// inspects emitters; other code uses SolverDef.
+/// Returns the definitions of the emitters of an effect, indexed by solver; null for solvers that are not
+/// emitters. It is for code that inspects emitters; other code uses SolverDef.
 std::vector<const EmitterDef*> emittersOf(const EffectDef& effect);
 
 } // namespace fx::sim

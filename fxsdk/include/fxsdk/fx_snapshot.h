@@ -29,10 +29,10 @@ typedef struct FxSnapshotInfo
     /// Set by the caller.
     uint32_t structSize;
 
-    /// Groups of the newer step.
+    /// Number of groups of the newer step.
     uint32_t groupsNewer;
 
-    /// Groups of the older step; 0 before the second step.
+    /// Number of groups of the older step; 0 before the second step.
     uint32_t groupsOlder;
 
     /// Reserved; 0.
@@ -52,7 +52,7 @@ typedef struct FxSnapshotInfo
 typedef struct FxSnapshotGroup
 {
     uint32_t structSize;   ///< set by the caller
-    uint32_t count;        ///< elements
+    uint32_t count;        ///< number of elements
     const char* kind;      ///< such as "blob"; constant string
     FxInstanceId instance; ///< instance of the particles; may have been destroyed since
     uint32_t solver;       ///< index of the solver in its preset
@@ -73,7 +73,7 @@ typedef struct FxSnapshotColumn
     /// Set by the caller.
     uint32_t structSize;
 
-    /// Elements.
+    /// Number of elements.
     uint32_t count;
 
     /// Name, such as "radius"; constant string.

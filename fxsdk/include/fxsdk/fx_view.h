@@ -283,12 +283,13 @@ typedef struct FxFrameDef
     /// near the camera, single precision suffices far from the origin of the world.
     double origin[3];
 
-    /// World minus origin to eye, column-major; rigid (columns orthonormal within 1e-3); default identity.
+    /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid (columns
+    /// orthonormal within 1e-3); default identity.
     float view[16];
 
-    /// Eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1 and 0) or orthographic
-    /// (0 and 1), infinite far plane, off-center, jitter and mirroring allowed; near maps as in
-    /// depthConvention; required: the default, identity, is refused.
+    /// Matrix from eye to clip coordinates, column-major, right-handed; perspective (elements 11 and 15 are
+    /// -1 and 0) or orthographic (0 and 1). An infinite far plane, off-center projections, jitter and
+    /// mirroring are allowed; near maps as in depthConvention. Required: the default, identity, is refused.
     float projection[16];
 
     /// FX_DEPTH_...; default FX_DEPTH_STANDARD.
@@ -336,8 +337,9 @@ typedef struct FxFrameDef
     /// FX_DEPTH_... of sunShadowTexture; default FX_DEPTH_STANDARD.
     uint32_t sunShadowConvention;
 
-    /// World minus origin to texture coordinates and stored depth, each 0..1, of sunShadowTexture,
-    /// column-major, affine; the matrix includes the bias against self-shadowing; default identity.
+    /// Matrix from world coordinates minus `origin` to texture coordinates and stored depth of
+    /// sunShadowTexture, each 0..1, column-major, affine. It includes the bias against self-shadowing.
+    /// Default identity.
     float sunShadowMatrix[16];
 
     /// [m] 0..100, radius of the soft edge of the sun's shadow on media; default 0.1.

@@ -51,7 +51,7 @@ struct StatePoint
     double energy;        ///< [J/kg] internal energy, including the cold curve
     double thermal;       ///< [J/kg] thermal part of the internal energy
     double sound;         ///< [m/s]
-    double heatToEntropy; ///< increase of the entropy function K per heat per mass
+    double heatToEntropy; ///< factor that converts heat per mass to an increase of the entropy function K
 };
 
 /// The state at density `rho` and entropy function `entropy`.
