@@ -28,7 +28,7 @@ class SingleCaller
 public:
     ThreadOwner thread;
 
-    /// Held while a call is inside the object.
+    /// Marks a call as inside the object, during the lifetime of the scope.
     class Scope
     {
     public:
@@ -114,8 +114,8 @@ public:
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
         const base::Status& status() const { return status_; }
-        /// Called before the object is destroyed. This thread remains inside the object, so that calls from
-        /// callbacks are refused. The scope does not access the object afterwards.
+        /// Releases the lock before the object is destroyed. This thread remains inside the object, so that
+        /// calls from callbacks are refused. The scope does not access the object afterwards.
         void close()
         {
             entered_->mutex_.unlock();

@@ -52,10 +52,11 @@ public:
     TrackedIterator begin() { return {text_.data(), &furthest_}; }
     TrackedIterator end() { return {text_.data() + text_.size(), &furthest_}; }
 
-    /// Must be called first in every event. @return offset at which the token of the event begins
+    /// Finds the token of the present event. Must be called first in every event. @return offset at which the
+    /// token begins
     size_t beginToken();
     void key(const std::string& name);
-    /// Called when a value begins. Counts the value within its array.
+    /// Begins a value and counts it within its array.
     void value();
     void enter(bool isArray);
     void leave();

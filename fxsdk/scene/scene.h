@@ -242,7 +242,8 @@ public:
     uint64_t simulationHash();
     /// Writes the state for restore(). Hidden instances are first caught up.
     void save(sim::StateWriter& writer);
-    /// Finds an effect without instances by its fingerprint; null when it does not exist.
+    /// Function that returns the effect with a fingerprint, for effects that no instance uses; null when it
+    /// does not exist.
     using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
     /// Restores the state, including identities, of a scene with the same step, gravity, ground and geometry,
     /// and publishes it. Strong guarantee.

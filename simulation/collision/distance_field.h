@@ -80,7 +80,7 @@ public:
                                                         std::span<const float> values,
                                                         std::pmr::memory_resource* memory);
 
-    /// For build() and restore() only.
+    /// Creates a field without values, for build() and restore() only.
     DistanceField(const glm::dvec3& origin, const DistanceGrid& grid, std::pmr::memory_resource* memory);
 
     struct Sample

@@ -51,8 +51,8 @@ struct EmitterDef final : SolverDef, EmitterSettings
     bool collides() const override;
     bool dependsOnPlacement() const override { return inWorld; }
     bool followsThermals() const override { return forces.updraft > 0.0f; }
-    /// Analytic when the state is a pure function of time: closed-form motion, no events, no trails, no
-    /// motion of the instance.
+    /// Policy of hidden instances. It is Analytic when the state is a pure function of time: closed-form
+    /// motion, no events, no trails, no motion of the instance; otherwise Replay.
     CatchUp catchUp() const override
     {
         const bool isAlone = !fed && events.empty() && !inWorld && !(trail.lifetime > 0.0f);

@@ -99,8 +99,9 @@ public:
     /// Number of living particles; an upper bound while the GPU computes them.
     uint32_t elementCount() const override;
     bool hasElements() const override;
-    /// Seeks forwards are possible if motion has a closed form. Seeks backwards also require that the host
-    /// has changed no input since local time 0. Without particles and births, every emitter can seek.
+    /// Whether seek() can reach `tick`. Seeks forwards are possible if motion has a closed form. Seeks
+    /// backwards also require that the host has changed no input since local time 0. Without particles and
+    /// births, every emitter can seek.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
     /// End of the time without visible changes: if there are no particles, the time of the next birth. Births

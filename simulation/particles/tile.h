@@ -113,7 +113,7 @@ struct TileContext
     ContactListener* listener = nullptr; ///< receives contacts; null: contacts are not collected
 };
 
-/// When a module runs within the step of a tile.
+/// Phases of the step of a tile, in which modules run.
 enum class TilePhase : uint8_t
 {
     /// adds to acceleration, air velocity and drag; reads position and velocity at the begin of the step

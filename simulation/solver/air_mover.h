@@ -11,7 +11,7 @@ namespace fx::sim {
 /// Maximum number of thermals of an effect that other effects follow; further ones are ignored.
 constexpr size_t kMaxThermals = 8;
 
-/// See Solver::airMover().
+/// A solver whose matter moves the surrounding air. See Solver::airMover().
 class AirMover
 {
 public:

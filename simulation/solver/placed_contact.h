@@ -11,7 +11,7 @@
 
 namespace fx::sim {
 
-/// Threads: any.
+/// The host's contact callback at the placement of one instance. Threads: any.
 class PlacedContact
 {
 public:

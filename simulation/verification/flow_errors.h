@@ -46,7 +46,7 @@ private:
     std::vector<DensityError> densities_;
 };
 
-/// Means over the particles in a spherical shell of the profile.
+/// Means over the particles in one shell of the profile, an interval of the distance.
 struct Shell
 {
     double place = 0;   ///< [m] its middle

@@ -95,7 +95,7 @@ public:
     virtual const std::vector<GasParticle>& particles() const = 0;
     /// [s] Times of samples, ascending; the last is the end of the simulation.
     virtual const std::vector<double>& sampleTimes() const = 0;
-    /// Called at each of sampleTimes() with the present particles.
+    /// Measures the particles at one of sampleTimes().
     virtual void look(double /*time*/, std::span<const CaseParticle> /*particles*/) {}
     virtual ProfilePoint seen(const CaseParticle& particle) const = 0;
     /// Computes the results of the case.

@@ -51,7 +51,7 @@ class RadialFlow
 public:
     explicit RadialFlow(const RadialFlowDef& def);
 
-    /// Steps to `time` [s].
+    /// Advances the flow to `time` [s].
     void advanceTo(double time);
     double time() const { return time_; }
     /// State at a radius; zero outside of the gas.

@@ -186,7 +186,8 @@ public:
     void injectLater(uint32_t id, double joules, double delay);
     /// Sets the internal energy of particle `id` [J/kg] at its density.
     void setEnergy(uint32_t id, double energy);
-    /// Must be called after a write through view(), unless nudged() is called instead.
+    /// Marks derived data as outdated. Must be called after a write through view(), unless nudged() is called
+    /// instead.
     void edited();
     /// Replaces edited() and setPressureScale() after small changes. Pressure, energy and speed of sound are
     /// updated at once; densities and rates are updated by the next evaluation. Therefore the first half kick
