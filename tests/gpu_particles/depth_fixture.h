@@ -86,9 +86,9 @@ inline glm::dvec3 placeOf(const Rows& rows, size_t i)
 }
 
 /// [m] Error bound of depth-contact for the position of a particle, `seconds` after the first of its
-/// contacts, each of which at least halves its speed. The bound is a shift of 3 e, which a bounce at most
-/// doubles, plus twice the angle by which the normal is wrong. All bounces together add less than four times
-/// the error of the first.
+/// contacts, each of which at least halves its speed. The error of the first contact is a shift of 3 e, which
+/// a bounce at most doubles, plus the distance flown in a direction that is wrong by twice the angular error
+/// of the normal. All contacts together have less than four times this error.
 inline double boundOf(const render::CameraView& camera, double distance, double seconds)
 {
     const DepthResolution at = resolutionAt(camera, kHeight, distance);

@@ -53,8 +53,8 @@ struct LodFlightRules
 
 /// Draws each frame of a flight twice from the same camera: with the levels and impostors of the previous
 /// frame, and with its own. The difference is the visible effect of changing them.
-/// @param ioWithout changes of the picture from frame to frame without levels of detail. If it is empty, this
-///          flight is made without levels of detail and fills it.
+/// @param ioWithout changes of the picture from frame to frame in the flight without levels of detail. That
+///          flight comes first: it gets an empty list and fills it.
 base::Status fly(BenchScene& scene, const LodFlightRules& rules, const LodCase& what,
                  std::vector<std::vector<float>>& ioWithout, LodFlight& outFlight);
 

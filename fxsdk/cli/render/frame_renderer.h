@@ -104,7 +104,7 @@ private:
     std::unique_ptr<render::StageRenderer> stage_;
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
-    bool staysOnGpu_ = false;   ///< whether particles are computed on the GPU; false if snapshots are read
+    bool staysOnGpu_ = false;   ///< whether particles are computed on the GPU; then no snapshots are read
     base::Ticks lastTick_ = -1; ///< tick of the previous frame; -1 before the first one
     Picture background_;
     FrameCounters counters_;
