@@ -1,6 +1,6 @@
 /// @file flights.h
 /// Named sequences of frames 1/60 s apart: flights of an eye through effects of the library, and clouds under
-/// a rotating light or a moving eye. The name determines everything.
+/// a rotating light or a moving eye. The name of a flight determines all of its frames.
 #pragma once
 
 #include "benchmarks/scenes/lit_media.h"

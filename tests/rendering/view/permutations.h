@@ -1,5 +1,5 @@
 /// @file permutations.h
-/// How many random orders a test draws.
+/// Number of random orders in which a test draws.
 #pragma once
 
 #include <cstdlib>

@@ -1,5 +1,6 @@
 /// @file tile_stage.h
-/// A single tile as input of modules, and the free flight between modules, written again from tile.h.
+/// A single tile as input of modules, and the free flight between modules, implemented independently from the
+/// comments in tile.h.
 #pragma once
 
 #include "simulation/particles/tile.h"
