@@ -20,8 +20,9 @@ struct AccuracyPoint
 {
     AccuracySetting setting;
     AccuracySample sample; ///< result of the first repetition; errors and work are equal in all repetitions
-    std::vector<double> seconds; ///< [s] one value per repetition
-    /// Instructions executed in user space; 0 if the system cannot count them
+    std::vector<double> seconds; ///< [s] time of the timed part, one value per repetition
+    /// Numbers of instructions executed in user space, one per repetition or a single one by callgrind; 0 if
+    /// the system cannot count them.
     std::vector<double> instructions;
 };
 
@@ -29,9 +30,9 @@ struct AccuracyCurve
 {
     std::string technique;
     std::string scene;
-    std::string item; ///< the item that ns_per_item counts
+    std::string item; ///< name of the items that ns_per_item refers to, such as "pixel"
     ShownError shown = ShownError::P99;
-    std::vector<AccuracyPoint> points; ///< the first is the baseline
+    std::vector<AccuracyPoint> points; ///< measured settings; the first one is the baseline
     std::string instructionsBy;        ///< "perf", "callgrind" or empty
     uint32_t threads = 1;
 };
@@ -57,22 +58,25 @@ double nanosecondsPerItem(const AccuracyPoint& point);
 /// 1 / (variance x time) of a point relative to the baseline; 0 without variance.
 double efficiencyRatio(const AccuracyCurve& curve, size_t point);
 
-/// Smallest number of instructions of a point relative to the baseline; 0 if unknown.
+/// Instructions of a point relative to those of the baseline, each the smallest number of all repetitions; 0
+/// if unknown.
 double instructionRatio(const AccuracyCurve& curve, size_t point);
 
-/// Whether a point is on the Pareto front of fastest time and shown error. A point is dominated if another
-/// one is at least as fast and as exact, and faster by 3 % or more exact. Two settings that do the same work
-/// are therefore both on the front.
+/// Whether a point is on the Pareto front, that is, not dominated by another point. Point A dominates point B
+/// if A has neither a longer fastest time nor a larger shown error than B, and in addition a smaller error or
+/// a time shorter by more than 3 %. The 3 % are the noise of measured times: two settings that do the same
+/// work are both on the front.
 bool isOnFront(const AccuracyCurve& curve, size_t point);
 
 std::string curveTable(const AccuracyCurve& curve);
-/// One table of all curves. @param origin result of provenance()
+/// Formats all curves as one table.
+/// @param origin result of provenance()
 std::string curvesCsv(const std::vector<AccuracyCurve>& curves, const std::string& origin);
-/// One object per point, without machine and version.
+/// One JSON object per point, without machine and version.
 std::vector<nlohmann::json> curveJson(const AccuracyCurve& curve);
-/// Error against time on logarithmic axes, with one panel per curve.
+/// Plot of error against time on logarithmic axes, with one panel per curve.
 std::string curvesSvg(const std::vector<AccuracyCurve>& curves, const std::string& origin);
-/// A self-contained page with the plots, and the tables below them.
+/// A self-contained HTML page with the plots, and the tables below them.
 std::string curvesHtml(const std::vector<AccuracyCurve>& curves, const std::string& origin);
 
 } // namespace fx::cli

@@ -18,22 +18,24 @@ struct AccuracyTask
     std::string scene;
 };
 
-/// The tasks of `technique`, or of all techniques for "all", restricted to `scene` unless `scene` is empty.
-/// @return InvalidArgument with the nearest known name
+/// Lists the tasks of `technique`, or of all techniques for "all". If `scene` is not empty, only the tasks of
+/// this scene.
+/// @return InvalidArgument for an unknown name; the message suggests the nearest known name
 base::Result<std::vector<AccuracyTask>> accuracyTasks(const std::string& technique, const std::string& scene);
 
 struct MeasureRules
 {
     AccuracyScale scale;
     uint32_t repetitions = 7;
-    bool useCallgrind = false; ///< if the system cannot count instructions
+    /// true: instructions are counted with callgrind if the system cannot count them
+    bool useCallgrind = false;
     std::function<bool()> stop;
     std::function<void(uint64_t done, uint64_t all)> progress;
 };
 
 base::Result<AccuracyCurve> measureAccuracy(const AccuracyTask& task, const MeasureRules& rules);
 
-/// Runs the timed part of each setting once, for callgrind. @return false if there is no such part
+/// Runs the timed part of each setting once, for callgrind. @return false if the technique has no such part
 bool countWork(const AccuracyTask& task);
 
 } // namespace fx::cli

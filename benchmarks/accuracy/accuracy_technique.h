@@ -24,7 +24,8 @@ namespace fx::cli {
 struct AccuracySetting
 {
     std::string name;
-    std::string tier; ///< empty, "low", "default" or "high"
+    /// quality level of the product that uses the setting: "low", "default" or "high"; empty: none
+    std::string tier;
     nlohmann::json parameters = nlohmann::json::object();
 };
 
@@ -43,17 +44,20 @@ struct AccuracySample
     double variance = 0; ///< variance of one item, for techniques that use random numbers; 0 for all others
     std::string note;    ///< remark, shown at the end of the row of the table
 
-    /// For techniques with a bound: whether the setting keeps the bound or, if it is a control, violates it.
+    /// Meaningful for techniques with an error bound: true if a setting keeps the bound, or if a control
+    /// violates it.
     bool isAsPromised = true;
 };
 
 struct AccuracyScale
 {
-    uint32_t particles = 0; ///< size of the baseline; 0: default of the technique
+    uint32_t particles = 0; ///< number of particles of the baseline; 0: default of the technique
     uint32_t threads = 1;
-    uint32_t frames = 0; ///< length of the sequence; 0: default of the technique, also for the next members
+    /// number of frames of the sequence. For this and the next members, 0 is the default of the technique.
+    uint32_t frames = 0;
     int width = 0, height = 0; ///< [pixel]
-    double bound = 0.0; ///< [1] bound of the change from frame to frame, relative to that of the reference
+    /// [1] upper bound of the change of the picture from frame to frame, relative to that of the reference
+    double bound = 0.0;
 };
 
 class AccuracyTechnique
@@ -64,10 +68,11 @@ public:
     virtual std::string_view scene() const = 0;
     /// Settings; the first is the baseline of all ratios.
     virtual const std::vector<AccuracySetting>& settings() const = 0;
-    /// @param stop returning true ends the run as soon as possible, with Code::Interrupted
+    /// Runs a setting once and measures it.
+    /// @param stop callback; when it returns true, the run ends as soon as possible with Code::Interrupted
     virtual base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) = 0;
-    /// Runs only the timed part, once, by measureWork(). Empty for techniques whose work takes too long to be
-    /// counted by a simulated processor.
+    /// Runs only the timed part of a setting, once, by measureWork(). Returns nothing for techniques whose
+    /// work takes too long to be counted by a simulated processor.
     virtual std::optional<MeasuredWork> work(size_t /*setting*/) { return std::nullopt; }
 };
 
@@ -78,7 +83,7 @@ public:
     base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) final;
 
 protected:
-    /// Number of items of one work().
+    /// Number of items that one call of work() processes.
     virtual double items() const = 0;
     /// Stores the errors and counters of the last work(), which ran this setting.
     virtual void judge(size_t setting, AccuracySample& outSample) = 0;
@@ -95,13 +100,13 @@ struct AccuracyTechniqueEntry
 {
     std::string_view name;
     std::string_view summary;
-    std::string_view item; ///< the item that ns_per_item counts
+    std::string_view item; ///< name of the items that ns_per_item refers to, such as "pixel"
     ShownError shown;
     std::vector<std::string> scenes;
-    size_t usualScenes; ///< number of scenes, from the first, that run if none is named
-    bool isScalable;    ///< uses particles and threads of AccuracyScale
+    size_t usualScenes; ///< if no scene is named, the first `usualScenes` elements of `scenes` run
+    bool isScalable;    ///< true: the technique uses the members `particles` and `threads` of AccuracyScale
     std::unique_ptr<AccuracyTechnique> (*make)(const std::string& scene, const AccuracyScale& scale);
-    bool hasFrames = false; ///< uses --frames; excluded from "all", because it takes long
+    bool hasFrames = false; ///< true: the technique uses --frames. It takes long, so "all" excludes it
 };
 
 /// All techniques, in the order of techniques/CMakeLists.txt.

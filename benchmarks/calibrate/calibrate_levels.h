@@ -18,7 +18,7 @@ struct CalibrateRules
     int width = 320, height = 180; ///< [pixel]
     uint32_t repetitions = 7;
     std::string technique;           ///< empty: all techniques
-    std::optional<StageClock> clock; ///< empty: the best clock of the machine
+    std::optional<StageClock> clock; ///< clock for the times of frames; empty: the best clock of the machine
     std::function<bool()> stop;
     std::function<void(uint64_t done, uint64_t all)> progress;
 };
@@ -34,7 +34,7 @@ struct MeasuredCalibration
 {
     std::vector<MeasuredLevels> techniqueLevels;
     StageClock clock;
-    std::string renderer; ///< name that the driver reports
+    std::string renderer; ///< name of the renderer as the driver reports it
 };
 
 base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules);

@@ -8,9 +8,9 @@ namespace fx::cli {
 
 struct Calibration
 {
-    /// [ns] of one step in a chain of dependent multiplications and additions
+    /// [ns] time of one step in a chain of dependent multiplications and additions
     double multiplyAddNanoseconds = 0;
-    double copyGigabytes = 0; ///< [GB/s] read and written by a copy much larger than the caches
+    double copyGigabytes = 0; ///< [GB/s] bandwidth, read and written, of a copy much larger than the caches
 };
 
 /// Measures the speed on the calling thread in about 50 ms.

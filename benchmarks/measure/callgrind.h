@@ -25,7 +25,7 @@ base::Result<std::vector<double>> countUnderCallgrind(const std::vector<std::str
 base::Result<std::vector<double>> countUnderCallgrind(const std::string& technique, const std::string& scene,
                                                       size_t settings);
 
-/// Totals of the parts of a callgrind file, in their order.
+/// Numbers of instructions of the parts of a callgrind file, in the order of the file.
 std::vector<double> callgrindTotals(const std::string& text);
 
 } // namespace fx::cli

@@ -6,9 +6,8 @@
 
 namespace fx::cli {
 
-double wallSeconds(); ///< [s] steady: not affected by setting the clock of the machine
-double
-threadSeconds(); ///< [s] of the processor, by the calling thread: other programs and threads do not count
+double wallSeconds();    ///< [s] monotonic time, not affected by setting the clock of the machine
+double threadSeconds();  ///< [s] processor time of the calling thread
 double processSeconds(); ///< [s] processor time of all threads of this process
 
 } // namespace fx::cli

@@ -9,10 +9,10 @@ namespace fx::cli {
 struct MeasuredWork
 {
     double seconds = 0;      ///< [s] processor time of this thread, hardly affected by other programs
-    double instructions = 0; ///< executed in user space; 0 if the system cannot count them
+    double instructions = 0; ///< instructions executed in user space; 0 if the system cannot count them
 };
 
-/// Runs `work` on this thread.
+/// Runs `work` on this thread and measures it.
 MeasuredWork measureWork(const std::function<void()>& work);
 
 } // namespace fx::cli

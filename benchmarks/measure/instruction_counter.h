@@ -4,7 +4,8 @@
 
 namespace fx::cli {
 
-/// Counts in user space, if the system allows it. Threads created before the counter are not counted.
+/// Counts the instructions of the calling thread in user space, if the system allows it. Threads created
+/// before the counter are not counted.
 class InstructionCounter
 {
 public:

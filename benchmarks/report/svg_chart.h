@@ -9,14 +9,14 @@
 
 namespace fx::cli {
 
-/// A logarithmic axis. It has marks at every decade or every second one; if there are few decades, also at 2
-/// and 5.
+/// A logarithmic axis. It has marks at every power of ten or at every second one. If the axis covers few
+/// powers of ten, it also has marks at 2 and 5 times each.
 struct LogAxis
 {
     double low = std::numeric_limits<double>::infinity();
     double high = 0;
-    double from = 0; ///< [pixel] of low
-    double to = 1;   ///< [pixel] of high
+    double from = 0; ///< [pixel] position of `low`
+    double to = 1;   ///< [pixel] position of `high`
 
     void include(double value);
     void widen(double below, double above);
@@ -35,7 +35,8 @@ std::string svgFormat(const char* pattern, Numbers... numbers)
     return buffer;
 }
 
-/// @param anchor start, middle or end
+/// Creates a text element.
+/// @param anchor "start", "middle" or "end"
 std::string svgText(double x, double y, const char* anchor, const std::string& text, const char* more = "");
 std::string svgLine(double x1, double y1, double x2, double y2, const char* stroke);
 

@@ -39,8 +39,9 @@ public:
     /// Sets the position of the camera of draw(). The simulation does not depend on it.
     void moveTo(double x, double y, double z);
     base::Status setView(const FxViewSettings& settings);
-    /// @param isHeld true: the next frames keep the levels of detail of the last frame; setView() ends this
-    ///          too
+    /// Switches the update of levels of detail off or on.
+    /// @param isHeld true: the next frames keep the levels of detail of the last frame, until setView() or a
+    ///          call with false
     void holdDetail(bool isHeld);
     base::Status update();
     base::Status draw();          ///< does nothing without GL
@@ -48,7 +49,7 @@ public:
     void clear();                 ///< clears the picture to black before draw()
     void clearPicture();          ///< clears the picture to a uniform gray
     std::vector<float> picture(); ///< RGBA, row by row; empty without GL
-    uint64_t bytesInUse() const;  ///< [byte] of the context
+    uint64_t bytesInUse() const;  ///< [byte] memory that the context uses
     FxFrameStats frameStats() const;
     void remove(size_t index); ///< @param index in instances()
 

@@ -24,7 +24,8 @@ class CardPicture
 public:
     static constexpr float kFarthest = 40.0f; ///< [m] largest distance of a surface
 
-    /// @param width, height [pixel]
+    /// Creates a renderer of pictures.
+    /// @param width, height [pixel] size of pictures
     /// @param field [m] width of the scene in the picture
     static base::Result<std::unique_ptr<CardPicture>> create(int width, int height, float field);
 
@@ -34,8 +35,8 @@ public:
     const std::string& renderer() const { return device_->limits().renderer; }
     const base::SnapshotSchema& schema() const { return schema_; }
 
-    /// Cards are in front of the eye, with z along the view. Each snapshot has a new number, because a view
-    /// reuses the data of a snapshot with an equal number.
+    /// Creates a snapshot of cards, which are in front of the eye with z along the view direction. Each
+    /// snapshot has a new number, because a view reuses the data of a snapshot with an equal number.
     base::FrameSnapshot snapshotOf(std::span<const Card> cards) const;
 
     /// Sets the distance [m] of an opaque surface for each pixel, rows from the bottom; +inf, or above

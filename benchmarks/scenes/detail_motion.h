@@ -9,15 +9,17 @@ namespace fx::cli {
 /// Residual changes from frame to frame.
 struct MotionResidual
 {
-    /// [1] root mean square difference of sRGB values to the previous picture, after moving it with the
-    /// medium, over pixels of which at least half is medium
+    /// [1] root mean square difference of sRGB values between a picture and the previous one. The previous
+    /// picture is first displaced by the motion of the medium. Only pixels are compared of which the medium
+    /// covers at least half.
     std::vector<double> frames;
     double mean = 0.0, worst = 0.0; ///< [1] mean and maximum of `frames`
     uint32_t births = 0;            ///< number of frames in which a generation of coordinates was born
-    double atBirths = 0.0;          ///< [1] mean of these frames; 0 if there are none
+    double atBirths = 0.0; ///< [1] mean of `frames` over the frames counted by `births`; 0 if there are none
 };
 
-/// Measures frames of the composition volume at 60 Hz, from the present moment of `scene` on.
+/// Measures frames that are drawn with the composition "volume" at 60 Hz, from the present moment of `scene`
+/// on.
 /// @param renderer renderer of square pictures
 base::Result<MotionResidual> motionResidual(DetailScene& scene, SnapshotRenderer& renderer, int frames,
                                             const std::function<bool()>& stop);

@@ -25,7 +25,7 @@ struct DetailSubject
     double time;        ///< [s]
     double height;      ///< [m] height of the picture's center above the ground
     double half;        ///< [m] half of the side length of the picture
-    double first, last; ///< [s] range of times in which its extinction is measured
+    double first, last; ///< [s] range of times in which the extinction of the effect is measured
 };
 
 /// All subjects.
@@ -38,7 +38,8 @@ public:
     {
         return create(subject, subject.time);
     }
-    /// @param time [s] first time to be shown
+    /// Creates the scene of a subject at a time.
+    /// @param time [s] time to be shown first
     static base::Result<std::unique_ptr<DetailScene>> create(const DetailSubject& subject, double time);
 
     /// Advances to another time. @param time [s] not before the last one
@@ -48,7 +49,7 @@ public:
     const base::SnapshotSchema& schema() const { return moment_.snapshots.newer->schema(); }
     /// Camera of square pictures.
     render::ReferenceCamera camera(bool isParallel = false) const;
-    /// Scene for the renderers without a GPU. @param octaves of the detail; 0: smooth
+    /// Scene for the renderers without a GPU. @param octaves number of octaves of the detail; 0: smooth
     render::ReferenceScene reference(int octaves) const;
     const DetailSubject& subject() const { return subject_; }
 
@@ -65,7 +66,8 @@ private:
 render::ViewSettings detailViewSettings();
 
 /// [1] Optical depth of each pixel by the ray integral, rows from the top, see DetailedRay.
-/// @param side [pixel]  @param pixels [pixel] side of the picture for whose pixels the detail is computed
+/// @param side [pixel] side length of the picture
+/// @param pixels number of pixels per side that determines the pixel width for the fading of fine detail
 std::vector<float> integratedDepth(const render::ReferenceScene& scene, int side, int pixels);
 
 } // namespace fx::cli

@@ -13,14 +13,15 @@ struct ShrinkErrors
 {
     /// [1] errors of all covered pixels and channels, relative to the RMS of the light
     std::vector<double> values;
-    double light = 0.0;         ///< [1] relative to the RMS of the light, as all members but the next two
+    double light = 0.0;         ///< [1] RMS error of the light, relative to the RMS of the light
     double bias = 0.0;          ///< [1] mean light of the small picture over that of the large one, minus 1
-    double transmittance = 0.0; ///< [1] relative to the RMS opacity
-    double emission = 0.0, sun = 0.0, sky = 0.0; ///< [1] errors of the parts of the light
-    /// [1] error of one ray per pixel with the detail of the large picture: the mean of its four middle
-    /// pixels
+    double transmittance = 0.0; ///< [1] RMS error of the transmittance, relative to the RMS opacity
+    double emission = 0.0, sun = 0.0, sky = 0.0; ///< [1] as `light`, for each part of the light
+    /// [1] as `light`, if the small picture used one ray per pixel and the detail of the large picture. That
+    /// ray is approximated by the mean of the four middle pixels of a block of the large picture.
     double unfaded = 0.0;
-    double unfadedTransmittance = 0.0; ///< [1] relative to the RMS opacity
+    /// [1] as `unfaded`, for the transmittance, relative to the RMS opacity
+    double unfadedTransmittance = 0.0;
 };
 
 /// Draws both pictures by OpenGL.

@@ -25,7 +25,7 @@ struct ExplosionSetting
 struct ExplosionState
 {
     double height;      ///< [m] height of the center
-    double radius;      ///< [m] root of the mean square distance from the axis
+    double radius;      ///< [m] root mean square distance from the axis
     double speed;       ///< [m/s] root mean square
     double temperature; ///< [K] mean
 };
@@ -33,6 +33,7 @@ struct ExplosionState
 class ExplosionRun
 {
 public:
+    /// Creates a run of the library's explosion.
     /// @param tasks must outlive the run
     /// @return NotFound when the library has no explosion of gas
     static base::Result<std::unique_ptr<ExplosionRun>> create(const ExplosionSetting& setting,

@@ -1,6 +1,6 @@
 /// @file flights.h
 /// Named sequences of frames 1/60 s apart: flights of an eye through effects of the library, and clouds under
-/// a rotating light or a moving eye. The name determines everything.
+/// a rotating light or a moving eye. The name of a flight determines all of its frames.
 #pragma once
 
 #include "benchmarks/scenes/lit_media.h"
@@ -33,9 +33,9 @@ struct FlightName
     FlightSubject subject;
     uint32_t frames; ///< number of frames of the whole flight
 
-    /// A control of a few large balls, in which a change of order is visible: if they are blended in sorted
-    /// order, they violate the bound. In effects of hundreds of balls, the motion of the media hides such
-    /// changes.
+    /// Whether the flight has a control of a few large balls, in which a change of order is visible: if they
+    /// are blended in sorted order, they violate the bound. In effects of hundreds of balls, the motion of
+    /// the media hides such changes.
     bool hasControl = false;
 };
 

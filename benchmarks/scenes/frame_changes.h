@@ -32,8 +32,8 @@ struct ChangeBound
 
 struct ChangeJudgment
 {
-    /// [1] for each pair of frames: change beyond that of the reference, in units of the margin of the bound,
-    /// at least 0. Values up to 1 keep the bound.
+    /// [1] For each pair of frames: excess of the picture's change over that of the reference, at least 0,
+    /// divided by the excess that the bound allows. Values up to 1 keep the bound.
     std::vector<double> excess;
     size_t beyond = 0;            ///< number of pairs that violate the bound
     size_t worst = 0;             ///< index of the pair with the largest excess
@@ -43,7 +43,9 @@ struct ChangeJudgment
     bool isKept() const { return beyond == 0; }
 };
 
-/// @param changes, reference of the same pairs of frames. A change that is not finite violates the bound
+/// Compares the changes of a picture with those of the reference. A change that is not finite violates the
+/// bound.
+/// @param changes, reference values of the same pairs of frames
 ChangeJudgment judgeChanges(std::span<const double> changes, std::span<const double> reference,
                             const ChangeBound& bound);
 

@@ -77,7 +77,7 @@ inline sim::Domain unitBox(sim::AxisKind kind)
     return box;
 }
 
-/// Columns of results; element k belongs to the k-th given particle.
+/// Columns of results. Element k of each column belongs to particle k in the order of creation.
 template <class T>
 struct Densities
 {
@@ -151,7 +151,7 @@ public:
         return inOrderGiven(at);
     }
 
-    /// Writes results by slot into existing memory, for timing.
+    /// Writes results into existing memory in the order of slots, for timing.
     void sumDensity(const sim::DensityRules& rules, double reach, Densities<T>& at) const
     {
         const base::FloatingPointScope floatingPoint;

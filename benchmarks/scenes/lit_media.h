@@ -40,7 +40,7 @@ base::Result<std::vector<render::MediumBlob>> presetMedia(const std::string& nam
 struct BallOfMedia
 {
     uint32_t blobs = 300;
-    double radius = 0.25;    ///< [m] of a blob, below 1
+    double radius = 0.25;    ///< [m] radius of a blob, below 1
     double depth = 1.0;      ///< [1] mean optical depth through the center of the ball, over all directions
     double albedo = 0.9;     ///< [1]
     double anisotropy = 0.0; ///< [1] Henyey-Greenstein g
@@ -53,8 +53,8 @@ std::vector<render::MediumBlob> blobsOf(const BallOfMedia& ball);
 struct LitSize
 {
     int width = 96, height = 96; ///< [pixel]
-    uint32_t paths = 64;         ///< per pixel
-    int rays = 1;                ///< the ray integral uses the mean of rays x rays per pixel
+    uint32_t paths = 64;         ///< number of paths per pixel
+    int rays = 1;                ///< the ray integral takes the mean of rays x rays rays per pixel
     int skyRings = 3;            ///< the ray integral uses 4 skyRings^2 directions of the sky
 };
 
@@ -63,7 +63,7 @@ struct LitPicture
 {
     std::vector<glm::dvec3> light; ///< [1] after exposure
     std::vector<double> opacity;   ///< [1]
-    double variance = 0.0;         ///< [1] mean over pixels and channels of the square of the standard error
+    double variance = 0.0;         ///< [1] mean squared standard error over pixels and channels
     double seconds = 0.0;          ///< [s] time of computing the picture
 };
 
@@ -73,6 +73,7 @@ class LitPainter
 public:
     static base::Result<std::unique_ptr<LitPainter>> create(int width, int height);
 
+    /// Draws a picture of blobs.
     /// @param slices settings of light slices
     base::Result<LitPicture> paint(std::span<const render::MediumBlob> blobs, const LitView& view,
                                    const render::SliceSettings& slices);

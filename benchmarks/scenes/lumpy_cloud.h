@@ -31,9 +31,11 @@ enum class CloudLight
 class LumpyCloud
 {
 public:
-    /// @param depth [1] mean optical depth through the center along z  @param fine cells of the grids along
-    ///          an axis
-    /// @param spread [1] of the lumps: 1 at rest, less before an explosion
+    /// Creates the cloud.
+    /// @param depth [1] mean optical depth through the center along z
+    /// @param fine number of cells of the grids along an axis
+    /// @param spread [1] scale of the distances of the lumps from the center: 1 at rest, less before an
+    ///          explosion
     LumpyCloud(double depth, CloudLight light, int fine, double spread = 1.0);
 
     /// The blobs; albedo and phase are not set.
@@ -43,7 +45,8 @@ public:
     double extinction(const glm::dvec3& position) const; ///< [1/m]
     /// [1] optical depth between the light and a position
     double lightDepth(const glm::dvec3& position) const;
-    double lineDepth(const glm::dvec3& position) const; ///< [1] optical depth of the whole line of the light
+    /// [1] optical depth of the whole ray of the light through a position
+    double lineDepth(const glm::dvec3& position) const;
     /// [lx] Irradiance without the medium. @param outTravel unit vector along which the light travels
     double irradiance(const glm::dvec3& position, glm::dvec3& outTravel) const;
     render::ReferenceCamera camera() const;
@@ -62,7 +65,7 @@ private:
 /// Parameters of a network around a cloud.
 struct CloudNetwork
 {
-    int cells = 32; ///< along an axis
+    int cells = 32; ///< number of cells along an axis
     render::NetworkSettings settings;
     double albedo = 0.9; ///< [1]
 };
@@ -73,7 +76,7 @@ base::Status give(const LumpyCloud& cloud, const CloudNetwork& form, render::Sca
 /// Two pictures with independent noise for each of two albedos, rows from the top.
 struct CloudTruth
 {
-    std::vector<double> light[2][2]; ///< [cd/m2] by picture and albedo
+    std::vector<double> light[2][2]; ///< [cd/m2] light[picture][albedo]
     std::vector<bool> isCovered;     ///< pixels with an opacity of at least 0.3
     double seconds = 0.0;
 };

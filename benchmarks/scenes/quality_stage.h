@@ -23,7 +23,7 @@ namespace fx::cli {
 enum class StageClock
 {
     Gpu,      ///< timestamps of the GPU
-    Wall,     ///< time from the call until the GPU has finished
+    Wall,     ///< wall time from the call until the GPU has finished
     Processor ///< processor time of all threads of this program: for software renderers on busy machines
 };
 const char* clockName(StageClock clock);
@@ -31,6 +31,7 @@ const char* clockName(StageClock clock);
 class QualityStage
 {
 public:
+    /// Creates a stage with the effects of a scene file.
     /// @param file must outlive the stage
     static base::Result<std::unique_ptr<QualityStage>> create(const scene_file::SceneFile& file, int width,
                                                               int height);
@@ -83,8 +84,9 @@ private:
 /// Difference of two pictures of media over the same background.
 struct PictureDifference
 {
-    double difference = 0; ///< sum of |a - b|
-    double light = 0;      ///< sum of |b - background|
+    double difference = 0; ///< sum of the absolute differences between the values of a and b, without alpha
+    /// sum of the absolute differences between the values of b and the background, without alpha
+    double light = 0;
 };
 PictureDifference compare(const std::vector<float>& a, const std::vector<float>& b,
                           const std::vector<float>& background);

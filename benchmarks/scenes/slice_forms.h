@@ -34,12 +34,12 @@ struct SliceForm
 {
     enum class Kind
     {
-        Planes,  ///< at the positions of the stack
-        Deep,    ///< from the first to the last depth of the medium on the ray
-        Fourier, ///< coefficients of the density over the depth of the stack
+        Planes,  ///< optical depth at the planes of the slice stack
+        Deep,    ///< optical depth at planes from the first to the last depth of the medium on the ray
+        Fourier, ///< Fourier coefficients of the density over the depth of the stack
     };
     Kind kind = Kind::Planes;
-    int values = 32; ///< number of values per texel: planes, or an odd number of coefficients
+    int values = 32; ///< number of values per texel: number of planes, or of coefficients (odd)
 };
 
 /// Content of a texel.

@@ -16,7 +16,7 @@ namespace fx::cli {
 
 struct StabilityAxis
 {
-    std::string name; ///< with unit, lower case
+    std::string name; ///< name of the parameter with its unit, lower case
     std::vector<double> values;
 };
 
@@ -30,8 +30,9 @@ struct StabilitySweep
 {
     std::string name;
     StabilityAxis x, y;
-    double limit = 0;       ///< upper limit of the error, inclusive; 0: exact
-    bool isControl = false; ///< naive code at the same points, which must exceed the limit somewhere
+    double limit = 0; ///< upper limit of the error, inclusive; 0: exact
+    /// true: `error` is that of naive code at the same points, which must exceed the limit somewhere
+    bool isControl = false;
     std::function<double(double x, double y)> error;
 };
 
@@ -41,7 +42,7 @@ StabilitySweep controlOf(const StabilitySweep& sweep, std::string name,
 
 struct StabilityRow
 {
-    std::string_view id; ///< as in docs/stability.md
+    std::string_view id; ///< identifier of the row, as in docs/stability.md
     std::string_view says;
     std::string_view reference; ///< reference of the errors
     std::vector<StabilitySweep> (*sweeps)(bool isQuick);

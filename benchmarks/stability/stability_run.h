@@ -31,14 +31,15 @@ struct StabilityResult
     std::vector<StabilityMap> maps;
 
     bool isAsItMust() const;
-    /// The sweep that comes closest to its limit or exceeds it most.
+    /// The sweep with the largest ratio of error to limit.
     const StabilityMap& tightest() const;
 };
 
 struct RunWatch
 {
     std::function<bool()> stop;
-    std::function<void(uint64_t done, uint64_t all)> progress; ///< counts points of the row
+    /// Called with the number of computed points of the row and their total number.
+    std::function<void(uint64_t done, uint64_t all)> progress;
 };
 
 /// @return Interrupted

@@ -18,7 +18,7 @@ namespace fx::cli {
 struct VerifyArguments
 {
     std::string caseName;
-    std::string particles; ///< "262144" or "64^3"; empty: default of the case
+    std::string particles; ///< number such as "262144" or "64^3"; empty: default of the case
     std::string kernel = "wendland-c2";
     std::string steps = "block";
     std::string precision = "float";

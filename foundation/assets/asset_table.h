@@ -32,23 +32,23 @@ struct ImageAsset
 {
     int width = 0;      ///< [texel] >= 1
     int height = 0;     ///< [texel] >= 1
-    bool isSrgb = true; ///< color has the sRGB encoding; false: color is linear. Opacity is always linear.
+    bool isSrgb = true; ///< true: colors are sRGB-encoded; false: colors are linear. Opacity is always linear
     std::pmr::vector<uint8_t> rgba;
 };
 
 /// A corner of a triangle.
 struct MeshVertex
 {
-    glm::vec3 position; ///< [1] in units of the particle's radius
-    glm::vec3 normal;   ///< unit
-    glm::vec2 texture;  ///< [1] coordinates; 0, 0 is the lower left corner of the image
+    glm::vec3 position; ///< [1] position in units of the particle's radius
+    glm::vec3 normal;   ///< unit vector
+    glm::vec2 texture;  ///< [1] texture coordinates; (0, 0) is the lower left corner of the image
 };
 
 /// An indexed triangle mesh. The vertices of a triangle are counterclockwise, seen from outside.
 struct MeshAsset
 {
     std::pmr::vector<MeshVertex> vertices;
-    std::pmr::vector<uint32_t> indices; ///< three per triangle
+    std::pmr::vector<uint32_t> indices; ///< indices of vertices, three for each triangle
     float reach = 0.0f;                 ///< [1] distance of the farthest vertex from the origin
 };
 
@@ -60,9 +60,11 @@ public:
 
     explicit AssetTable(std::pmr::memory_resource* memory) : memory_(memory), owned_(memory) {}
 
+    /// Adds an image. If the table already has an equal image, its id is returned.
     /// @param rgba width * height * 4 bytes; width and height 1 to kLargestSide
     /// @return the id; InvalidArgument for other sizes; Capacity if the table is full
     Result<AssetId> addImage(int width, int height, bool isSrgb, std::span<const uint8_t> rgba);
+    /// Adds a mesh. If the table already has an equal mesh, its id is returned.
     /// @return the id; InvalidArgument without a triangle, with an index that is too large or with a value
     ///         that is not finite; Capacity if the table is full
     Result<AssetId> addMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t> indices);
@@ -71,7 +73,8 @@ public:
     const ImageAsset* image(AssetId id) const;
     const MeshAsset* mesh(AssetId id) const;
 
-    uint32_t size() const { return size_.load(std::memory_order_acquire); } ///< ids 1 to size() exist
+    /// Number of assets; their ids are 1 to size().
+    uint32_t size() const { return size_.load(std::memory_order_acquire); }
     /// [byte] size of all images and meshes
     uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 

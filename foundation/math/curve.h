@@ -10,11 +10,11 @@ namespace fx::base {
 
 constexpr size_t kCurveSamples = 64;
 
-/// One key of a curve.
+/// A key of a curve: the value at a time.
 template <size_t N>
 struct CurveKey
 {
-    float t; ///< [1] age over lifetime, 0..1
+    float t; ///< [1] age divided by lifetime, 0..1
     std::array<float, N> value;
 };
 
@@ -27,6 +27,7 @@ public:
     Curve() { table_.fill({}); }
     /// A curve with the same value for all t.
     explicit Curve(const std::array<float, N>& constant) { table_.fill(constant); }
+    /// Makes a curve from keys.
     /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump, at which the curve
     ///         continues with the later key
     explicit Curve(std::span<const CurveKey<N>> keys);
@@ -59,7 +60,7 @@ struct Range
     float min = 0;
     float max = 0;
 
-    float at(float u) const { return min + (max - min) * u; } ///< u in [0, 1)
+    float at(float u) const { return min + (max - min) * u; } ///< @param u random number in [0, 1)
 };
 
 } // namespace fx::base

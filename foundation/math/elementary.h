@@ -12,7 +12,7 @@
 
 namespace fx::base {
 
-/// 2^n for -1022 <= n <= 1023.
+/// Computes 2^n for -1022 <= n <= 1023.
 inline double powerOfTwo(int n)
 {
     return std::bit_cast<double>(uint64_t(n + 1023) << 52);
@@ -106,8 +106,8 @@ inline double naturalLog(double x)
     return e * 6.93147180369123816490e-01 + (e * 1.90821492927058770002e-10 + logM); // (1)
 }
 
-/// x^y = e^(y ln x) for x >= 0: relative error <= 1e-15 (2 + |y ln x|). The result has the same bits on every
-/// machine. 0^y is 0 for y > 0, and x^0 is exactly 1. Results are at most e^709.
+/// Computes x^y = e^(y ln x) for x >= 0, with a relative error <= 1e-15 (2 + |y ln x|). The result has the
+/// same bits on every machine. 0^y is 0 for y > 0, and x^0 is exactly 1. Results are at most e^709.
 inline double power(double x, double y)
 {
     return y == 0.0 ? 1.0 : naturalExp(y * naturalLog(x));
@@ -141,7 +141,7 @@ inline double cubeRoot(double x)
     return x < 0 ? -y : y;
 }
 
-/// A point of the unit circle.
+/// Sine and cosine of an angle.
 struct SinCos
 {
     double sin;
@@ -199,7 +199,7 @@ inline SinCos sinCosTurns(double t)
     }
 }
 
-/// Cubic step from 0 at `edge0` to 1 at `edge1` > `edge0`, with zero slope at both ends.
+/// Cubic function that increases from 0 at `edge0` to 1 at `edge1` > `edge0`, with zero slope at both ends.
 inline float smoothStep(float edge0, float edge1, float x)
 {
     const float t = (x - edge0) / (edge1 - edge0);

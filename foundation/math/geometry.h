@@ -1,6 +1,6 @@
 /// @file geometry.h
-/// Boxes and placements. World positions are double. Positions of particles are float, relative to the
-/// position of their instance.
+/// Boxes and placements. World positions have double precision. Positions of particles have single precision
+/// and are relative to the position of their instance.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -27,9 +27,9 @@ struct Bounds
 /// Transform of an instance: world = position + rotation * (scale * local).
 struct Placement
 {
-    glm::dvec3 position{0.0};                   ///< [m] world
-    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit
-    float scale = 1.0f;                         ///< > 0; scales lengths, not time
+    glm::dvec3 position{0.0};                   ///< [m] position in the world
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit quaternion
+    float scale = 1.0f;                         ///< [1] factor of lengths (not of time), > 0
 };
 
 } // namespace fx::base

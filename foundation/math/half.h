@@ -8,7 +8,8 @@
 
 namespace fx::base {
 
-/// Rounds to nearest, ties to even. Values outside of [0, 65504] are clamped; NaN becomes 0.
+/// Converts a float to a half float, rounded to nearest, ties to even. Values outside of [0, 65504] are
+/// clamped; NaN becomes 0.
 inline uint32_t toHalf(float x)
 {
     const float bounded = x > 0.0f ? (x < 65504.0f ? x : 65504.0f) : 0.0f;

@@ -21,7 +21,8 @@ public:
     Arena(const Arena&) = delete;
     Arena& operator=(const Arena&) = delete;
 
-    /// `count` uninitialised elements, aligned to 64 bytes so that SIMD loads never split a cache line.
+    /// Allocates `count` uninitialised elements, aligned to 64 bytes so that SIMD loads never split a cache
+    /// line.
     template <class T>
     std::span<T> allocate(size_t count)
     {

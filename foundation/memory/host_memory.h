@@ -1,5 +1,5 @@
 /// @file host_memory.h
-/// Memory from the host's allocator, in the shape of a std::pmr resource, with counters.
+/// A std::pmr memory resource that gets memory from the host's allocator and counts it.
 #pragma once
 
 #include <atomic>
@@ -31,8 +31,9 @@ class HostMemory final : public std::pmr::memory_resource
 public:
     explicit HostMemory(const AllocatorHooks& hooks = {}) : hooks_(hooks) {}
 
-    uint64_t allocationCount() const { return count_.load(std::memory_order_relaxed); } ///< since creation
-    uint64_t bytesInUse() const { return bytes_.load(std::memory_order_relaxed); }      ///< [byte]
+    /// Number of allocations since creation.
+    uint64_t allocationCount() const { return count_.load(std::memory_order_relaxed); }
+    uint64_t bytesInUse() const { return bytes_.load(std::memory_order_relaxed); } ///< [byte]
 
 private:
     void* do_allocate(size_t size, size_t alignment) override;

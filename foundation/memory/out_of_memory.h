@@ -13,7 +13,7 @@ namespace fx::base {
 class OutOfMemory final : public std::bad_alloc
 {
 public:
-    /// @param message truncated to 511 bytes
+    /// @param message text about the purpose of the memory; truncated to 511 bytes
     explicit OutOfMemory(std::string_view message) noexcept
     {
         const size_t size = std::min(message.size(), message_.size() - 1);

@@ -1,5 +1,5 @@
 /// @file same_bytes.h
-/// Whether two arrays hold the same bits.
+/// Tests whether two arrays have the same bits.
 #pragma once
 
 #include <cstring>
@@ -8,8 +8,8 @@
 
 namespace fx::base {
 
-/// Compares bytes, so that +0 differs from -0 and padding bytes count. Pointers may be null when there are no
-/// elements.
+/// True if both arrays have the same bytes. Therefore +0 differs from -0, and padding bytes are compared too.
+/// Pointers may be null when there are no elements.
 template <class T>
 bool sameBytes(std::span<const T> a, std::span<const T> b)
 {

@@ -8,7 +8,7 @@ namespace fx::base {
 
 struct EmbeddedText
 {
-    std::string_view name; ///< path relative to its base folder, with '/'
+    std::string_view name; ///< path of the file relative to its base folder, with '/' between folders
     std::string_view text;
 };
 

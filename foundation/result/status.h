@@ -15,23 +15,24 @@ enum class Code : int
 {
     Ok = 0,
     InvalidArgument = -1, ///< an argument is null, not finite, or outside its range
-    StaleId = -2,         ///< the object of an id never existed, was destroyed, or is of another kind
-    WrongThread = -3,     ///< called from a thread that the function's rule forbids
-    OutOfMemory = -4,     ///< the allocator returned null
-    Capacity = -5,        ///< a stated capacity is used up
-    NotFound = -6,        ///< a file or asset does not exist
-    TooLarge = -7,        ///< an input exceeds its documented size limit and was not read
-    Parse = -8,           ///< a text is not well formed
-    Schema = -9,          ///< a preset or scene is well-formed JSON but violates its schema
-    Version = -10,        ///< this library does not support the version of a struct, preset or header
-    GlUnsupported = -11,  ///< the GL context lacks a version or function that is required
-    GlFailed = -12,       ///< GL reported an error for a shader, a framebuffer or an allocation
-    NoGl = -13,           ///< the context was created without GL, so it cannot draw
-    ReEntrant = -14,      ///< a callback called back into the object that is calling it
-    Io = -15,             ///< the operating system refused to read or write
-    Interrupted = -16,    ///< the user stopped the operation
-    HostAnswer = -17,     ///< a callback of the host returned an invalid value
-    Internal = -99,       ///< a defect of this library
+    /// The id belongs to an object that never existed or was destroyed, or to an object of another kind.
+    StaleId = -2,
+    WrongThread = -3,    ///< the function must not be called on the calling thread
+    OutOfMemory = -4,    ///< the allocator returned null
+    Capacity = -5,       ///< a stated capacity is used up
+    NotFound = -6,       ///< a file or asset does not exist
+    TooLarge = -7,       ///< an input exceeds its documented size limit and was not read
+    Parse = -8,          ///< a text is not well formed
+    Schema = -9,         ///< a preset or scene is well-formed JSON but violates its schema
+    Version = -10,       ///< this library does not support the version of a struct, preset or header
+    GlUnsupported = -11, ///< the GL context lacks a version or function that is required
+    GlFailed = -12,      ///< GL reported an error for a shader, a framebuffer or an allocation
+    NoGl = -13,          ///< the context was created without GL, so it cannot draw
+    ReEntrant = -14,     ///< a callback called a function of the object that was calling the callback
+    Io = -15,            ///< the operating system refused to read or write
+    Interrupted = -16,   ///< the user stopped the operation
+    HostAnswer = -17,    ///< a callback of the host returned an invalid value
+    Internal = -99,      ///< a defect of this library
 };
 
 /// The code's identifier, such as "invalid-argument".
@@ -54,7 +55,7 @@ private:
     std::string message_;
 };
 
-/// A value, or the status of the failure if there is no value.
+/// A value; or, if an operation failed, the status of the failure.
 template <class T>
 class [[nodiscard]] Result
 {

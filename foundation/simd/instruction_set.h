@@ -1,5 +1,5 @@
 /// @file instruction_set.h
-/// Which vector instructions the simulation uses. All instruction sets give the same bits; they differ in
+/// The vector instructions that the simulation uses. All instruction sets give the same bits; they differ in
 /// speed.
 ///
 /// Kernels are compiled once for each instruction set with Highway and chosen at run time. Call
@@ -23,20 +23,21 @@ enum class InstructionSet : uint8_t
     Avx512
 };
 
-/// Name of an instruction set as in FXSDK_SIMD: scalar, sse4, avx2, avx512.
+/// Name of an instruction set, as used in FXSDK_SIMD: scalar, sse4, avx2, avx512.
 std::string_view instructionSetName(InstructionSet set);
 std::optional<InstructionSet> instructionSetOf(std::string_view name);
 
-/// Once in a process, applies the limit of the environment variable FXSDK_SIMD; an unknown value is ignored.
-/// Cheap and thread-safe.
+/// Limits the instruction set to the value of the environment variable FXSDK_SIMD; an unknown value is
+/// ignored. Only the first call in a process has an effect. Cheap and thread-safe.
 void applyInstructionSetLimit();
 /// Warning about the environment variable FXSDK_SIMD; empty if it is unset or valid.
 std::string_view instructionSetNote();
 
-/// The instruction set in use: the widest that both the processor and the limit allow.
+/// The instruction set in use: the widest one that both the processor and the limit allow.
 InstructionSet instructionSet();
 
-/// Replaces the limit, for tests and benchmarks. Must not be called while kernels run.
+/// Replaces the limit of instruction sets. Used in tests and benchmarks. Must not be called while kernels
+/// run.
 void limitInstructionSet(InstructionSet widest);
 
 } // namespace fx::base

@@ -12,7 +12,7 @@
 
 namespace fx::base {
 
-/// Columns of the kind, in order.
+/// Indices of the columns of the kind.
 namespace blob_column {
 enum : size_t
 {
@@ -38,15 +38,15 @@ enum : size_t
 };
 }
 
-/// Constants of a group, in order.
+/// Indices of the constants of a group.
 namespace blob_constant {
 enum : size_t
 {
-    Layer,        ///< MediaLayer of the opacity and light that FireShare does not assign to Fire
+    Layer, ///< MediaLayer of the part of opacity and light that FireShare does not assign to the layer Fire
     DetailAmount, ///< [1] strength of procedural detail, 0 shows the bare kernel
     DetailScale,  ///< [1] periods of the noise per diameter of a blob
-    Anisotropy,   ///< [1] Henyey-Greenstein g of scattering, (-1, 1)
-    Shutter,      ///< [s] exposure time of the motion blur; 0: none
+    Anisotropy,   ///< [1] mean cosine g of the Henyey-Greenstein phase function, (-1, 1)
+    Shutter,      ///< [s] exposure time for motion blur; 0: no motion blur
     Count
 };
 }

@@ -23,7 +23,7 @@
 
 namespace fx::base {
 
-/// Identifies the instance and solver that published a group; equal in all snapshots of a scene.
+/// Identifies the instance and the solver that published a group. It is the same in all snapshots of a scene.
 struct GroupName
 {
     uint64_t instance = 0;
@@ -38,7 +38,7 @@ inline GroupName nameOf(const GroupInfo& info)
     return {info.instance, info.solver, info.kind};
 }
 
-/// All groups after the step that ended at `tick`.
+/// All groups of a scene at the end of the step that ended at `tick`.
 class FrameSnapshot
 {
 public:
@@ -56,10 +56,10 @@ public:
     /// [s] length of the step that ended with this snapshot; 0 if no step ended with it. Particles that were
     /// born within the step are drawn from their birth on.
     float secondsBack() const { return float(toSeconds(step_)); }
-    Ticks step() const { return step_; } ///< [tick] the same length, as passed to begin()
+    Ticks step() const { return step_; } ///< [tick] length of the step, as passed to begin()
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
-    /// The group at `index`. The first call for a pooled group copies all rows of pools to their groups. It
-    /// allocates nothing.
+    /// The group at `index`. The first call for a pooled group copies the rows of all pools to the pooled
+    /// groups. It allocates nothing.
     const SnapshotGroup& group(size_t index) const
     {
         const uint32_t place = placeOf(index);
@@ -72,7 +72,7 @@ public:
         const uint32_t place = placeOf(index);
         return (place & kPooled) != 0 ? &roster_->entries[place & ~kPooled] : nullptr;
     }
-    /// Whether group() has been called for a pooled group, so that the rows of pools have been copied.
+    /// True if group() has been called for a pooled group, so that the rows of all pools have been copied.
     bool hasGivenRows() const { return roster_ && spread_->isDone(); }
     GroupName name(size_t index) const ///< name of the group at `index`; does not copy rows
     {
@@ -83,8 +83,8 @@ public:
 
     /// Hash of the tick and of every id, column, constant and placement, computed at each call.
     uint64_t hash() const { return hashAt(tick_); }
-    /// The hash that this content would have at `tick`. A snapshot without elements also represents later
-    /// steps, so that its hash is needed for their ticks.
+    /// The hash that this content would have at `tick`. It is needed because a snapshot without elements also
+    /// represents later steps.
     uint64_t hashAt(Ticks tick) const;
 
     // ---- for the writer, before publication ----
@@ -100,8 +100,8 @@ public:
             return groups_[groupCount_++]; // the group at this index fits exactly; no other one fits better
         return findGroup(kind, capacity, present);
     }
-    /// As addGroup(), for a writer that calls SnapshotGroup::keepsConstants() before it writes constants:
-    /// they are not cleared.
+    /// Does the same as addGroup(), but does not clear the constants. Used by writers that call
+    /// SnapshotGroup::keepsConstants() before they write constants.
     SnapshotGroup& addGroupAgain(KindId kind, size_t capacity, ColumnSet present)
     {
         if (groupCount_ + 2 < groups_.size())
@@ -117,8 +117,8 @@ public:
     PooledRows& addPool(KindId kind, size_t capacity, ColumnSet present, uint32_t each);
     size_t poolCount() const { return poolCount_; }
     const PooledRows& pool(size_t index) const { return *pools_[index]; }
-    /// Sets which groups the pools contain, and the position of these groups among the added ones. Called
-    /// once, after all groups and pools are added.
+    /// Sets the list of the groups that the pools contain, and their positions between the added groups. Must
+    /// be called once, after all groups and pools have been added.
     /// @param ends for each run of consecutive added groups, the number of added groups up to its end, see
     ///         GroupRoster::Entry::stretch
     void setRoster(std::shared_ptr<const GroupRoster> roster, std::span<const uint32_t> ends);
@@ -127,7 +127,7 @@ public:
 private:
     friend class UnpackedGroups;
     static constexpr uint32_t kPooled = 1u << 31;
-    /// Index among the added groups; with the bit kPooled, index in the roster.
+    /// Index of a group in groups_; or, if the bit kPooled is set, its index in the roster.
     uint32_t placeOf(size_t index) const { return roster_ ? places_[index] : uint32_t(index); }
     void listPlaces();
     SnapshotGroup& findGroup(KindId kind, size_t capacity, ColumnSet present);
@@ -139,15 +139,15 @@ private:
     uint64_t serial_;
     Ticks step_ = 0;
     size_t groupCount_ = 0;
-    /// The first groupCount_ are valid; the others are kept for their memory.
+    /// The first groupCount_ groups are valid; the others are kept for their memory.
     std::pmr::vector<SnapshotGroup> groups_;
     size_t poolCount_ = 0;
-    std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ are valid
-    std::shared_ptr<const GroupRoster> roster_;      ///< null without pools
+    std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ pools are valid
+    std::shared_ptr<const GroupRoster> roster_;      ///< null if there are no pools
     std::pmr::vector<uint32_t> ends_;                ///< see setRoster()
-    std::pmr::vector<uint32_t> places_;              ///< by group, see placeOf(); used with pools
-    uint64_t listed_ = 0;                            ///< GroupRoster::shape to which places_ and ends_ belong
-    std::unique_ptr<UnpackedGroups> spread_;         ///< null without pools
+    std::pmr::vector<uint32_t> places_;      ///< by group: result of placeOf(); used only if there are pools
+    uint64_t listed_ = 0;                    ///< GroupRoster::shape to which places_ and ends_ belong
+    std::unique_ptr<UnpackedGroups> spread_; ///< null if there are no pools
 };
 
 } // namespace fx::base

@@ -1,6 +1,6 @@
 /// @file gpu_modules.h
 /// Modules of emitters whose motion has no closed form. A compute shader is assembled from the list of
-/// modules; this header also describes the steps that the shader takes.
+/// modules; this header also describes the data of the time steps that the shader computes.
 ///
 /// shaders/gpu_particles/gpu_particle_forces.glsl and gpu_particle_contacts.glsl implement the modules and
 /// describe their numbers.
@@ -27,17 +27,17 @@ enum class GpuModule : uint32_t
     Constant,
     Inverse,
     InverseSquare,
-    FieldAir, ///< vectors on a grid: velocities of the air
+    FieldAir, ///< a vector grid with velocities of the air
     FieldForce,
     ConformSphere,
     ConformBox,
-    Bounce, ///< bounces at the ground plane; tested once per step
+    Bounce, ///< particles bounce off the ground plane; tested once per step
     // Obstacles. Their contacts within a step are handled in order of time.
     Plane,
     Ground,
     Sphere,
     Box,
-    Depth, ///< surfaces in a view's depth texture, see rendering/gpu_particles/gpu_depth.h
+    Depth, ///< collision with the surfaces in a view's depth texture, see rendering/gpu_particles/gpu_depth.h
 };
 constexpr GpuModule kFirstGpuContact = GpuModule::Bounce;
 constexpr GpuModule kFirstGpuObstacle = GpuModule::Plane;
@@ -57,6 +57,7 @@ constexpr uint32_t kGpuStepHead = 12; ///< [word] size of GpuStepWords
 class GpuModules
 {
 public:
+    /// Appends a module.
     /// @param numbersOfIt constants of the module
     /// @param words number of 32-bit words of the module's data per step
     void add(GpuModule module, std::initializer_list<float> numbersOfIt, uint32_t words = 0)
@@ -68,16 +69,16 @@ public:
 
     std::vector<GpuModuleUse> uses;
     std::vector<float> numbers;
-    uint32_t stepWords = 0; ///< [word] data of all modules per step, without GpuStepWords
-    bool kills = false;     ///< particles may die before the end of their lifetime
-    bool sticks = false;    ///< particles may come to rest permanently
-    /// The emitter collides with the host's geometry. If the scene has such geometry, the emitter runs on the
-    /// CPU.
+    uint32_t stepWords = 0; ///< [word] size of the data of all modules in one step, without GpuStepWords
+    bool kills = false;     ///< true: particles may die before the end of their lifetime
+    bool sticks = false;    ///< true: particles may come to rest permanently
+    /// True: the emitter collides with the host's geometry. If the scene has such geometry, the emitter runs
+    /// on the CPU.
     bool dependsOnHost = false;
 };
 
-/// The first part of the data of a step, the same for all emitters, as the GPU reads it. Data of the modules
-/// follow.
+/// First part of the data of a step, in the layout that the GPU reads. It is the same for all emitters. The
+/// data of the modules follow it.
 struct GpuStepWords
 {
     int64_t endAge;   ///< [tick] time since the step ended
@@ -85,7 +86,7 @@ struct GpuStepWords
     float seconds;    ///< [s] length of the step
     float gravity[3]; ///< [m/s2]
     float wind[3];    ///< [m/s]
-    float ground;     ///< [m] height of the ground plane, -infinity for none
+    float ground;     ///< [m] height of the ground plane; -infinity: there is none
     uint32_t unused;
 };
 static_assert(sizeof(GpuStepWords) == 4 * kGpuStepHead);
@@ -105,12 +106,12 @@ struct GpuStepRun
 };
 static_assert(sizeof(GpuStepRun) == 56);
 
-/// Step up to which an emitter has been computed.
+/// The step up to which the particles of an emitter have been computed.
 struct GpuStepMark
 {
-    uint64_t history =
-        0;           ///< key of the run of steps that contains the last step; 0: no step has been computed
-    int64_t now = 0; ///< [tick] local time at the end of that step
+    /// GpuStepRun::history of the run that contains the last computed step; 0: no step has been computed.
+    uint64_t history = 0;
+    int64_t now = 0; ///< [tick] local time at the end of the last computed step
 };
 
 } // namespace fx::base

@@ -52,17 +52,20 @@ inline constexpr KindDesc kGpuParticleKind{"gpuParticle", kGpuParticleColumns, k
 enum class GpuShape : uint32_t
 {
     Point,
-    Ball, ///< radius size[0]; empty up to the radius inner * size[0]
-    Box,  ///< half extents `size`; initial direction +Y
-    Cone, ///< from the disc of radius size[0]; the cosine of the direction's angle to +Y is at least cosLimit
-    BoxFaces, ///< on the faces of the box; initial direction outwards
-    Line,     ///< along Y from -size[0] to size[0]
-    Disc,     ///< radius size[0]; initial direction +Y
-    Torus,    ///< radius size[0] of the circle, `tube` of the tube around it
-    TallCone, ///< cone on the disc of radius size[0], or its side; initial direction away from the tip
+    Ball, ///< ball of radius size[0]; empty within the radius inner * size[0]
+    Box,  ///< box with the half extents `size`; initial direction +Y
+    /// Births on the disc of radius size[0]; the cosine of the angle between the initial direction and +Y is
+    /// at least cosLimit.
+    Cone,
+    BoxFaces, ///< faces of the box; initial direction outwards
+    Line,     ///< line along Y from -size[0] to size[0]
+    Disc,     ///< disc of radius size[0]; initial direction +Y
+    Torus,    ///< circle of radius size[0] with a tube of radius `tube` around it
+    /// Cone on the disc of radius size[0], or the side of this cone; initial direction away from the tip.
+    TallCone,
 };
 
-/// How the frame of a flipbook texture is chosen.
+/// Choice of the frame of a flipbook texture.
 enum class GpuFrames : uint32_t
 {
     First,
@@ -81,10 +84,10 @@ struct GpuParticleNumbers
     float axis[3];     ///< unit vector onto which +Y is rotated
     float cosLimit;
     float inner;         ///< [1] share of the radius that is empty; 1: births on the surface
-    float tube;          ///< [m] radius of the tube of a torus; TallCone: 1 for births on the side, else 0
+    float tube;          ///< [m] Torus: radius of the tube; TallCone: 1 for births on the side, else 0
     float speed[2];      ///< [m/s]
     float lifetime[2];   ///< [s]
-    float perLife;       ///< [1/s] 1 / lifetime if lifetimes do not vary
+    float perLife;       ///< [1/s] 1 / lifetime, if all particles have the same lifetime
     float radius[2];     ///< [m]
     float opacity[2];    ///< [1]
     float brightness[2]; ///< [1]
@@ -92,10 +95,10 @@ struct GpuParticleNumbers
     float spin[2];       ///< [rad/s]
     float frame[2];      ///< [1]
     float drag;          ///< [1/s] >= 0
-    float perDrag;       ///< [s] 1 / drag, or 0
+    float perDrag;       ///< [s] 1 / drag; 0 without drag
     float frames;        ///< [1] number of frames of the texture
     float framesPerSecond;
-    float perFastest; ///< [s/m] 1 / the speed at which the curves over speed end
+    float perFastest; ///< [s/m] 1 / (speed at which the curves over speed end)
     float height;     ///< [m] height of the cone
     float slope[3];   ///< [1] slope of the cone's side in double precision, as the sum of three floats
     /// Red, green, blue, opacity and size over life. Size and opacity multiply the values drawn at birth. A
@@ -112,23 +115,23 @@ struct GpuParticleFeatures
 {
     GpuShape shape = GpuShape::Point;
     GpuFrames frames = GpuFrames::First;
-    bool turned = false; ///< the axis is not +Y
-    bool brief = false;  ///< 32 bits of ticks are enough to compute ages
+    bool turned = false; ///< true: the axis is not +Y
+    bool brief = false;  ///< ages fit in 32-bit numbers of ticks
     bool lifeVaries = false;
     bool drags = false;
     bool bySpeed = false;
-    bool wide = false;      ///< the shape is computed in double precision, as in ShapeOp on the CPU
-    bool lifeTable = false; ///< curves over life are stored as samples, not as pieces
+    bool wide = false;      ///< true: the shape is computed in double precision, as in ShapeOp on the CPU
+    bool lifeTable = false; ///< true: curves over life are stored as samples; false: as linear pieces
     bool speedTable = false;
-    bool steps = false;    ///< motion has no closed form; `modules` compute it in steps
-    ColumnSet columns = 0; ///< columns of the kind "particle" to compute
+    bool steps = false;    ///< true: motion has no closed form, so that `modules` compute it in steps
+    ColumnSet columns = 0; ///< columns of the kind "particle" that are computed
     std::vector<GpuModuleUse> modules;
-    uint32_t stepWords = 0; ///< [word] data of a step, with GpuStepWords
+    uint32_t stepWords = 0; ///< [word] size of the data of a step, including GpuStepWords
 
     bool operator==(const GpuParticleFeatures&) const = default;
 };
 
-/// An emitter as the GPU computes it. Immutable, shared by all groups and threads.
+/// An emitter whose particles the GPU computes. Immutable; shared by all groups and threads.
 class GpuParticleProgram
 {
 public:
@@ -137,10 +140,10 @@ public:
     GpuParticleFeatures features;
     GpuParticleNumbers numbers{};
     std::vector<float> moduleNumbers; ///< see GpuModules
-    uint32_t rows = 0;                ///< number of rows; dead particles included
+    uint32_t rows = 0;                ///< number of rows, including rows of dead particles
     bool kills = false;               ///< see GpuModules
     bool dependsOnHost = false;       ///< see GpuModules
-    float meanRadius = 0.0f;          ///< [m] approximate radius, to estimate costs
+    float meanRadius = 0.0f;          ///< [m] approximate mean radius, to estimate costs
 
     /// Computes the particles of `group` on the calling thread, and adds them to `out` as a group of the kind
     /// "particle", equal to the group that the emitter would publish from the CPU. The schema of `out` must
@@ -152,21 +155,24 @@ public:
     virtual void writeSteps(const SnapshotGroup& group, int64_t since, std::vector<uint32_t>& out) const = 0;
 };
 
-/// Births at equal intervals of time, or all at the same time.
+/// Consecutive births at equal intervals of time, or all at the same time.
 struct GpuBirthRun
 {
-    uint32_t reach; ///< the first birth of the run has the index GpuParticleMoment::next - reach
+    /// Number of births from the first birth of the run to the next birth: the index of the first one is
+    /// GpuParticleMoment::next - reach.
+    uint32_t reach;
     uint32_t unused;
     int64_t age;          ///< [tick] age of the particle of the first birth
-    int64_t stride;       ///< [tick] s of birth-runs: the interval, rounded down
-    uint32_t fraction[3]; ///< [2^-96] f of birth-runs, lowest word first
-    uint32_t rest[3];     ///< [2^-96] r of birth-runs for the first birth
+    int64_t stride;       ///< [tick] s of formula birth-runs: the interval, rounded down
+    uint32_t fraction[3]; ///< [2^-96] f of formula birth-runs, lowest word first
+    uint32_t rest[3];     ///< [2^-96] r of formula birth-runs for the first birth
 };
 
-/// Acceleration of all particles from a moment until the moment of the next condition.
+/// Acceleration of all particles from the moment of this condition until that of the next condition.
 struct GpuCondition
 {
-    /// [tick] time since the moment; for the first condition at least the age of every particle
+    /// [tick] time since the moment of the condition; for the first condition, at least the age of every
+    /// particle
     int64_t age;
     float pull[3]; ///< [m/s2] gravity + drag * wind
     float unused;
@@ -179,8 +185,8 @@ struct GpuParticleMoment
     uint64_t next;       ///< index of the next birth
     int64_t now;         ///< [tick] local time
     uint32_t solver;     ///< counter word 2 of base::philox
-    uint32_t rows;       ///< as in the program
-    uint32_t nextRow;    ///< next mod rows
+    uint32_t rows;       ///< number of rows, as in the program
+    uint32_t nextRow;    ///< row of the next birth: next mod rows
     uint32_t window;     ///< number of births before `next` that may be alive, <= rows
     uint32_t runs;       ///< number of GpuBirthRuns, in order of time; > 0 if window > 0
     uint32_t conditions; ///< number of GpuConditions, > 0, in order of time
@@ -193,24 +199,26 @@ static_assert(sizeof(GpuBirthRun) == 48 && sizeof(GpuCondition) == 24 && sizeof(
 constexpr uint32_t kMaxGpuRuns = 64;
 constexpr uint32_t kMaxGpuConditions = 16;
 constexpr uint32_t kMaxGpuStepRuns = 512;
-constexpr uint32_t kMaxGpuSteps = 4096; ///< within the lifetime of a particle
+constexpr uint32_t kMaxGpuSteps = 4096; ///< largest number of steps within the lifetime of a particle
 constexpr size_t kMaxGpuWords = (sizeof(GpuParticleMoment) + kMaxGpuRuns * sizeof(GpuBirthRun) +
                                  kMaxGpuConditions * sizeof(GpuCondition)) /
                                 8;
-/// The same for an emitter whose motion is computed in steps.
+/// Largest number of words of an emitter whose motion is computed in steps.
 constexpr size_t kMaxSteppedGpuWords = kMaxGpuWords + kMaxGpuStepRuns * sizeof(GpuStepRun) / 8;
 
 /// Reads the moment, or the run of steps with number `run`, from the words of a group.
 GpuParticleMoment gpuMomentOf(const SnapshotGroup& group);
 GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& moment, uint32_t run);
-/// Number of steps of a run that had ended at or before `tick`, if the present time is `now`.
+/// Number of steps of a run that ended at or before the local time `tick`, if the present local time is
+/// `now`.
 uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick);
-/// True when the steps of `group` continue at `mark`.
+/// True if the state of the particles at `mark` is valid for `group`, so that only the steps after it must be
+/// computed.
 bool continuesFrom(const SnapshotGroup& group, const GpuStepMark& mark);
-/// The mark after the steps of `group`.
+/// The mark after the last step of `group`.
 GpuStepMark gpuMarkOf(const SnapshotGroup& group);
 
-/// [tick] Age of the particle of birth number `j` of a run, by equation (1).
+/// [tick] Age of the particle of birth number `j` of a run, by equation (1) of formula birth-runs.
 inline int64_t gpuBirthAge(const GpuBirthRun& run, uint32_t j)
 {
     __extension__ typedef unsigned __int128 Wide;

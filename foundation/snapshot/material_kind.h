@@ -17,7 +17,7 @@
 
 namespace fx::base {
 
-/// Columns of the kind, in order.
+/// Indices of the columns of the kind.
 namespace material_column {
 enum : size_t
 {
@@ -31,30 +31,30 @@ enum : size_t
 };
 }
 
-/// Constants of a group, in order.
+/// Indices of the constants of a group.
 namespace material_constant {
 enum : size_t
 {
     Generation, ///< [1] number of the younger generation modulo kGenerationCycle
     Fade,       ///< [1] weight of the younger generation, 0 .. 1
     Length0,    ///< [m] size of the largest lumps of the generation in the columns Place0
-    Length1,    ///< [m] the same for the columns Place1
-    Growth0,    ///< [1] radii of balls when the generation of Place0 began, over their radii now
+    Length1,    ///< [m] size of the largest lumps of the generation in the columns Place1
+    Growth0,    ///< [1] radius of balls when the generation of Place0 began, divided by their present radius
     Growth1,
     Thinnest, ///< [1] optical depth of a lump below which the medium is removed completely
     Densest,  ///< [1] optical depth of a lump above which the medium is not eroded
     Ramp,     ///< [1] width of the erosion threshold; small values give crisp edges
-    Gain,     ///< [1] amplitude of each octave of the noise over that of the octave before
+    Gain,     ///< [1] amplitude of each octave of the noise, divided by that of the previous octave
     Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps
     Glow,     ///< [1] relative rise of temperature where the noise is one standard deviation above its mean
-    /// [1] how much edges soften as the medium thins: 0 lumps fall apart, 1 they keep their form, above 1
-    /// they blur
+    /// [1] Softening of edges as the medium thins. With 0 lumps fall apart, with 1 they keep their form, and
+    /// above 1 they blur.
     Softening,
     Count
 };
 }
 
-constexpr uint32_t kGenerationCycle = 1u << 20; ///< exact in a float
+constexpr uint32_t kGenerationCycle = 1u << 20; ///< modulus of the numbers of generations; exact in a float
 
 inline constexpr ColumnDesc kMaterialColumns[material_column::Count] = {
     {"place0X", "m"}, {"place0Y", "m"}, {"place0Z", "m"},

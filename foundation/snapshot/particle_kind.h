@@ -16,7 +16,7 @@
 
 namespace fx::base {
 
-/// Columns of the kind "particle", in order. Those after Color exist only where an emitter needs them.
+/// Indices of the columns of the kind "particle". Columns after Color exist only for emitters that need them.
 namespace particle_column {
 enum : size_t
 {
@@ -48,7 +48,8 @@ constexpr uint64_t kOrientation = uint64_t(15) << OrientationX;
 constexpr uint64_t kIndex = uint64_t(1) << Index;
 } // namespace particle_column
 
-/// Columns of the kind "ribbon", in order: points along strips, newest first in each strip.
+/// Indices of the columns of the kind "ribbon". Elements are points along strips, the newest first in each
+/// strip.
 namespace ribbon_column {
 enum : size_t
 {
@@ -59,12 +60,12 @@ enum : size_t
     Arc, ///< length along the path since birth; if ArcPerTile is 0: 0 at the end of the strip, 1 at its head
     Color,
     Strip,
-    Age, ///< since the birth of the particle
+    Age, ///< age of the particle
     Count
 };
 }
 
-/// Columns of the kind "light", in order.
+/// Indices of the columns of the kind "light".
 namespace light_column {
 enum : size_t
 {
@@ -78,7 +79,7 @@ enum : size_t
 };
 }
 
-/// How a particle is drawn.
+/// Geometry with which a particle is drawn.
 enum class ParticleShape : uint32_t
 {
     Sprite, ///< a textured square
@@ -88,30 +89,32 @@ enum class ParticleShape : uint32_t
 /// Blending with the background.
 enum class ParticleBlend : uint32_t
 {
-    Alpha,    ///< blended over the background by its opacity
-    Additive, ///< adds its light times its opacity
-    Opaque,   ///< opaque where its opacity is at least one half; writes depth
+    Alpha,    ///< the particle covers the background in proportion to its opacity
+    Additive, ///< the light of the particle times its opacity is added to the background
+    Opaque,   ///< the particle is opaque where its opacity is at least one half, and writes depth
 };
 
 /// Orientation of the quad of a sprite.
 enum class SpriteAlignment : uint32_t
 {
-    Camera,   ///< faces the camera
-    Velocity, ///< vertical along the velocity, turned about it to face the camera
-    Axis,     ///< vertical along a fixed axis, turned about it to face the camera
-    Plane,    ///< lies in the plane normal to the axis
+    Camera, ///< faces the camera
+    /// The vertical axis of the quad is along the velocity; the quad is rotated about it to face the camera.
+    Velocity,
+    /// The vertical axis of the quad is along a fixed axis; the quad is rotated about it to face the camera.
+    Axis,
+    Plane, ///< the quad lies in the plane normal to the axis
 };
 
-/// In which order the rows of a group are drawn.
+/// Order in which the rows of a group are drawn.
 enum class ParticleOrder : uint32_t
 {
-    None,     ///< order of the rows
-    Depth,    ///< far to near
-    Oldest,   ///< oldest first
-    Youngest, ///< youngest first
+    None,     ///< the rows are drawn in the order in which they are stored
+    Depth,    ///< the farthest first
+    Oldest,   ///< the oldest first
+    Youngest, ///< the youngest first
 };
 
-/// Constants of a group of kinds "particle" and "ribbon", in order.
+/// Indices of the constants of a group of the kind "particle" or "ribbon".
 namespace particle_constant {
 enum : size_t
 {
@@ -119,26 +122,29 @@ enum : size_t
     Layer, ///< MediaLayer to which light and opacity are added
     Blend, ///< ParticleBlend
     Order, ///< ParticleOrder
-    /// [m] > 0 sorts the group as if it were nearer to the camera by this length.
+    /// [m] If > 0, the group is sorted as if it were nearer to the camera by this length.
     OrderBias,
     Alignment, ///< SpriteAlignment
     AxisX,     ///< [1] local unit vector of the alignments Axis and Plane
     AxisY,     ///< [1]
     AxisZ,     ///< [1]
-    Aspect,    ///< [1] width over height of a sprite, > 0; radius is half the height
-    /// [s] with the alignment Velocity, a sprite is longer by speed times Stretch. The v of its texture runs
-    /// along the velocity.
+    /// [1] Width of a sprite divided by its height, > 0; the radius of the particle is half the height.
+    Aspect,
+    /// [s] With the alignment Velocity, a sprite is longer by speed times Stretch. The texture coordinate v
+    /// increases along the velocity.
     Stretch,
     Luminance,   ///< [cd/m2] luminance that color 1 emits
     Lit,         ///< [1] share of the scene's light that color 1 scatters, 0..1
     Softness,    ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
-    Texture,     ///< id in the AssetTable; 0: a round spot that fades towards its edge
-    TileColumns, ///< [1] frames of the texture side by side, >= 1
-    TileRows,    ///< [1] frames of the texture above each other, >= 1
-    FrameBlend,  ///< 1: the two nearest frames are mixed by the fraction of Frame; 0: frame floor(Frame)
-    Motion,      ///< id in the AssetTable of the motion vectors (red, green; 0.5 is no motion), 0: none
-    MotionScale, ///< [1] motion by a vector of length 1, over the width of a frame
-    Mesh,        ///< id in the AssetTable, 0: none
+    Texture,     ///< id of the texture in the AssetTable; 0: a round spot that fades towards its edge
+    TileColumns, ///< [1] number of frames of the texture side by side, >= 1
+    TileRows,    ///< [1] number of frames of the texture above each other, >= 1
+    /// 1: the two nearest frames are mixed, with the fractional part of Frame as weight; 0: the frame
+    /// floor(Frame) is shown.
+    FrameBlend,
+    Motion, ///< id in the AssetTable of the texture of motion vectors (red, green; 0.5 is no motion); 0: none
+    MotionScale, ///< [1] displacement by a motion vector of length 1, in widths of a frame
+    Mesh,        ///< id of the mesh in the AssetTable; 0: none
     ArcPerTile,  ///< [m] length of a ribbon per width of the texture; 0: the texture covers the whole strip
     Edge,        ///< [1] share of a ribbon's half width over which it fades towards its edges, 0..1
     /// [s] age at which a ribbon ends. It may have some older rows, for interpolation to earlier moments.

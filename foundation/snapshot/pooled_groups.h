@@ -1,5 +1,5 @@
 /// @file pooled_groups.h
-/// Many small groups of one kind that are published as one pool of rows, in any order.
+/// Many small groups of one kind that are published as one pool of rows. The rows of a pool are in any order.
 ///
 /// Readers call FrameSnapshot::group() as for any other group: the first call copies each row of each pool to
 /// its group. Views read the rows in the pools, so that nothing is copied.
@@ -30,7 +30,7 @@ class RowCopier
 {
 public:
     RowCopier() = default;
-    /// @param each capacity of each group
+    /// @param each capacity of each group of the pool
     RowCopier(const KindDesc& kind, const SnapshotGroup& pool, uint32_t each);
 
     void copy(uint32_t row, float* storage, uint32_t place) const
@@ -79,7 +79,7 @@ struct PooledRows
     };
 
     explicit PooledRows(std::pmr::memory_resource* memory) : rows(memory), owner(memory), counts(memory) {}
-    static constexpr uint32_t kMaxGroupRows = 256; ///< rows
+    static constexpr uint32_t kMaxGroupRows = 256; ///< largest number of rows of a group
     static constexpr uint32_t kMaxMembers = 1u << 24;
     static constexpr uint32_t nameOf(uint32_t member, uint32_t place) { return member << 8 | place; }
     uint32_t memberOf(uint32_t row) const { return owner[row] >> 8; }
@@ -104,7 +104,7 @@ struct PooledRows
         box.add(extent.high, extent.reach * corner);
         return box;
     }
-    /// Extends `io` by a row that contains a visible element.
+    /// Extends `io` by one row, which must contain a visible element.
     void measure(uint32_t row, RowExtent& io) const
     {
         const glm::vec3 at = copier.center(row);
@@ -121,22 +121,25 @@ struct PooledRows
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
                  uint32_t each);
 
-    SnapshotGroup rows;                ///< columns and constants; only the kind of its info is valid
-    std::array<Range, 2> used;         ///< rows that may contain visible elements
-    std::pmr::vector<uint32_t> owner;  ///< by row: nameOf() its member and its place in the group
-    std::pmr::vector<uint32_t> counts; ///< by member: number of elements of its group
+    SnapshotGroup rows; ///< columns and constants of the rows; of its GroupInfo, only the kind is valid
+    std::array<Range, 2> used; ///< ranges of rows that may contain visible elements
+    /// By row: nameOf(member, place) for the member number of its group and its place in that group.
+    std::pmr::vector<uint32_t> owner;
+    std::pmr::vector<uint32_t> counts; ///< by member number: number of elements of the group
     uint32_t groupCapacity = 0;        ///< capacity of each group
     RowCopier copier;
     size_t radiusColumn = 0; ///< column of the radius; a row of radius 0 is empty
     uint64_t number = 0;     ///< identifies the constants, see SnapshotGroup::keepsConstants()
-    float corner = 1;        ///< [1] distance of the farthest drawn corner from the position, over the radius
-    size_t ageColumn = 0;    ///< used if rows have velocities
-    size_t velocityColumn = 0; ///< the first of three; 0: rows have no velocity
-    float along = 0;           ///< [s] a row extends forwards and backwards along its velocity by this time
-    /// [s] For rows of arbitrary orientation: extension in all directions by this time times the speed, over
-    /// `corner`.
+    /// [1] Distance of the farthest drawn corner of an element from its position, divided by the radius.
+    float corner = 1;
+    size_t ageColumn = 0;      ///< column of the age; used only if rows have velocities
+    size_t velocityColumn = 0; ///< first of the three columns of the velocity; 0: rows have no velocity
+    /// [s] a row extends along its velocity, forwards and backwards, by its speed times this time.
+    float along = 0;
+    /// [s] Used for rows of arbitrary orientation: speed times this time is added to the radius of a row,
+    /// before multiplication by `corner`.
     float across = 0;
-    float secondsBack = 0;    ///< [s] rows are drawn along their path of this duration before the snapshot
+    float secondsBack = 0;    ///< [s] a row is also drawn along its path during this time before the snapshot
     uint64_t writer = 0;      ///< identifies the writer of `owner`; 0: none
     uint64_t writtenUpTo = 0; ///< number of the last write, counted by the writer
 
@@ -160,10 +163,11 @@ struct GroupRoster
         bool isCosmetic = false;
     };
     std::vector<Entry> entries;
-    uint64_t shape = 0; ///< identifies the pools and their entries; equal shapes mean equal lists
+    /// Identifies the pools and their entries; rosters with the same value have equal lists.
+    uint64_t shape = 0;
 };
 
-/// The pooled groups with their own copies of their rows, created on first access.
+/// Copies of the pooled groups with rows of their own, created on first access.
 class UnpackedGroups
 {
 public:
@@ -171,11 +175,12 @@ public:
         : memory_(memory), groups_(memory), scratch_(memory), first_(memory), ends_(memory), rows_(memory)
     {}
 
-    /// Begins a new publication: discards the groups and reserves memory for all. [writer]
+    /// Begins a new publication: discards the groups and reserves memory for all. Called by the thread that
+    /// writes the snapshot.
     void prepare(const FrameSnapshot& snapshot);
-    /// The group of an entry of the snapshot's roster. Any thread.
+    /// The group of an entry of the snapshot's roster. Any thread may call this.
     const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t entry);
-    /// Whether group() has been called since prepare().
+    /// True if group() has been called since prepare().
     bool isDone() const { return done_.load(std::memory_order_acquire); }
     /// Calls f(group) for all groups in order. Each pooled group is valid only during its call of f; no
     /// memory is allocated for it. Any thread may call this; calls wait for each other.
@@ -196,15 +201,17 @@ private:
     void open(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
     void fill(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
 
-    std::mutex mutex_;              ///< guards the members below while groups are created
-    std::atomic<bool> done_{false}; ///< groups exist, and are constant until the next publication
-    uint64_t shape_ = 0;            ///< shape for which memory is reserved
+    std::mutex mutex_; ///< guards the members below while groups are created
+    /// True: the groups have been copied, and are constant until the next publication.
+    std::atomic<bool> done_{false};
+    uint64_t shape_ = 0; ///< GroupRoster::shape for which memory is reserved
     std::pmr::memory_resource* memory_;
-    std::pmr::vector<SnapshotGroup> groups_;  ///< by entry of the roster
-    std::pmr::vector<SnapshotGroup> scratch_; ///< by pool: one group that visit() reuses
-    std::pmr::vector<size_t> first_;          ///< by pool: index of its first member in ends_
-    std::pmr::vector<uint32_t> ends_;         ///< by member, pool after pool: end of its rows in rows_
-    std::pmr::vector<uint32_t> rows_;         ///< rows of the pools, grouped by member
+    std::pmr::vector<SnapshotGroup> groups_; ///< by entry of the roster: the group with a copy of its rows
+    /// By pool: a group that visit() reuses for all groups of the pool.
+    std::pmr::vector<SnapshotGroup> scratch_;
+    std::pmr::vector<size_t> first_;  ///< by pool: index of its first member in ends_
+    std::pmr::vector<uint32_t> ends_; ///< by member, pool after pool: index of the end of its rows in rows_
+    std::pmr::vector<uint32_t> rows_; ///< rows of the pools, grouped by member
 };
 
 } // namespace fx::base

@@ -22,12 +22,13 @@ namespace fx::base {
 struct GroupInfo
 {
     KindId kind = 0;
-    uint64_t instance = 0;   ///< identity of the instance within the scene
-    uint32_t solver = 0;     ///< index of the solver in its effect
-    uint32_t count = 0;      ///< elements
-    Placement placement;     ///< positions in columns are relative to it
-    Bounds bounds;           ///< in the local space of the placement; contains every element with its radius
-    bool isCosmetic = false; ///< excluded from the snapshot's hash, because it may be computed on the GPU
+    uint64_t instance = 0; ///< identity of the instance within the scene
+    uint32_t solver = 0;   ///< index of the solver in its effect
+    uint32_t count = 0;    ///< elements
+    Placement placement;   ///< transform from the local space, in which positions in columns are given
+    Bounds bounds; ///< bounds in the local space of the placement; they contain every element with its radius
+    /// True: the snapshot's hash does not include this group, because it may be computed on the GPU.
+    bool isCosmetic = false;
 };
 
 class GpuParticleProgram;
@@ -47,16 +48,18 @@ public:
     uint32_t count() const { return info_.count; }
     /// Ids of the elements; empty when the kind has no ids.
     std::span<const uint64_t> ids() const { return {ids_.data(), hasIds_ ? info_.count : 0}; }
-    /// Column `index` of the kind, which is F32; empty when the group lacks it.
+    /// Column `index` of the kind, which must have the type F32; empty if the group does not have this
+    /// column.
     std::span<const float> column(size_t index) const { return {place(index), has(index) ? info_.count : 0}; }
-    /// Column `index` of the kind, which is U64; empty when the group lacks it.
+    /// Column `index` of the kind, which must have the type U64; empty if the group does not have this
+    /// column.
     std::span<const uint64_t> column64(size_t index) const
     {
         return {reinterpret_cast<const uint64_t*>(place(index)), has(index) ? info_.count : 0};
     }
     bool has(size_t index) const { return (present_ >> index & 1) != 0; }
     ColumnSet present() const { return present_; }
-    /// Pointer to the first element of a column of floats, valid also when count() is 0.
+    /// Pointer to the first element of a column of floats. It is valid even if count() is 0.
     const float* start(size_t index) const { return place(index); }
     std::span<const float> constants() const { return {constants_.data(), constantCount_}; }
     /// Program of a group of the kind "gpuParticle", see gpu_particles.h; null for other kinds.
@@ -80,8 +83,8 @@ public:
     size_t capacity() const { return capacity_; }
     /// True when the group still has the constants that `writer` wrote, so that they need not be written
     /// again. Otherwise the constants become zero and must be written.
-    /// @param writer number of the constants, not 0; different constants have different numbers in the
-    /// process
+    /// @param writer number that identifies the constants, not 0; in a process, different constants have
+    ///         different numbers
     bool keepsConstants(uint64_t writer)
     {
         if (constantsWriter_ == writer)
@@ -129,7 +132,7 @@ private:
     uint64_t constantsWriter_ = 0;
     uint32_t constantCount_ = 0;
     bool hasIds_ = true;
-    bool isExact_ = false; ///< the memory has exactly the required size
+    bool isExact_ = false; ///< true: the memory has exactly the required size
     std::array<float, kMaxConstants> constants_{};
     std::array<uint32_t, kMaxColumns> lines_{}; ///< number of lines of 64 bytes before each column
     std::pmr::memory_resource* memory_;

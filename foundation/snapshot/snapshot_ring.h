@@ -19,15 +19,16 @@ struct SnapshotPair
 };
 
 /// Snapshots in rotation: the two newest published ones, the one being written, and those that readers hold.
-/// beginWrite and publish: scene thread. acquire and release: any thread, in pairs.
+/// The scene thread calls beginWrite() and publish(). Any thread may call acquire() and release(), in pairs.
 class SnapshotRing
 {
 public:
     SnapshotRing(const SnapshotSchema* schema, std::pmr::memory_resource* memory);
 
+    /// Begins to write a snapshot.
     /// @param step [tick] length of the step that ends at `tick`; 0 if no step ends there
     /// @return a snapshot without readers, cleared for writing; if readers hold all snapshots, a new one is
-    /// added
+    ///         added
     FrameSnapshot& beginWrite(Ticks tick, Ticks step = 0);
     /// Makes the written snapshot the newest one. It must not be changed afterwards.
     void publish();

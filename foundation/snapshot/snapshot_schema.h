@@ -1,5 +1,5 @@
 /// @file snapshot_schema.h
-/// Which kinds of data a snapshot can contain. Techniques register their kinds; the snapshot container
+/// The kinds of data that a snapshot can contain. Techniques register their kinds; the snapshot container
 /// depends on no kind.
 #pragma once
 
@@ -26,7 +26,7 @@ constexpr size_t columnElementSize(ColumnType type)
 struct ColumnDesc
 {
     std::string_view name;
-    std::string_view unit; ///< SI unit, "1" for none
+    std::string_view unit; ///< SI unit; "1" if the attribute has none
     ColumnType type = ColumnType::F32;
 };
 
@@ -34,13 +34,13 @@ struct ColumnDesc
 struct KindDesc
 {
     std::string_view name;
-    std::span<const ColumnDesc> columns;   ///< per element
-    std::span<const ColumnDesc> constants; ///< per group, F32 only
-    /// Elements have ids and are sorted by them; false: the kind defines another way to match elements of two
-    /// snapshots.
+    std::span<const ColumnDesc> columns;   ///< columns, with one value per element
+    std::span<const ColumnDesc> constants; ///< constants, with one value per group; all are F32
+    /// True: elements have ids and are sorted by them. False: the kind defines another way to match elements
+    /// of two snapshots.
     bool hasIds = true;
 
-    /// Kinds are equal if their names are equal.
+    /// Two kinds are equal if their names are equal.
     bool operator==(const KindDesc& other) const { return name == other.name; }
 };
 
@@ -50,7 +50,7 @@ constexpr size_t kMaxConstants = 24; ///< largest number of constants of a kind
 using KindId = uint32_t;
 constexpr KindId kNoKind = ~0u;
 
-/// Which columns of a kind a group has: bit i for column i.
+/// Set of those columns of a kind that a group has: bit i stands for column i.
 using ColumnSet = uint64_t;
 constexpr ColumnSet kAllColumns = ~ColumnSet(0);
 
@@ -61,7 +61,7 @@ public:
     /// Registers `kind` and returns its id; if the name is already registered, returns the existing id.
     /// Throws std::length_error if `kind` has more than kMaxColumns columns or kMaxConstants constants.
     KindId add(const KindDesc& kind);
-    KindId find(std::string_view name) const; ///< kNoKind when absent
+    KindId find(std::string_view name) const; ///< kNoKind if the kind is not registered
     const KindDesc& kind(KindId id) const { return kinds_[id]; }
     size_t size() const { return kinds_.size(); }
 

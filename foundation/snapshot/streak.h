@@ -7,22 +7,24 @@
 
 namespace fx::base {
 
-inline constexpr int kMaxStreakPieces = 64; ///< limits the cost of one moving ball
+/// Largest number of balls in a streak; limits the cost of one moving ball.
+inline constexpr int kMaxStreakPieces = 64;
 
 /// The balls of one streak. The center of ball k of `count` is behind the moving ball by k / count of the
 /// path length.
 template <typename Real>
 struct Streak
 {
-    int count;   ///< 1 .. kMaxStreakPieces
+    int count;   ///< number of balls, 1 .. kMaxStreakPieces
     Real radius; ///< radius of each ball, in the unit of the arguments
 
     /// [1] share of the medium in ball k. It decreases linearly with k; the sum over all balls is 1.
     Real shareOf(int k) const { return Real(2 * (count - k)) / Real(count * (count + 1)); }
 };
 
-/// Neighboring centers are at most one radius apart. If kMaxStreakPieces balls of `radius` are too few for
-/// this, the radius is increased to the distance of neighboring centers.
+/// Computes the streak of a moving ball. Neighboring centers are at most one radius apart. If
+/// kMaxStreakPieces balls of `radius` are too few for this, the radius is increased to the distance of
+/// neighboring centers.
 /// @param length length of the path while the shutter is open, >= 0 and finite
 /// @param radius radius of the moving ball, > 0, in the same unit
 template <typename Real>

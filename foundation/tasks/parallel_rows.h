@@ -10,7 +10,7 @@
 
 namespace fx::base {
 
-/// Calls f(begin, end) over [0, count) in batches of at least `minBatch`.
+/// Calls f(begin, end) for ranges that cover [0, count), each of at least `minBatch` rows.
 template <class F>
 void parallelRows(TaskRunner& tasks, uint32_t count, uint32_t minBatch, F&& f)
 {

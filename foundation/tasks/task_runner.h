@@ -8,12 +8,12 @@
 
 namespace fx::base {
 
-/// Body of a loop: handles the indices [begin, end).
+/// A function that executes the iterations [begin, end) of a loop.
 using LoopBody = void (*)(void* argument, uint32_t begin, uint32_t end);
 
-/// The host's parallel loop. run() must call `body` with ranges of at least `minBatch` indices that cover
-/// every index in [0, count) exactly once; the last range may be shorter. It must return after all calls of
-/// `body` have returned.
+/// A parallel loop that the host provides. run() must call `body` with ranges of at least `minBatch` indices
+/// that cover every index in [0, count) exactly once; the last range may be shorter. It must return after all
+/// calls of `body` have returned.
 struct ParallelForHook
 {
     void* user = nullptr;
@@ -29,7 +29,7 @@ public:
     virtual ~TaskRunner() = default;
     virtual void run(uint32_t count, uint32_t minBatch, LoopBody body, void* argument) = 0;
 
-    /// Calls f(begin, end) over [0, count). Allocates nothing itself.
+    /// Calls f(begin, end) for ranges that cover [0, count). Allocates no memory itself.
     template <class F>
     void parallelFor(uint32_t count, uint32_t minBatch, F&& f)
     {
@@ -44,6 +44,7 @@ public:
 };
 
 std::unique_ptr<TaskRunner> makeSerialRunner();
+/// Creates a runner that uses TBB.
 /// @param threads upper limit on threads, 0 for as many as the machine has
 std::unique_ptr<TaskRunner> makeTbbRunner(uint32_t threads = 0);
 std::unique_ptr<TaskRunner> makeHostRunner(const ParallelForHook& hook);

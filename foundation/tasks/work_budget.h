@@ -2,8 +2,9 @@
 /// Limit of the work of one update. Work is counted, not timed. So the same calls stop at the same point on
 /// every machine and with any number of threads.
 ///
-/// The unit is about 10 ns of one core of 2020: a particle that a force moves costs one or a few units. The
-/// units of each kind of work were fitted with `fx bench work-units`, see docs/howto/bounded-updates.md.
+/// The unit is about 10 ns of one processor core of the year 2020: a particle that a force moves costs one or
+/// a few units. The units of each kind of work were fitted with `fx bench work-units`, see
+/// docs/howto/bounded-updates.md.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,8 @@ namespace fx::base {
 constexpr uint64_t kNoWorkLimit = UINT64_MAX;
 constexpr double kSecondsPerUnit = 10e-9; ///< [s] approximate time of a unit
 
-/// Units that are left of the granted units. Work that has begun continues to the next point where it can be
-/// interrupted, so that the last piece of work may cost more than is left.
+/// The number of work units that are left of those granted. Work that has begun continues to the next point
+/// where it can be interrupted, so that the last piece of work may cost more than is left.
 class WorkBudget
 {
 public:
@@ -30,7 +31,7 @@ public:
     }
     bool isSpent() const { return left_ == 0; }
     uint64_t left() const { return left_; }
-    /// Number of items, at most `most`, that can begin before the budget is used up, if each item costs
+    /// Number of items, at most `most`, that can be started before the budget is used up, if each item costs
     /// `each` units.
     uint32_t affords(double each, uint32_t most) const
     {

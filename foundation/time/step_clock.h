@@ -12,9 +12,9 @@ namespace fx::base {
 /// Result of one advance of the clock.
 struct StepPlan
 {
-    uint32_t steps = 0;     ///< fixed steps to take now
+    uint32_t steps = 0;     ///< number of fixed steps to take now
     Ticks firstStep = 0;    ///< [tick] beginning of the first of these steps
-    bool refused = false;   ///< dt was negative or not finite: nothing advanced
+    bool refused = false;   ///< dt was negative or not finite, so that the clock did not advance
     Ticks droppedTicks = 0; ///< time that was dropped because dt exceeded the maximum
 };
 
@@ -45,23 +45,24 @@ public:
     void takePostponed() { ++steps_; }
     /// [tick] duration of the postponed steps.
     Ticks debt() const { return (now_ / stepTicks_ - steps_) * stepTicks_; }
-    bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< debt() is not 0
+    bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< true if debt() is not 0
     /// Reduces the debt to at most `most` [tick]. @return [tick] the dropped time
     Ticks dropDebt(Ticks most);
 
-    Ticks now() const { return now_; }                      ///< [tick] sum of all dt
+    Ticks now() const { return now_; }                      ///< [tick] sum of all dt passed to advance()
     Ticks simulated() const { return steps_ * stepTicks_; } ///< [tick] end of the last step taken
     Ticks stepTicks() const { return stepTicks_; }
     ClockState state() const { return {now_, steps_, remainder_}; }
-    /// @param state of a clock with the same step
+    /// Sets the clock to a stored state.
+    /// @param state state of a clock with the same step length
     void restore(const ClockState& state)
     {
         now_ = state.now;
         steps_ = state.steps;
         remainder_ = state.remainder;
     }
-    /// Position of now() between the last two steps, in [0, 1): 0 is the older step, 1 the newer. While there
-    /// is debt, the result is just below 1, so that the newer step is shown.
+    /// Position of now() between the last two steps, in [0, 1): 0 is the older step, 1 the newer. If steps
+    /// are postponed, the result is just below 1, so that the newer step is shown.
     double interpolation() const
     {
         return std::min(double(now_ - simulated()) / double(stepTicks_), 1.0 - 0x1p-53);
@@ -72,7 +73,7 @@ private:
     Ticks maxFrameTicks_;
     Ticks now_ = 0;
     int64_t steps_ = 0;
-    double remainder_ = 0; ///< [tick] fraction of a tick that is left of the sum of all dt
+    double remainder_ = 0; ///< [tick] part of the sum of all dt that is less than one tick
 };
 
 } // namespace fx::base

@@ -17,7 +17,7 @@ constexpr double toSeconds(Ticks ticks)
     return double(ticks) / double(kTicksPerSecond);
 }
 
-/// Rounds to the nearest tick. Requires |seconds| < 1e9.
+/// Converts seconds to the nearest number of ticks. Requires |seconds| < 1e9.
 inline Ticks toTicks(double seconds)
 {
     return Ticks(std::llround(seconds * double(kTicksPerSecond)));

@@ -16,11 +16,14 @@ public:
     explicit ActiveList(std::pmr::memory_resource* memory) : serials_(memory), keys_(memory), slots_(memory)
     {}
 
-    /// Reserves memory, so that insert() does not allocate up to a size of `count`.
+    /// Reserves memory, after which insert() allocates nothing as long as the list has at most `count`
+    /// entries.
     void reserve(size_t count);
-    /// @param serial order of creation, unique @param key, slot values passed to callbacks
+    /// Adds an entry.
+    /// @param serial order of creation, unique
+    /// @param key, slot values passed to callbacks
     void insert(uint64_t serial, uint32_t key, uint32_t slot);
-    /// The serial must be in the list.
+    /// Removes an entry. The serial must be in the list.
     void remove(uint64_t serial);
 
     /// Removes every entry for which finished(key, slot) is true, and keeps the order of the others.

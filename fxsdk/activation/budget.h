@@ -11,9 +11,9 @@ namespace fx::activation {
 struct Budget
 {
     uint64_t particles = 0;
-    double milliseconds = 0;           ///< [ms] estimated simulation time of a step
-    uint64_t bytes = 0;                ///< [byte] estimated memory of particles
-    double nanosecondsPerParticle = 0; ///< [ns] time per particle and step; 0: measured
+    double milliseconds = 0;           ///< [ms] limit of the estimated simulation time of a step
+    uint64_t bytes = 0;                ///< [byte] limit of the estimated memory of particles
+    double nanosecondsPerParticle = 0; ///< [ns] time per particle and step, for the estimate; 0: measured
 
     bool any() const { return particles > 0 || milliseconds > 0 || bytes > 0; }
 };
@@ -21,14 +21,14 @@ struct Budget
 /// An instance that requests simulation.
 struct Candidate
 {
-    double significance = 0; ///< [1] larger is more important
+    double significance = 0; ///< [1] significance; a larger value is more important
     uint64_t serial = 0;     ///< order of creation; decides between equal significances
     uint64_t particles = 0;
     uint64_t bytes = 0; ///< [byte]
     uint32_t key = 0;
-    bool runs = false;    ///< is simulated now
-    bool must = false;    ///< must be simulated in any case
-    bool granted = false; ///< the result: whether it is simulated
+    bool runs = false;    ///< whether the instance is simulated now
+    bool must = false;    ///< true: the instance is simulated in any case
+    bool granted = false; ///< result: whether the instance is simulated
 };
 
 /// Hysteresis: factor on the significance of an active instance, so that instances of equal significance do

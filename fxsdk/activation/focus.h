@@ -26,7 +26,7 @@ enum class Sight : uint8_t
 {
     Seen,
     Outside,  ///< outside of every frustum
-    TooFar,   ///< beyond the maximum distance of the instance or the camera
+    TooFar,   ///< farther away than the maximum distance of the instance or of the camera
     TooSmall, ///< smaller than Limits::minPixels
 };
 
@@ -36,16 +36,17 @@ class Frustum
 public:
     struct Limits
     {
-        double maxDistance = std::numeric_limits<double>::infinity(); ///< [m] from the eye
+        double maxDistance = std::numeric_limits<double>::infinity(); ///< [m] largest distance from the eye
         double margin = 0;    ///< [m] distance by which the frustum is widened
-        double minPixels = 0; ///< [pixel] radius on the picture
-        double height = 1080; ///< [pixel] of the picture
+        double minPixels = 0; ///< [pixel] smallest radius on the picture; smaller instances are out of sight
+        double height = 1080; ///< [pixel] height of the picture
     };
-    /// @param origin [m] world position that the matrices are relative to; the projection must not be
-    ///          degenerate
+    /// Creates the frustum of a camera with a projection that is not degenerate.
+    /// @param origin [m] world position that the matrices are relative to
     Frustum(const glm::dvec3& origin, const glm::mat4& view, const glm::mat4& projection,
             const Limits& limits);
 
+    /// Tests whether a ball is in sight.
     /// @param sight [m] largest distance at which the ball is seen
     Sight judge(const Ball& ball, double sight) const;
     /// As judge(), with a hysteresis of a tenth of the radius for balls that are in sight. It avoids
@@ -55,14 +56,16 @@ public:
     double pixels(const Ball& ball) const;
 
 private:
-    std::array<glm::dvec4, 5> planes_; ///< left, right, bottom, top, behind; distance is dot(xyz, p) + w
+    /// left, right, bottom, top, behind; the distance of p from a plane is dot(xyz, p) + w
+    std::array<glm::dvec4, 5> planes_;
     glm::dvec3 eye_;
-    double pixelsPerMeter_; ///< at a distance of 1 m, or everywhere when orthographic
+    /// [pixel/m] scale of the picture: at a distance of 1 m for perspective, at any distance for orthographic
+    double pixelsPerMeter_;
     bool orthographic_;
     Limits limits_;
 };
 
-/// All cameras; without cameras everything is in sight.
+/// The frusta of all cameras. Without cameras everything is in sight.
 class FocusSet
 {
 public:
@@ -73,11 +76,11 @@ public:
     void add(const Frustum& frustum) { frusta_.push_back(frustum); }
     bool everything() const { return frusta_.empty(); }
 
-    /// Seen if the sphere is inside the view of any camera; otherwise the greatest reason (in the order of
-    /// Sight) over the cameras.
-    /// @param isSeen whether it was in sight before
+    /// Tests whether a ball is in sight of any camera. Returns Seen if one camera sees it; otherwise the
+    /// greatest reason (in the order of Sight) over the cameras.
+    /// @param isSeen whether the ball was in sight before
     Sight judge(const Ball& ball, double sight, bool isSeen) const;
-    /// [pixel] largest radius on the picture of any camera; 1 without cameras.
+    /// [pixel] Largest radius of the ball on the picture of any camera; 1 without cameras.
     double pixels(const Ball& ball) const;
 
 private:

@@ -22,7 +22,7 @@ public:
 
     explicit SphereHierarchy(std::pmr::memory_resource* memory) : nodes_(memory), stack_(memory) {}
 
-    /// Strong guarantee.
+    /// Adds a leaf. Strong exception guarantee.
     /// @param sight [m] largest distance at which the ball is seen, may be infinite
     Leaf insert(uint32_t key, const Ball& ball, double sight);
     void remove(Leaf leaf); ///< allocates nothing
@@ -56,7 +56,7 @@ private:
     struct Node
     {
         Ball ball;
-        double sight = 0; ///< largest value of the leaves below
+        double sight = 0; ///< [m] largest `sight` of the leaves below
         uint32_t parent = kNone;
         uint32_t child[2] = {kNone, kNone};
         uint32_t height = 0; ///< 0: a leaf
@@ -74,7 +74,8 @@ private:
     std::pmr::vector<Node> nodes_;
     std::pmr::vector<uint32_t> stack_;
     uint32_t root_ = kNone;
-    uint32_t free_ = kNone; ///< first unused node; `parent` is the next
+    /// index of the first unused node; `parent` of an unused node is the index of the next one
+    uint32_t free_ = kNone;
     uint32_t unused_ = 0;
     uint32_t leaves_ = 0;
 };

@@ -24,15 +24,17 @@ class TimerQueue
 public:
     explicit TimerQueue(std::pmr::memory_resource* memory) : heap_(memory), slots_(memory) {}
 
-    /// Reserves memory, so that add() of keys up to `key` does not allocate up to a size of `count`.
+    /// Reserves memory, after which add() allocates nothing as long as keys are at most `key` and the queue
+    /// has at most `count` timers.
     void reserve(uint32_t key, size_t count);
-    /// Strong guarantee.
+    /// Adds a timer. Strong exception guarantee.
     void add(const Timer& timer);
-    /// The key must be in the queue. Allocates nothing.
+    /// Removes a timer. The key must be in the queue. Allocates nothing.
     void remove(uint32_t key);
     bool empty() const { return heap_.empty(); }
     size_t size() const { return heap_.size(); }
-    const Timer& earliest() const { return heap_.front(); } ///< the queue must not be empty
+    /// the earliest timer; the queue must not be empty
+    const Timer& earliest() const { return heap_.front(); }
 
 private:
     void put(size_t at, const Timer& timer);
@@ -40,7 +42,7 @@ private:
     void sink(size_t at);
 
     std::pmr::vector<Timer> heap_;
-    std::pmr::vector<uint32_t> slots_; ///< by key: index in heap_
+    std::pmr::vector<uint32_t> slots_; ///< index in heap_ of the timer of each key
 };
 
 } // namespace fx::activation

@@ -28,7 +28,7 @@ class SingleCaller
 public:
     ThreadOwner thread;
 
-    /// Held while a call is inside the object.
+    /// Marks a call as inside the object, during the lifetime of the scope.
     class Scope
     {
     public:
@@ -56,7 +56,8 @@ public:
             entered_->close();
             entered_ = nullptr;
         }
-        base::Status status() const ///< constructed on request only, because every call checks it
+        /// the result as a status, constructed on request only, because every call checks the scope
+        base::Status status() const
         {
             if (entered_)
                 return {};
@@ -67,7 +68,7 @@ public:
 
     private:
         SingleCaller* entered_ = nullptr;
-        const char* rule_ = nullptr; ///< the rule that was broken
+        const char* rule_ = nullptr; ///< description of the thread rule that was broken; null if none was
     };
 
     /// Whether a call is in progress. [any thread]
@@ -78,12 +79,12 @@ public:
         closed_.store(true, std::memory_order_relaxed);
         busy_.store(true, std::memory_order_relaxed);
     }
-    /// Whether the object is closed. For functions that may run during another call.
+    /// Whether the object is closed. This query is for functions that may run during another call.
     bool isClosed() const { return closed_.load(std::memory_order_relaxed); }
 
 private:
-    std::atomic<bool> busy_{false};   ///< written by the owning thread only
-    std::atomic<bool> closed_{false}; ///< likewise
+    std::atomic<bool> busy_{false};   ///< whether a call is in progress; written by the owning thread only
+    std::atomic<bool> closed_{false}; ///< whether the object is closed; written by the owning thread only
 };
 
 /// Guards an object that many threads use one after another and that callbacks must not re-enter.
@@ -113,8 +114,8 @@ public:
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
         const base::Status& status() const { return status_; }
-        /// Called before the object is destroyed. This thread remains inside the object, so that calls from
-        /// callbacks are refused. The scope does not access the object afterwards.
+        /// Releases the lock before the object is destroyed. This thread remains inside the object, so that
+        /// calls from callbacks are refused. The scope does not access the object afterwards.
         void close()
         {
             entered_->mutex_.unlock();

@@ -51,6 +51,7 @@ public:
             status_ = invalid(failure);
     }
 
+    /// Fails if `fault` is not null.
     /// @param fault description of the argument's fault, or null
     void noFault(const char* fault, const char* name)
     {
@@ -65,11 +66,11 @@ private:
     base::Status status_;
 };
 
-/// True if the quaternion has unit length within 1e-3. Components x, y, z, w; false if one is not finite.
+/// Whether the quaternion (x, y, z, w) has unit length within 1e-3; false if a component is not finite.
 bool isUnitQuaternion(const float* xyzw);
-/// The rotation of a unit quaternion, normalized.
+/// Converts a unit quaternion (x, y, z, w) to a normalized rotation.
 glm::quat toRotation(const float* xyzw);
-/// True if the matrix is orthonormal within 1e-3 and right-handed, with last row 0 0 0 1. Column-major.
+/// Whether the column-major matrix is orthonormal within 1e-3 and right-handed, with last row 0 0 0 1.
 bool isRigid(const float* matrix);
 /// Reason why the matrix is not a view matrix, with the remedy; null if it is one.
 const char* viewFault(const float* matrix);

@@ -44,16 +44,16 @@ base::AllocatorHooks toHooks(const FxAllocator& allocator);
 
 struct FxContext
 {
-    /// Ready for use, without GL. Throws std::bad_alloc.
+    /// Creates a context that is ready for use, without GL. Throws std::bad_alloc.
     /// @param techniques lists that must outlive the context
     explicit FxContext(const FxContextDef& def, const fx::api::TechniqueLists& techniques = {});
     FxContext(const FxContext&) = delete;
     FxContext& operator=(const FxContext&) = delete;
 
-    /// @return StaleId when the id names no preset of this context
+    /// Finds a loaded preset by its id. @return StaleId if the id names no preset of this context
     fx::base::Result<std::shared_ptr<const fx::sim::EffectDef>> findPreset(FxPresetId id);
 
-    /// @return null when no loaded preset has this fingerprint
+    /// Finds a loaded preset by its fingerprint. @return null if there is none
     std::shared_ptr<const fx::sim::EffectDef> findPreset(uint64_t fingerprint);
 
     const FxContextDef def;

@@ -18,8 +18,8 @@ public:
     static constexpr uint32_t kCapacity = 16;
 
     /// Adds a snapshot. Particles that views compute on the GPU are computed here on the CPU.
-    /// @return an id for find() and take(); 0 if kCapacity snapshots are held, then `presentation` is not
-    ///         added
+    /// @return an id for find() and take(); 0 if already kCapacity snapshots are held, in which case
+    ///         `presentation` is not added
     scene::LocalId add(const scene::Presentation& presentation, std::pmr::memory_resource* memory)
     {
         Held held{presentation, presentation.snapshots, {}};
@@ -69,7 +69,8 @@ private:
     {
         scene::Presentation shown;
         base::SnapshotPair taken; ///< snapshots acquired from the scene
-        /// Copies with GPU particles computed, where `shown` differs from `taken`
+        /// Copies of the snapshots that contain GPU particles, with these particles computed; null without
+        /// such particles.
         std::array<std::unique_ptr<base::FrameSnapshot>, 2> replayed;
 
         void replay(const base::FrameSnapshot*& io, size_t which, std::pmr::memory_resource* memory)

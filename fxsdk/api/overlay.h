@@ -11,7 +11,8 @@
 
 namespace fx::api {
 
-/// Creates the box of each mark, relative to `origin` [m]. fx_view.h has the legend.
+/// Creates the box of each mark in the activation overlay, relative to `origin` [m]. The colors are explained
+/// at FxViewSettings::activationOverlay.
 void makeOverlay(std::span<const scene::Mark> marks, const glm::dvec3& origin,
                  std::pmr::vector<render::OverlayBox>& out);
 

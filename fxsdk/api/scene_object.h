@@ -24,16 +24,16 @@ struct FxScene
     fx::api::SingleCaller caller; ///< scene thread
     fx::scene::IdCodec ids{this};
     fx::scene::Scene scene;
-    /// Quality of instances that use the default
+    /// quality of instances that are created with FX_QUALITY_DEFAULT
     fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium;
-    uint64_t updateAllocations = 0;                                   ///< during the last update
+    uint64_t updateAllocations = 0; ///< number of allocations during the last update
     std::pmr::vector<fx::activation::Frustum> foci{&context->memory}; ///< scratch of fxScene_SetFocus
     fx::api::HeldSnapshots held;
-    std::atomic<uint32_t> views{0};      ///< number of views that show this scene
-    double longestFrame;                 ///< [s] longest time that one update simulates
-    std::atomic<bool> catchingUp{false}; ///< the last update had more time to simulate than it may
+    std::atomic<uint32_t> views{0}; ///< number of views that show this scene
+    double longestFrame;            ///< [s] longest time that one update simulates, FxSceneDef::maxFrameTicks
+    std::atomic<bool> catchingUp{false}; ///< whether the time of the last update exceeded longestFrame
 
-    bool isBehind = false; ///< the last update left steps for the next one
+    bool isBehind = false; ///< whether the last update left steps for the next one
 
     // Number of updates for which a view's computation of GPU particles, or a request for rows, remains in
     // effect.
@@ -72,6 +72,7 @@ inline void checkQuality(Checks& check, uint32_t quality, const char* name)
     check.range(quality, uint32_t(FX_QUALITY_DEFAULT), uint32_t(FX_QUALITY_REFERENCE), name);
 }
 
+/// Converts a quality of the C API.
 /// @param preferred level to which FX_QUALITY_DEFAULT is converted
 inline sim::QualityLevel toQuality(uint32_t quality, sim::QualityLevel preferred)
 {

@@ -14,14 +14,15 @@ namespace fx::api {
 static_assert(int(render::Composition::Volume) + 1 == int(sim::PreferredComposition::Volume));
 static_assert(int(render::Composition::Slabs) + 1 == int(sim::PreferredComposition::Slabs));
 
-/// The composition to which FX_COMPOSITION_AUTOMATIC resolves when effects prefer `preferred`.
+/// The composition that FX_COMPOSITION_AUTOMATIC stands for if the effects prefer `preferred`.
 inline render::Composition automaticComposition(sim::PreferredComposition preferred)
 {
     return preferred == sim::PreferredComposition::None ? render::Composition::Sorted
                                                         : render::Composition(int(preferred) - 1);
 }
 
-/// The settings to which automatic scattering resolves when effects prefer `preferred`.
+/// Replaces automatic scattering in `asked` by the scattering that the effects prefer. Other settings do not
+/// change.
 inline render::SliceSettings automaticScattering(render::SliceSettings asked,
                                                  sim::PreferredScattering preferred)
 {
@@ -32,8 +33,8 @@ inline render::SliceSettings automaticScattering(render::SliceSettings asked,
     return asked;
 }
 
-/// Holds the snapshots of one frame. During its lifetime, the budget's settings replace those of the host.
-/// Threads: [GL thread].
+/// Holds the snapshots of one frame. During the lifetime of this object, the settings that fit the budget
+/// replace those of the host. Threads: [GL thread].
 class ShownFrame
 {
 public:

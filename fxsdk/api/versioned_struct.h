@@ -12,9 +12,9 @@
 
 namespace fx::api {
 
-constexpr uint32_t kLargestStruct = 4096; ///< [byte] a larger structSize is wrong
+constexpr uint32_t kLargestStruct = 4096; ///< [byte] largest valid structSize
 
-/// Ok if `size` may be the structSize of a version of T.
+/// Ok if `size` may be the structSize of some version of T.
 template <class T>
 base::Status checkStructSize(uint32_t size, const char* name)
 {

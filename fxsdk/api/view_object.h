@@ -31,7 +31,8 @@ struct FxView
     FxView(const FxView&) = delete;
     FxView& operator=(const FxView&) = delete;
 
-    /// While the view shows marks, the scene collects them. The host's lights are kept.
+    /// Replaces all settings except the host's lights. If they enable the activation overlay, the scene
+    /// records its marks.
     void setSettings(const fx::render::ViewSettings& settings)
     {
         prepared.reset();
@@ -49,7 +50,7 @@ struct FxView
     std::pmr::vector<fx::render::OverlayBox> overlay;
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;
-    uint64_t allocations = 0; ///< during the last frame
+    uint64_t allocations = 0; ///< number of allocations during the last frame
     /// True when the last frame drew no element. As long as the scene is empty, the next frame draws none
     /// either.
     bool sleeps = false;
@@ -84,7 +85,7 @@ inline render::InstanceNames instanceNames(const FxView& view)
             view.scene};
 }
 
-/// Shows the present moment with the settings that fit the budget.
+/// Prepares a frame that shows the present moment with the settings that fit the budget.
 inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
 {
     view.prepared.reset();

@@ -11,8 +11,8 @@
 
 namespace fx::asset {
 
-constexpr uint64_t kMaxImageBytes = uint64_t(64) << 20; ///< [byte] of a PNG file
-constexpr uint64_t kMaxMeshBytes = uint64_t(32) << 20;  ///< [byte] of an OBJ file
+constexpr uint64_t kMaxImageBytes = uint64_t(64) << 20; ///< [byte] maximum size of a PNG file
+constexpr uint64_t kMaxMeshBytes = uint64_t(32) << 20;  ///< [byte] maximum size of an OBJ file
 
 /// Meaning of the values of an image.
 enum class ImageUse
@@ -32,8 +32,9 @@ enum class MissingAsset
 class AssetLoader
 {
 public:
+    /// Creates a loader for the assets of one document.
     /// @param folder folder of the document, relative to the resolver's folder and ending with '/'; empty:
-    ///               the resolver's folder
+    ///          the resolver's folder
     AssetLoader(const AssetResolver& resolver, base::AssetTable& table, MissingAsset missing,
                 std::string folder = {})
         : resolver_(resolver), table_(table), missing_(missing), folder_(std::move(folder))

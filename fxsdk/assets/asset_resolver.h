@@ -31,9 +31,10 @@ struct ReadHook
 class AssetResolver
 {
 public:
-    /// @param folder  folder that names are relative to; empty: no files, only the library and the hook
-    /// @param library embedded texts, which must outlive the resolver. library:NAME is the text
-    ///                NAME.fx.json, or the text NAME when NAME contains a dot
+    /// Creates a resolver, which finds assets in the library, through the hook, or in a folder.
+    /// @param folder folder that names are relative to; empty: no files, only the library and the hook
+    /// @param library embedded texts, which must outlive the resolver. library:NAME is the text NAME.fx.json,
+    ///          or the text NAME when NAME contains a dot
     AssetResolver(std::string folder, std::span<const base::EmbeddedText> library, const ReadHook& hook = {})
         : folder_(std::move(folder)), library_(library), hook_(hook)
     {}

@@ -60,7 +60,8 @@ struct ObjMesh
     std::vector<uint32_t> indices;
 };
 
-constexpr size_t kMaxMeshTriangles = 65'536; ///< an instanced mesh is drawn thousands of times
+/// maximum for meshes of particles, which are drawn thousands of times
+constexpr size_t kMaxMeshTriangles = 65'536;
 
 /// Reads a mesh for particles. Polygons become fans of triangles; a corner without a normal gets the normal
 /// of its triangle.

@@ -27,7 +27,7 @@ struct Finding
     base::Code code = base::Code::Schema;
     bool atKey = false; ///< true: the finding is located at the name of the member, not at its value
     bool warning = false;
-    size_t offset = kUnknownOffset; ///< [byte] in the text, when known
+    size_t offset = kUnknownOffset; ///< [byte] position in the text, when known
 };
 
 /// Maps a JSON pointer of the migrated document to that of the original text.
@@ -40,6 +40,7 @@ struct Renaming
 class Findings
 {
 public:
+    /// Creates an empty collection of findings.
     /// @param assets loader of the files that the document names; null: there are none
     explicit Findings(asset::AssetLoader* assets = nullptr) : assets_(assets) {}
     asset::AssetLoader* assets() const { return assets_; }
@@ -53,7 +54,7 @@ public:
         renamings_.push_back({std::move(now), std::move(before)});
     }
 
-    bool full() const { return list_.size() >= kLimit; } ///< further findings are dropped
+    bool full() const { return list_.size() >= kLimit; } ///< whether further findings are dropped
     bool hasErrors() const { return firstCode_ != base::Code::Ok; }
     base::Code firstCode() const { return firstCode_; } ///< code of the first error; Ok without errors
     size_t size() const { return list_.size(); }
@@ -61,7 +62,7 @@ public:
     /// The findings with their positions in `text`, in the order of the text.
     std::vector<Diagnostic> locate(std::string_view text, const std::string& file) const;
 
-    static constexpr size_t kLimit = 100; ///< findings beyond it are dropped
+    static constexpr size_t kLimit = 100; ///< maximum number of findings; further ones are dropped
 
 private:
     void add(Finding finding);

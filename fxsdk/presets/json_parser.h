@@ -16,12 +16,12 @@ namespace fx::preset {
 /// Limits of a JSON document. They are checked before or while the document is parsed.
 struct JsonLimits
 {
-    uint64_t bytes;         ///< [byte] of text
-    size_t depth;           ///< arrays and objects inside each other
-    size_t nodes;           ///< maximum nesting of arrays and objects
-    size_t tokenBytes;      ///< maximum number of values
-    size_t arrayElements;   ///< elements of one array, members of one object
-    uint64_t documentBytes; ///< [byte] upper bound of the memory of the parsed document
+    uint64_t bytes;         ///< [byte] maximum length of the text
+    size_t depth;           ///< maximum nesting of arrays and objects
+    size_t nodes;           ///< maximum number of values
+    size_t tokenBytes;      ///< [byte] maximum length of a string or number
+    size_t arrayElements;   ///< maximum number of elements of an array, or of members of an object
+    uint64_t documentBytes; ///< [byte] maximum memory of the parsed document
 };
 
 constexpr JsonLimits kPresetLimits{uint64_t(4) << 20, 32, 65'536, 4'096, 16'384, uint64_t(32) << 20};

@@ -52,10 +52,11 @@ public:
     TrackedIterator begin() { return {text_.data(), &furthest_}; }
     TrackedIterator end() { return {text_.data() + text_.size(), &furthest_}; }
 
-    /// Must be called first in every event. @return offset at which the token of the event begins
+    /// Finds the token of the present event. Must be called first in every event. @return offset at which the
+    /// token begins
     size_t beginToken();
     void key(const std::string& name);
-    /// Called when a value begins. Counts the value within its array.
+    /// Begins a value and counts it within its array.
     void value();
     void enter(bool isArray);
     void leave();
@@ -63,23 +64,23 @@ public:
     size_t depth() const { return levels_.size(); }
     bool insideArray() const { return !levels_.empty() && levels_.back().isArray; }
     size_t countInside() const { return levels_.empty() ? 0 : levels_.back().count; }
-    /// Pointer of the value of the last value(), or of the member of the last key().
+    /// JSON pointer of the value of the last call of value(), or of the member of the last call of key().
     std::string pointer() const;
 
 private:
     struct Level
     {
         bool isArray;
-        size_t count;        ///< number of values begun inside
-        size_t parentLength; ///< length of the pointer of the enclosing level
+        size_t count;        ///< number of values of this array or object that have begun
+        size_t parentLength; ///< length of the JSON pointer of the enclosing level
     };
 
     std::string_view text_;
     const char* furthest_;
     size_t lastEnd_ = 0;
     std::vector<Level> levels_;
-    std::string container_; ///< pointer of the innermost array or object
-    std::string key_;       ///< name of the member, escaped
+    std::string container_; ///< JSON pointer of the innermost array or object
+    std::string key_;       ///< name of the current member, escaped
 };
 
 /// `name` with '~' and '/' escaped as in JSON pointers.

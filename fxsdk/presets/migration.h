@@ -25,7 +25,7 @@ std::span<const MigrationStep> presetMigrations();
 std::span<const MigrationStep> sceneMigrations();
 
 /// Applies the migrations up to version `current`. The document must state a version of at most `current`.
-/// @return false when `findings` got an error
+/// @return false if an error was added to `findings`
 bool migrate(nlohmann::json& document, int current, std::span<const MigrationStep> steps, Findings& findings);
 
 } // namespace fx::preset

@@ -24,6 +24,7 @@ namespace fx::preset {
 class PresetValue
 {
 public:
+    /// Creates a reader of one JSON object.
     /// @param object null for an object without members
     PresetValue(const nlohmann::json* object, std::string pointer, Findings& findings)
         : object_(object), pointer_(std::move(pointer)), findings_(findings)

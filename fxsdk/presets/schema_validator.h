@@ -16,6 +16,7 @@ namespace fx::preset {
 class SchemaValidator
 {
 public:
+    /// Creates a validator.
     /// @param schema a schema from schema_assembly.h
     explicit SchemaValidator(nlohmann::json schema);
     ~SchemaValidator();

@@ -50,7 +50,7 @@ using Techniques = std::span<const Technique>;
 struct MissingTechnique
 {
     std::string_view presetMember;
-    std::string_view option; ///< the CMake option that enables the technique
+    std::string_view option; ///< name of the CMake option that enables the technique
 };
 
 } // namespace fx::preset

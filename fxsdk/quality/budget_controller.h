@@ -17,31 +17,33 @@ namespace fx::quality {
 class BudgetController
 {
 public:
-    static constexpr double kTarget = 0.8; ///< share of the budget that is aimed at
+    static constexpr double kTarget = 0.8; ///< [1] target of the predicted time, as a share of the budget
     static constexpr double kLimit = 0.92; ///< share of the budget above which quality is lowered at once
-    static constexpr uint32_t kCalmFrames = 45; ///< frames without a change before a rise
-    static constexpr double kRestSeconds = 1.0; ///< [s] without a rise after a fall
-    /// [s] a fall within this time after a rise doubles the patience
+    /// number of frames without a change before quality is raised
+    static constexpr uint32_t kCalmFrames = 45;
+    static constexpr double kRestSeconds = 1.0; ///< [s] minimum time between a lowering and the next raise
+    /// [s] If quality is lowered within this time after a raise, the number of frames before the next raise
+    /// doubles.
     static constexpr double kProbation = 3.0;
-    static constexpr uint32_t kMaxPatience = 16; ///< maximum multiple of kCalmFrames
+    static constexpr uint32_t kMaxPatience = 16; ///< maximum factor on kCalmFrames after repeated doubling
 
     /// Starts with the highest level of each technique; throws std::bad_alloc. The other functions do not
     /// allocate.
     /// @param techniqueLevels 1 to kMaxTechniques, each with increasing costs and decreasing errors
     explicit BudgetController(std::vector<ScalabilityLevels> techniqueLevels);
 
-    /// Updates the cost model from a finished frame. Results may arrive late, so they include the choice of
-    /// their frame.
-    /// @param milliseconds one per technique; negative: unknown
+    /// Updates the cost model from a finished frame. Results may arrive late, so the caller also passes the
+    /// choice of that frame.
+    /// @param milliseconds [ms] times, one per technique; negative: unknown
     void observe(const Choice& choice, std::span<const double> milliseconds);
 
     struct Frame
     {
         double budget = 0;    ///< [ms] > 0
         double deltaTime = 0; ///< [s] since the last call, >= 0
-        /// The frame is not typical, because the host loads or catches up: quality does not change.
+        /// true: the frame is not typical, because the host loads or catches up, and quality does not change
         bool hold = false;
-        std::span<const double> weights; ///< [1] >= 0, one per technique
+        std::span<const double> weights; ///< [1] >= 0, weight of the error of each technique
     };
     /// Chooses the levels of the next frame.
     const Choice& choose(const Frame& frame);
@@ -49,11 +51,12 @@ public:
     std::span<const ScalabilityLevels> techniqueLevels() const { return techniqueLevels_; }
     const Choice& choice() const { return choice_; }
     const CostModel& costs() const { return costs_; }
-    double predicted() const { return predicted_; } ///< [ms] of the last choice
-    double error() const { return error_; }         ///< [1] of the last choice
-    bool isSaturated() const { return saturated_; } ///< even the lowest settings are expected to be too slow
-    uint64_t switches() const { return switches_; } ///< frames that changed a choice
-    void reset();                                   ///< restarts at the highest levels
+    double predicted() const { return predicted_; } ///< [ms] predicted time of the last choice
+    double error() const { return error_; }         ///< [1] estimated error of the last choice
+    /// whether even the lowest levels are expected to exceed the budget
+    bool isSaturated() const { return saturated_; }
+    uint64_t switches() const { return switches_; } ///< number of frames that changed a choice
+    void reset();                                   ///< starts again at the highest levels
 
 private:
     struct Memory ///< changes of one technique
@@ -71,7 +74,7 @@ private:
     CostModel costs_;
     Choice choice_{};
     std::array<Memory, kMaxTechniques> memory_{};
-    uint32_t calm_ = 0; ///< frames since the last change
+    uint32_t calm_ = 0; ///< number of frames since the last change
     double predicted_ = 0;
     double error_ = 0;
     bool saturated_ = false;

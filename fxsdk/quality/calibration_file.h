@@ -17,6 +17,7 @@ namespace fx::quality {
 /// Largest calibration that is read [byte].
 constexpr size_t kCalibrationBytes = size_t(64) << 10;
 
+/// Parses a calibration.
 /// @param displayName name of the text in messages
 /// @return Parse, TooLarge, Version, Schema with the first findings, one per line
 base::Result<Calibration> readCalibration(std::string_view text, const std::string& displayName);

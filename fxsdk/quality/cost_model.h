@@ -8,31 +8,33 @@
 
 namespace fx::quality {
 
-/// Scale of each technique: milliseconds = scale * level.cost, a moving average. A much slower single frame
-/// is clamped; the third slow frame in a row is used fully. While a technique is off, its scale cannot be
-/// measured. It then decays slowly, so that the technique will be tried again.
+/// Estimates a scale for each technique: milliseconds = scale * level.cost. The scale is a moving average of
+/// measured values. A single frame that is much slower is clamped; the third slow frame in a row is used
+/// fully. While a technique is off, its scale cannot be measured. It then decays slowly, so that the
+/// technique will be tried again.
 class CostModel
 {
 public:
-    /// @param cost cost of the level that was measured; 0: switched off
-    /// @param milliseconds ignored when negative or not finite
+    /// Updates the scale of a technique from a measured frame.
+    /// @param cost cost of the level that was measured; 0: the technique was switched off
+    /// @param milliseconds [ms] measured time; ignored when negative or not finite
     void observe(size_t technique, double cost, double milliseconds);
     void reset() { estimates_ = {}; }
 
-    /// [ms] 0 before the first observation
+    /// [ms] scale of a technique; 0 before the first observation
     double scale(size_t technique) const { return estimates_[technique].scale; }
     bool isKnown(size_t technique) const { return estimates_[technique].known; }
 
     static constexpr double kJump = 1.3;   ///< multiple of the mean above which a frame counts as slow
-    static constexpr double kFollow = 0.1; ///< share of a new value in the mean
-    /// decay of the scale per frame while switched off: one half in 12 s
+    static constexpr double kFollow = 0.1; ///< weight of a new value in the moving average
+    /// relative decay of the scale per frame while the technique is off: one half in 12 s
     static constexpr double kForget = 0.001;
 
 private:
     struct Estimate
     {
         double scale = 0;
-        std::array<double, 2> before{}; ///< [ms] times of the last two frames; 0: not slow
+        std::array<double, 2> before{}; ///< [ms] times of the last two frames if they were slow, otherwise 0
         bool known = false;
     };
     std::array<Estimate, kMaxTechniques> estimates_{};

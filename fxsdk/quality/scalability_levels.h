@@ -47,7 +47,7 @@ private:
 struct ScalabilityLevel
 {
     double cost = 0; ///< [1] time relative to the highest level, >= 0
-    /// [1] mean difference from the picture of the highest level, relative to the light in it
+    /// [1] mean difference from the picture of the highest level, relative to the light in that picture
     double error = 0;
     Knobs knobs;
 };
@@ -65,7 +65,7 @@ struct ScalabilityLevels
 
 struct Calibration
 {
-    std::string origin; ///< machine and version that measured it
+    std::string origin; ///< machine and version with which the levels were measured
     std::vector<ScalabilityLevels> techniqueLevels;
 };
 

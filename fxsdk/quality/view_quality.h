@@ -16,7 +16,7 @@ namespace fx::quality {
 /// The host's budget.
 struct BudgetOptions
 {
-    double milliseconds = 0; ///< [ms] 0: settings are used unchanged
+    double milliseconds = 0; ///< [ms] time budget of a frame; 0: settings are used unchanged
     render::TimingClock clock = render::TimingClock::Gpu;
 };
 
@@ -29,7 +29,8 @@ public:
     /// Replaces the scalability levels and resets the cost model. Strong guarantee.
     void setCalibration(Calibration calibration);
 
-    /// Forces a setting, for measurements. Frames are timed, and the cost model does not change.
+    /// Forces the settings of `knobs`, for measurements; empty ends this. Frames are timed, and the cost
+    /// model does not change.
     void force(const std::optional<Knobs>& knobs) { forced_ = knobs; }
 
     /// Lowers the renderer's settings for the next frame. end() restores them.
@@ -38,16 +39,16 @@ public:
     /// Collects the available frame times. begin() and end() call it too.
     void collect(render::ViewRenderer& renderer);
 
-    /// Clock in use: Off without a budget; Gpu or Host as requested; empty if GL has no timestamps, when
-    /// quality is fixed.
+    /// Clock in use: Off without a budget; otherwise Gpu or Host as requested. Empty if GL has no timestamps;
+    /// quality is fixed then.
     std::optional<render::TimingClock> clock() const { return clock_; }
     /// Whether the controller chose the settings of the last frame.
     bool isControlled() const
     {
         return hasCalibration() && !forced_ && clock_ && *clock_ != render::TimingClock::Off;
     }
-    /// The controller for the composition of the last frame, null before a calibration is set. Its last
-    /// element represents passes whose cost no technique can lower.
+    /// The controller for the composition of the last frame; null before a calibration is set. The last of
+    /// its techniques represents passes whose cost no technique can lower.
     const BudgetController* controller() const
     {
         return hasCalibration() ? &*controllers_[active_] : nullptr;
@@ -66,8 +67,8 @@ private:
     bool hasCalibration() const { return controllers_[0].has_value(); }
     std::optional<BudgetController>& active() { return controllers_[active_]; }
 
-    std::array<std::optional<BudgetController>, render::kCompositionCount>
-        controllers_; ///< by requested composition; all are set or none
+    /// One controller for each composition that a host can request. Either all are set or none is.
+    std::array<std::optional<BudgetController>, render::kCompositionCount> controllers_;
     size_t active_ = 0;
     std::optional<Knobs> forced_;
     std::optional<render::TimingClock> clock_ = render::TimingClock::Off;
@@ -75,7 +76,7 @@ private:
     Choice chosen_{};
     bool held_ = false;
     std::optional<render::GroupTimes> times_;
-    std::optional<render::ViewSettings> asked_; ///< settings of the host, between begin() and end()
+    std::optional<render::ViewSettings> asked_; ///< settings of the host, saved between begin() and end()
 };
 
 } // namespace fx::quality

@@ -37,13 +37,14 @@ template <class T>
 class IdTable
 {
 public:
+    /// Creates an empty table.
     /// @param capacity maximum number of simultaneous values, at most 2^24 - 1
-    /// @param lastUse  uses of an index before it is retired, 1..2^24 - 1
+    /// @param lastUse  number of uses of an index before it is retired, 1..2^24 - 1
     IdTable(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t lastUse = uint32_t(kIdPartMask))
         : slots_(memory), values_(memory), freePlaces_(memory), capacity_(capacity), lastUse_(lastUse)
     {}
 
-    /// Strong guarantee. @return 0 when the table is full
+    /// Adds a value. Strong exception guarantee. @return its id; 0 when the table is full
     LocalId add(T value)
     {
         if (count_ == capacity_ || (firstFree_ == kNone && slots_.size() == kIdPartMask))
@@ -88,7 +89,7 @@ public:
         return &values_[slots_[index].link];
     }
 
-    /// The id must name an object of this table. Allocates nothing.
+    /// Removes a value. The id must name a value of this table. Allocates nothing.
     void remove(LocalId id)
     {
         const uint32_t index = indexOf(id);
@@ -175,7 +176,7 @@ private:
         bool used = false;
     };
 
-    /// Adds a place for a value. Strong guarantee.
+    /// Adds a free place to the array of values. Strong exception guarantee.
     void makePlace()
     {
         if (freePlaces_.capacity() <= values_.size()) // drop() must not fail
@@ -237,6 +238,7 @@ private:
 class IdCodec
 {
 public:
+    /// Creates the codec of one object.
     /// @param owner address of the object that the ids belong to
     explicit IdCodec(const void* owner)
         : salt_(base::hashWord(uint64_t(reinterpret_cast<uintptr_t>(owner)),
@@ -249,7 +251,7 @@ public:
         return (id & kIdPartMask) | (generation << kIdPartBits) | (owner() << 48) | (uint64_t(type) << 56);
     }
 
-    /// 0 when `bits` is not an id of this owner and type.
+    /// Converts an id of the C API to a local identity; 0 when `bits` is not an id of this owner and type.
     LocalId decode(uint64_t bits, uint8_t type) const
     {
         if (bits >> 56 != type || ((bits >> 48) & 0xFF) != owner())
@@ -260,7 +262,8 @@ public:
 
 private:
     uint64_t owner() const { return salt_ >> 56; }
-    uint64_t salt_; ///< bits 0..23 offset the generation, bits 56..63 are the owner
+    /// hash of the owner's address: bits 0..23 are added to the generation, bits 56..63 are the owner byte
+    uint64_t salt_;
 };
 
 } // namespace fx::scene

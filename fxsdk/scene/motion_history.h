@@ -16,7 +16,7 @@
 
 namespace fx::scene {
 
-/// The inputs at one time, or their extremes over several times.
+/// Placement and wind of an instance at one time, or their extremes over several times.
 struct BoundsInputs
 {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}; ///< [m] world, range of positions
@@ -25,7 +25,7 @@ struct BoundsInputs
     float largest = 0;
     float wind = 0;                ///< [m/s] world, wind of the host
     float localWind = 0;           ///< [m/s] local
-    double speed = 0;              ///< [m/s] world, speed of births, in the instance's time
+    double speed = 0;              ///< [m/s] world, largest speed of births, in the instance's time
     uint32_t slowest = UINT32_MAX; ///< see sim::InstanceClock::rate
 
     void add(const BoundsInputs& more);
@@ -35,15 +35,19 @@ struct BoundsInputs
 class MotionHistory
 {
 public:
-    /// Records the present inputs. @param now [tick] of the scene, increasing
+    /// Records the present placement and wind, and starts a new interval if the current one is long enough.
+    /// @param now [tick] scene time, increasing
+    /// @param seconds [s] longest lifetime of particles, in the instance's time
     void note(base::Ticks now, const BoundsInputs& is, float seconds);
-    /// Called if the instance's time stood still between the last note and `now`.
+    /// Restarts the current interval at `now`. For an instance whose local time has not advanced since the
+    /// last call of note(): the scene time in between does not age its particles.
     void restart(base::Ticks now) { begun_ = now; }
     /// Marks the past as unknown.
     void forget() { unknown_ = 2; }
 
     bool isKnown() const { return unknown_ == 0; }
-    /// True when all past inputs equal the present ones. Then recording them again has no effect.
+    /// Whether all recorded inputs equal the present ones. Recording the present ones again then has no
+    /// effect.
     bool isSettled() const;
     BoundsInputs all() const;
 

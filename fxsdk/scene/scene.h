@@ -38,12 +38,13 @@ struct SceneOptions
     sim::Environment environment;
     bool shareInstances = true; ///< false: identical instances are simulated one by one
     bool culling = true;        ///< false: every instance is always stepped
-    bool lockStep = false;      ///< instances that cannot be caught up bit for bit are never hidden
+    bool lockStep = false;      ///< true: instances that cannot be caught up bit for bit are never hidden
     /// time out of sight after which memory is released
     base::Ticks releaseAfter = 5 * base::kTicksPerSecond;
     base::Ticks maxCatchUp = 30 * base::kTicksPerSecond; ///< longest absence that is replayed
-    uint64_t catchUpSteps = 200'000;          ///< particle steps that one update may spend on replays
-    uint64_t workBudget = base::kNoWorkLimit; ///< [unit] of base::WorkBudget that one update may spend
+    uint64_t catchUpSteps = 200'000; ///< particle steps that one update may spend on replays
+    /// [unit of base::WorkBudget] largest amount of work of one update
+    uint64_t workBudget = base::kNoWorkLimit;
 };
 
 /// Lifecycle state of an instance. An update does not visit dormant, hidden, resting and finished instances.
@@ -84,7 +85,7 @@ struct Mark
 /// Hints of the host about the significance of an instance.
 struct ActivationHints
 {
-    float priority = 1;    ///< [1] multiplies the size on the picture
+    float priority = 1;    ///< [1] factor on the size on the picture
     float maxDistance = 0; ///< [m] largest distance at which it is seen; 0: no limit
     bool occluded = false;
 };
@@ -92,13 +93,13 @@ struct ActivationHints
 /// Counters of the last update; all but the estimate are exact.
 struct UpdateCounters
 {
-    uint32_t judged = 0;   ///< instances and tree nodes that were tested against the frusta
-    uint32_t hidden = 0;   ///< instances that went out of sight
-    uint32_t returned = 0; ///< instances that have reached the present again
-    uint32_t denied = 0;   ///< instances that are now in sight but beyond the budget
+    uint32_t judged = 0;   ///< number of instances and tree nodes that were tested against the frusta
+    uint32_t hidden = 0;   ///< number of instances that went out of sight
+    uint32_t returned = 0; ///< number of instances that have reached the present again
+    uint32_t denied = 0;   ///< number of instances that are now in sight but beyond the budget
     base::Ticks catchUpTicks = 0;
     uint64_t catchUpParticleSteps = 0;
-    uint64_t workUnits = 0; ///< see base::WorkBudget, including the work of catching up
+    uint64_t workUnits = 0; ///< [unit of base::WorkBudget] work, including that of catching up
     sim::StepCounters work;
 };
 
@@ -122,7 +123,7 @@ struct InstanceSetup
 /// Exact counts since the scene was created, unless marked "now".
 struct SceneCounters
 {
-    uint32_t instances = 0;   ///< now; the sum of the six members that follow
+    uint32_t instances = 0;   ///< now; sum of the six counters below
     uint32_t dormant = 0;     ///< now
     uint32_t active = 0;      ///< now
     uint32_t finished = 0;    ///< now
@@ -143,9 +144,8 @@ struct Presentation
 {
     base::SnapshotPair snapshots;
     double interpolation = 0; ///< [0, 1), 0 shows the older step
-    double time = 0;          ///< [s] scene time that is shown
-    /// What the instances prefer. It includes all instances that have not ended, so it does not depend on the
-    /// camera.
+    double time = 0;          ///< [s] scene time of the picture
+    /// Drawing hints of all instances that have not ended. They do not depend on the camera.
     sim::DrawingHints hints;
 };
 
@@ -164,15 +164,17 @@ public:
 
     // The id must name an instance of this scene.
     void remove(LocalId id);
-    /// In lock-step mode the instance is first caught up, so that the result does not depend on cameras.
+    /// Returns the state of an instance. In lock-step mode the instance is first caught up, so that the
+    /// result does not depend on cameras.
     InstanceState state(LocalId id);
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     /// @param rate see sim::InstanceClock
     void setRate(LocalId id, uint32_t rate);
-    /// Moves an instance to a local time. The next update() shows it, even if that update takes no step.
-    /// @return InvalidArgument before its start and after its end
+    /// Moves an instance to a local time. The next update() publishes the result, even if that update takes
+    /// no step.
+    /// @return InvalidArgument before the start and after the end of the instance
     base::Status seek(LocalId id, base::Ticks local);
     /// Triggers the host event `name` of an instance's preset `count` times.
     /// @return NotFound when its preset has no such event, InvalidArgument before its start
@@ -202,7 +204,7 @@ public:
     /// @param cellSize see sim::DistanceField::build
     /// @return the error of building the field
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
-    /// Replaces the geometry by a field that has already been built.
+    /// As setCollisionMesh(), but with a field that has already been built.
     void setCollisionField(std::shared_ptr<const sim::DistanceField> field)
     {
         world_.setField(std::move(field));
@@ -240,7 +242,8 @@ public:
     uint64_t simulationHash();
     /// Writes the state for restore(). Hidden instances are first caught up.
     void save(sim::StateWriter& writer);
-    /// Finds an effect without instances by its fingerprint; null when it does not exist.
+    /// Function that returns the effect with a fingerprint, for effects that no instance uses; null when it
+    /// does not exist.
     using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
     /// Restores the state, including identities, of a scene with the same step, gravity, ground and geometry,
     /// and publishes it. Strong guarantee.
@@ -254,8 +257,9 @@ public:
         instances_.forEach([&](uint32_t index, const Instance&) { f(instances_.idAt(index)); });
     }
 
-    /// While enabled, each update() writes a mark for every instance; then it visits all instances. [any
-    /// thread]
+    /// Enables marks for one more view, or disables them for one view. While any view needs marks, each
+    /// update() visits all instances and writes a mark for each. [any thread]
+    /// @param more true: enable
     void wantMarks(bool more) { marksWanted_.fetch_add(more ? 1 : -1); }
     /// Copies the marks of the last update(). [any thread]
     void copyMarks(std::pmr::vector<Mark>& out);
@@ -277,14 +281,16 @@ private:
         activation::SphereHierarchy::Leaf leaf = activation::SphereHierarchy::kNone;
         bool hasAlarm = false;
         bool wasResting = false; ///< whether it was resting when it began to wake
-        /// waking, and its replay exceeded the work of the update in which it began to wake
+        /// true: the instance is waking, and its replay exceeded the work of the update in which it began to
+        /// wake
         bool isLate = false;
         uint32_t lastParticles = 0; ///< number of particles when it was hidden
         ActivationHints hints;
         double reach = 0;     ///< [m] world
         float localReach = 0; ///< [m] reach of the effect in local space, in a wind of reachWind
         float reachWind = -1; ///< [m/s] local; negative before reachWind was measured
-        std::unique_ptr<MotionHistory> past; ///< null while present values suffice for the bounds
+        /// extremes of past placements and winds; null while the present values suffice for the bounds
+        std::unique_ptr<MotionHistory> past;
     };
     struct Restored; ///< a state that is being restored
 
@@ -345,7 +351,7 @@ private:
     void setAlarm(uint32_t index, base::Ticks tick);
     void restOrNot(base::Ticks now);
     void settle(bool alsoInexact);
-    void forgetSight(); ///< after restore(): makes every instance active
+    void forgetSight(); ///< makes every instance active, after restore()
     std::vector<sim::Slot> slotsBySerial() const;
     void settleOne(uint32_t index, bool alsoInexact);
     base::Ticks endOf(const Instance& instance) const;
@@ -357,7 +363,8 @@ private:
     void stageReturned(base::Ticks tick);
     void showSought();
     void heedSought(const base::StepPlan& plan);
-    /// Requires the lock of presentation_, unless nothing is visible.
+    /// Sets the time that views show. The caller must hold the mutex presentation_, unless nothing is
+    /// visible.
     void show(base::Ticks newest, double interpolation);
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
@@ -392,15 +399,17 @@ private:
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch
     /// instances that entered the world with a past that is not simulated yet
     std::pmr::vector<LocalId> arrived_;
-    std::pmr::vector<Seek> seeks_;    ///< seeks requested during an incomplete step
-    base::WorkBudget work_;           ///< budget of the present update
-    uint64_t stepWork_ = 0;           ///< [unit] spent on the open step
-    uint64_t shownWork_ = 0;          ///< [unit] spent on the open publication, or the last one
-    base::Ticks published_ = 0;       ///< scene time of the last publication
-    std::pmr::vector<LocalId> moved_; ///< instances with InstanceSetup::cameFrom, and possibly others
-    bool visibilityStale_ = false;    ///< an instance or a camera has moved
+    std::pmr::vector<Seek> seeks_; ///< seeks requested during an incomplete step
+    base::WorkBudget work_;        ///< budget of the present update
+    uint64_t stepWork_ = 0;        ///< [unit of base::WorkBudget] work spent on the open step
+    /// [unit of base::WorkBudget] work spent on the open publication, or else on the last one
+    uint64_t shownWork_ = 0;
+    base::Ticks published_ = 0; ///< scene time of the last publication
+    /// ids of instances whose InstanceSetup::cameFrom is set; may contain other ids
+    std::pmr::vector<LocalId> moved_;
+    bool visibilityStale_ = false; ///< true: an instance or a camera has moved since visibility was tested
     bool memoryFailed_ = false;
-    bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
+    bool sought_ = false; ///< true: seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;
     /// Number of empty publications after which a further one has no effect.
     static constexpr uint32_t kMaxEmptyPublications = 2;
@@ -414,14 +423,16 @@ private:
     SceneCounters counters_;
     uint64_t nextSerial_ = 0;
 
-    std::mutex presentation_; ///< lets acquire() see publication and the members below change together
+    /// guards the publication and the members below, so that acquire() reads consistent values
+    std::mutex presentation_;
     std::atomic<double> interpolation_{0}; ///< changed without the mutex while nothing is visible
-    std::atomic<double> shownTime_{0};     ///< likewise
+    /// [s] scene time of the picture; changed without the mutex while nothing is visible
+    std::atomic<double> shownTime_{0};
     std::atomic<bool> showsNothing_{false};
-    sim::HintCounts preferring_; ///< of the instances that have not ended
+    sim::HintCounts preferring_; ///< numbers of instances by drawing hint, without instances that have ended
     std::atomic<sim::DrawingHints> hints_{sim::DrawingHints()};
     std::pmr::vector<Mark> marks_;
-    std::pmr::vector<Mark> newMarks_; ///< written by the scene thread
+    std::pmr::vector<Mark> newMarks_; ///< marks of the update in progress, written by the scene thread
     std::atomic<int> marksWanted_{0};
 };
 

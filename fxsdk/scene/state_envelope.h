@@ -18,8 +18,9 @@ constexpr size_t kStateHeaderBytes = 32;
 /// Incremented with every change of the layout of the state within one version of the SDK.
 constexpr uint32_t kStateLayout = 2;
 
-/// @param sdkVersion as FX_VERSION
-/// @param out room for kStateHeaderBytes
+/// Writes the header of a saved state.
+/// @param sdkVersion version in the form of FX_VERSION
+/// @param out receives kStateHeaderBytes bytes
 void writeStateHeader(std::span<const std::byte> state, uint32_t sdkVersion, std::byte* out);
 
 /// Returns the state inside of `bytes`.

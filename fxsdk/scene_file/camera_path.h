@@ -27,10 +27,10 @@ struct CameraPose
 /// still.
 struct CameraPath
 {
-    glm::dvec3 position{0, 2, 12}; ///< [m] without keys
-    glm::dvec3 target{0, 2, 0};    ///< [m] without keys
+    glm::dvec3 position{0, 2, 12}; ///< [m] position of a camera without keys
+    glm::dvec3 target{0, 2, 0};    ///< [m] target of a camera without keys
     glm::vec3 up{0, 1, 0};
-    float fovYDegrees = 50;       ///< vertical field of view, used when orthographicHeight is 0
+    float fovYDegrees = 50;       ///< [degree] vertical field of view, used when orthographicHeight is 0
     float orthographicHeight = 0; ///< [m] height of the picture of an orthographic camera; 0: perspective
     float nearPlane = 0.1f;       ///< [m] > 0
     std::vector<CameraKey> keys;
@@ -41,7 +41,8 @@ struct CameraPath
 
     /// Rotation from world to eye. Use it with an origin at the camera's position.
     glm::mat4 viewRotation(double time) const;
-    /// Infinite far plane for perspective, 10 km for orthographic; OpenGL clip space, z in [-w, w].
+    /// Matrix from eye to clip space, OpenGL convention with z in [-w, w]. The far plane is infinite for
+    /// perspective cameras and at 10 km for orthographic ones.
     glm::mat4 projection(float aspect) const;
 };
 

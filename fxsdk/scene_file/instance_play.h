@@ -16,9 +16,10 @@ namespace fx::scene_file {
 /// Placement of the effect at one time.
 struct InstanceKey
 {
-    double time = 0;               ///< [s] later than that of the previous key
-    glm::dvec3 position{0};        ///< [m] world; used only if InstancePlay::moves
-    glm::dvec3 rotationDegrees{0}; ///< about x, then y, then z; used only if InstancePlay::turns
+    double time = 0;        ///< [s] later than that of the previous key
+    glm::dvec3 position{0}; ///< [m] world; used only if InstancePlay::moves
+    /// [degree] rotation about x, then y, then z; used only if InstancePlay::turns
+    glm::dvec3 rotationDegrees{0};
 };
 
 /// A value that is valid from a time on.
@@ -46,10 +47,10 @@ struct TimeJump
 struct InstancePlay
 {
     std::vector<InstanceKey> keys;
-    bool moves = false;               ///< keys have positions
-    bool turns = false;               ///< keys have rotations
-    std::vector<TimedValue> speed;    ///< [1] before the first: 1
-    std::vector<TimedValue> emitting; ///< 0 or 1; before the first: 1
+    bool moves = false;               ///< true: the keys have positions
+    bool turns = false;               ///< true: the keys have rotations
+    std::vector<TimedValue> speed;    ///< [1] speed of the local time; 1 before the first value
+    std::vector<TimedValue> emitting; ///< 1: births, 0: no births; 1 before the first value
     std::vector<Trigger> triggers;
     std::vector<TimeJump> jumps;
 
@@ -62,7 +63,7 @@ struct InstancePlay
 /// The last value with a time up to `time`; `before` if there is none.
 double valueAt(const std::vector<TimedValue>& values, double time, double before);
 
-/// Rotation about x, then y, then z.
+/// Converts angles [degree] to a rotation about x, then y, then z.
 glm::quat rotationOf(const glm::dvec3& degrees);
 
 } // namespace fx::scene_file

@@ -41,9 +41,9 @@ struct SceneInstance
 /// A preset that instances use. Tools that use the C API load it again from its text.
 struct ScenePreset
 {
-    std::string name; ///< name in the scene file
+    std::string name; ///< name of the preset in the scene file
     std::string text; ///< JSON text
-    std::string file; ///< path; empty: the preset is in the library
+    std::string file; ///< path of the preset; empty: the preset is in the library
     std::shared_ptr<const sim::EffectDef> effect;
 };
 
@@ -54,8 +54,8 @@ struct SceneFile
     std::vector<render::SceneLight> lights; ///< lights other than sun and sky
     render::ViewSettings view;              ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
     render::StageBackground background;
-    render::StageMesh mesh;    ///< empty when the scene has none
-    std::string meshFile;      ///< path; empty: the mesh is in the library, or there is none
+    render::StageMesh mesh;    ///< mesh of the stage; empty when the scene has none
+    std::string meshFile;      ///< path of the mesh; empty: the mesh is in the library, or there is none
     bool meshCollides = false; ///< whether effects collide with the mesh
     /// [m] cell size of the collision grid; 0: the smallest size that gives at most four million cells.
     float meshCellSize = 0.0f;
@@ -72,6 +72,7 @@ constexpr uint64_t kSceneBytes = uint64_t(64) << 20;
 constexpr uint64_t kMeshBytes = uint64_t(64) << 20;
 constexpr uint64_t kImageBytes = uint64_t(256) << 20;
 
+/// Parses, validates and loads a scene.
 /// @param resolver finds the mesh, the image and the presets that the scene names
 /// @param outDiagnostics receives all findings, including warnings, on success and on failure; may be null
 /// @return Parse, TooLarge, Version, Schema, or the error of an asset

@@ -18,7 +18,7 @@ CameraPath readCamera(const preset::PresetValue& camera);
 render::SceneLight readLight(const preset::PresetValue& light);
 /// Reads exposure, lighting, shimmer, dazzle, form, detail, tone map.
 render::ViewSettings readView(const preset::PresetValue& root);
-/// Reads everything except the preset.
+/// Reads all members of an instance except "preset".
 SceneInstance readInstance(const preset::PresetValue& instance);
 
 // Opaque surroundings (scene_stage.cpp), with the files that the members name.
@@ -37,8 +37,9 @@ void readBackground(const preset::PresetValue& background, const asset::AssetRes
 
 // Changes of an instance over time (instance_play_reader.cpp).
 
-/// Reads the changes. @param value the instance; findings are added for faults
-/// @param start  [s] start of the instance
+/// Reads the changes of an instance over time.
+/// @param value the instance; findings are added for faults
+/// @param start [s] start of the instance
 InstancePlay readPlay(const preset::PresetValue& value, double start);
 
 /// Adds findings for triggers whose event the preset does not define.

@@ -1,5 +1,5 @@
 /// @file detail_resources.h
-/// Resources on the GPU with which compositions draw the detail of fields. Threads: [GL thread].
+/// GPU resources that compositions need to draw the detail of fields. Threads: [GL thread].
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -11,21 +11,24 @@
 
 namespace fx::render {
 
-constexpr int kCoarseOctaves = 3; ///< octaves of detail in coarse pictures
+constexpr int kCoarseOctaves = 3; ///< number of octaves of detail in views with few slabs or few voxels
 
 /// Converts the detail of a group to the layout of the GPU. @param octaves 1 .. kMaxDetailOctaves
 FieldDetailBlock detailBlock(const GroupDetail& detail, int octaves);
 
-/// The texture of the periodic cube of noise (formula lump-noise). It is created by makeRoom() and filled
-/// once.
+/// The texture of the periodic cube of noise (formula lump-noise). makeRoom() creates it; the pass of addTo()
+/// fills it once.
 class LumpTileTexture
 {
 public:
+    /// Creates the texture if it does not exist.
     /// @return OutOfMemory, InvalidArgument (the context has no textures of this size)
     base::Status makeRoom(GlDevice& device);
-    /// Imports the texture, and adds the pass that fills it if it is not filled. Requires makeRoom().
+    /// Imports the texture. If the texture is not filled yet, also adds the pass that fills it. Requires
+    /// makeRoom().
     [[nodiscard]] ResourceId addTo(FrameGraph& graph);
-    /// Call this if the passes of the last addTo() have not run: the next addTo() fills the texture.
+    /// Must be called if the passes of the last addTo() have not run; the next addTo() then fills the
+    /// texture.
     void forget() { isFilled_ = false; }
     void release() { texture_ = {}; }
     uint64_t bytes() const { return texture_.name() != 0 ? texture_.bytes() : 0; }

@@ -15,43 +15,47 @@
 
 namespace fx::render {
 
-/// State of a view for its composition. The composition gathers after all techniques, and in each stage its
-/// passes follow those of the techniques. gather() removes the streams that the composition draws from
-/// GatheredFrame::streams. The media pass draws the remaining streams, sorted, over the result of compose().
+/// State of a view for its composition. Its gather() is called after that of all techniques, and in each
+/// stage its passes follow those of the techniques. gather() removes the streams that the composition draws
+/// from GatheredFrame::streams. The media pass draws the remaining streams, sorted, over the result of
+/// compose().
 class CompositionView : public TechniqueView
 {
 public:
-    /// Whether the last gather() took a stream.
+    /// Whether the last gather() removed a stream.
     virtual bool hasMedia() const = 0;
 
     /// Adds passes that refine light slices. They run after the slices have been filled with balls and before
-    /// any pass reads them. Called for frames and for the preparation of lights.
+    /// any pass reads them. Called for each frame, and for ViewRenderer::prepareLights().
     /// @return bindings for the following passes
     [[nodiscard]] virtual LightBindings addLightPasses(FrameGraph&, const LightBindings& lights)
     {
         return lights;
     }
 
-    /// Adds the passes that draw the streams taken by gather(). A frame calls it once. With layers smaller
-    /// than the picture, it calls it twice: for the near and the far end of the depth in each texel.
+    /// Adds the passes that draw the streams removed by gather(). It is called once per frame; or twice, if
+    /// layers are smaller than the picture: for the near and for the far end of the depth range of each
+    /// texel.
     /// @param in as for the media pass; `in.batches` is empty
-    /// @param under the targets to draw over; invalid members: nothing is drawn over
+    /// @param under targets that are drawn over; if a member is invalid, a new target is created
     /// @return the targets, as MediaPass returns them
     [[nodiscard]] virtual MediaPass::Outputs compose(FrameGraph& graph, const MediaPass::Inputs& in,
                                                      const MediaPass::Outputs& under) = 0;
 };
 
-/// One composition. Has static storage.
+/// Description of one composition. Objects of this type have static storage.
 struct MediaComposition
 {
     Composition value;        ///< the value in ViewSettings
     std::string_view meaning; ///< description in one line
-    /// Whether the composition needs sorted balls of medium; false: they have the order of gathering.
+    /// True: the composition needs balls of medium sorted by distance. False: balls have the order in which
+    /// they are gathered.
     bool needsOrder = true;
-    /// Creates the state of a view; null: the media pass draws everything.
+    /// Creates the composition's state in a view; null: it has no state, and the media pass draws everything.
     std::unique_ptr<CompositionView> (*create)(const TechniqueSetup& setup) = nullptr;
-    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all programs that it may use; null: none
-    std::span<const TimedPass> timedPasses = {};                 ///< passes with a timer group of their own
+    /// Returns all programs that the composition may use; null: none.
+    std::span<const ProgramDesc* const> (*programs)() = nullptr;
+    std::span<const TimedPass> timedPasses = {}; ///< passes that have a timer group of their own
 };
 
 } // namespace fx::render

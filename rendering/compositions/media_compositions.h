@@ -14,7 +14,7 @@ extern const MediaComposition kVolumeComposition;
 
 std::span<const MediaComposition* const> mediaCompositions();
 
-/// Null if the composition is not built in.
+/// The composition for a value; null if it is not built in.
 const MediaComposition* findComposition(Composition value);
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file depth_keys.h
-/// Distances of a group's rows, and integer keys with the same order. The loops run over whole columns and
-/// are compiled for each instruction set.
+/// Computes the distances of a group's rows, and integer keys that have the same order. The loops run over
+/// whole columns and are compiled for each instruction set.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,26 +10,27 @@
 
 namespace fx::render {
 
-constexpr uint32_t kAbsentKey = ~0u; ///< key of NaN
+constexpr uint32_t kAbsentKey = ~0u; ///< key of elements whose value is NaN
 
-/// Range and order of a list of keys.
+/// Properties of a list of keys.
 struct KeySpan
 {
-    uint32_t lowest, highest; ///< extremes of the keys other than kAbsentKey; both 0 if there are none
+    uint32_t lowest, highest; ///< smallest and largest key other than kAbsentKey; both 0 if there are none
     uint32_t absent;          ///< number of keys that are kAbsentKey
     uint32_t changed;         ///< number of keys that differ from the previous list
     uint32_t newcomers;       ///< number of changed keys that were kAbsentKey in the previous list
 };
 
-/// Sets of elements as bits: element i is bit i % 8 of byte i / 8. Each array has room for a multiple of 64
-/// bits.
+/// Two sets of elements, as bits: element i is bit i % 8 of byte i / 8. Each array has space for a multiple
+/// of 64 bits.
 struct KeyChanges
 {
     uint8_t* changed;
     uint8_t* newcomers;
 };
 
-/// Computes keys whose ascending order is that of the values, or with flip = ~0 their descending order.
+/// Computes keys. Their ascending order is the ascending order of the values; with flip = ~0, it is the
+/// descending order of the values.
 /// @param flip 0 or ~0  @param ioKeys keys of the previous list; replaced by the new keys
 /// @param out receives the sets of changed keys
 KeySpan makeKeys(const float* values, uint32_t flip, uint32_t* ioKeys, const KeyChanges& out, size_t count);
@@ -41,9 +42,10 @@ struct RowColumns
     size_t count;
 };
 
-/// Distance of each row from the point `eye` or, with `isParallel`, along the unit vector `eye`. NaN for rows
-/// whose radius is not above 0.
-/// @param scale, offset the output is distance * scale + offset @param out [m]
+/// Computes the distance of each row from the point `eye` or, with `isParallel`, along the unit vector `eye`.
+/// Rows whose radius is not above 0 get NaN.
+/// @param scale, offset the output is distance * scale + offset
+/// @param out [m]
 void rowDistances(const RowColumns& rows, const glm::vec3& eye, bool isParallel, float scale, float offset,
                   float* out);
 

@@ -1,5 +1,5 @@
 /// @file depth_sort.h
-/// Order of drawing: by distance or age; elements with equal keys keep the order of the list.
+/// Sorts elements for drawing, by distance or age. Elements with equal keys keep the order of the list.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace fx::render {
 class DepthSort
 {
 public:
-    /// Distance of elements that are not part of the result.
+    /// Distance that marks elements that are not part of the result.
     static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
     explicit DepthSort(std::pmr::memory_resource* memory)
@@ -25,13 +25,14 @@ public:
           pairs_(memory), moved_(memory), scratch_(memory)
     {}
 
-    /// @param distances [m] any sign; NaN leaves the element out
+    /// Sorts elements by decreasing distance.
+    /// @param distances [m] of any sign; elements with the distance NaN are omitted
     /// @return indices into `distances`, farthest first; valid until the next call
     std::span<const uint32_t> farthestFirst(std::span<const float> distances) { return sort(distances, ~0u); }
-    /// As farthestFirst(), but nearest first.
+    /// Does the same as farthestFirst(), with the nearest element first.
     std::span<const uint32_t> nearestFirst(std::span<const float> distances) { return sort(distances, 0u); }
 
-    void forget() { order_.clear(); } ///< the next call sorts all elements
+    void forget() { order_.clear(); } ///< discards the last order, so that the next call sorts all elements
     /// Number of elements that the last call sorted. It is smaller than the number of returned elements if
     /// the call started from the last order.
     size_t sortedElements() const { return sortedElements_; }
@@ -44,15 +45,16 @@ private:
     void sortAll();
     void sortMoved(size_t count);
 
-    std::pmr::vector<uint32_t> keys_; ///< sorted in ascending order; ~0 for absent elements
+    /// Keys, whose ascending order is the order of drawing; ~0 for absent elements.
+    std::pmr::vector<uint32_t> keys_;
     std::pmr::vector<uint32_t> order_;
     std::pmr::vector<uint64_t> changed_;   ///< bit set of elements whose keys differ from the previous call
     std::pmr::vector<uint64_t> arrived_;   ///< bit set of elements that were absent in the previous call
-    std::pmr::vector<uint32_t> blockEnds_; ///< key of the last element of each sorted block
+    std::pmr::vector<uint32_t> blockEnds_; ///< the last key of each block of sorted elements
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;
     std::pmr::vector<uint64_t> scratch_;
-    uint32_t lowest_ = 0, highest_ = 0; ///< extremes of the keys that are present
+    uint32_t lowest_ = 0, highest_ = 0; ///< smallest and largest key, without those of absent elements
     size_t presentCount_ = 0;
     size_t sortedElements_ = 0;
 };

@@ -15,14 +15,14 @@ namespace fx::render {
 /// Elements of one source that are drawn one after another in a fixed order.
 struct DrawStream
 {
-    uint32_t batch = 0; ///< index of the batch in its source
+    uint32_t batch = 0; ///< index of the stream's batch in its source
     uint32_t count = 0;
-    /// [m] of the elements; null: all have `distance`, and the stream is not divided
+    /// [m] distances of the elements; null: all have `distance`, and the stream is not divided
     const float* distances = nullptr;
-    const uint32_t* order = nullptr;     ///< element drawn as number i, farthest first
-    bool isSquared = false;              ///< `distances` holds squares
-    float distance = 0.0f;               ///< [m]
-    bool adds = false;                   ///< additive blending: the order among such streams does not matter
+    const uint32_t* order = nullptr; ///< indices of the elements in the order of drawing, farthest first
+    bool isSquared = false;          ///< true: `distances` are squares of distances
+    float distance = 0.0f;           ///< [m]
+    bool adds = false; ///< true: blending is additive, so that the order among such streams does not matter
     const MediaSource* source = nullptr; ///< draws the elements
 
     float at(uint32_t i) const;
@@ -46,7 +46,7 @@ public:
     /// one slab thickness apart. For two streams, this is 1/13 of the range that they share; for three, 1/6.
     ///
     /// If there are more than kMaxBatches streams, each gives about one batch.
-    /// @param streams each of at least one element
+    /// @param streams streams with at least one element each
     /// @return valid until the next call
     std::span<const DrawBatch> build(std::span<const DrawStream> streams);
 
@@ -58,7 +58,7 @@ private:
     };
     struct Range
     {
-        float near, far; ///< near > far: empty
+        float near, far; ///< empty if near > far
     };
 
     Range overlapOf(std::span<const DrawStream> streams);
@@ -71,7 +71,7 @@ private:
     std::pmr::vector<uint32_t> begin_;
     std::pmr::vector<Part> parts_;
     std::pmr::vector<DrawBatch> batches_;
-    uint32_t lastStream_ = 0; ///< stream of the last batch in batches_
+    uint32_t lastStream_ = 0; ///< index of the stream of the last batch in batches_
 };
 
 } // namespace fx::render

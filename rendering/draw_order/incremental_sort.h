@@ -1,6 +1,6 @@
 /// @file incremental_sort.h
-/// Incremental sorting: keeps the sorted part of the last order and merges the moved elements. The loops are
-/// vectorized and compiled for each instruction set.
+/// Sorts incrementally: keeps the sorted part of the last order, and merges the moved elements into it. The
+/// loops are vectorized and compiled for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -8,26 +8,26 @@
 
 namespace fx::render {
 
-constexpr size_t kSortedBlock = 8; ///< sorted elements that share an entry of SortedPart::blockEnds
+constexpr size_t kSortedBlock = 8; ///< number of sorted elements that share an entry of SortedPart::blockEnds
 
 /// State of a scan of the last order. Elements that are still in ascending order are moved to the front of
 /// the order.
 struct SortedPart
 {
     const uint32_t* keys; ///< key of each element
-    uint32_t* order;      ///< [0, kept) is sorted, [at, count) is not scanned yet; kept <= at
-    uint32_t* blockEnds;  ///< room for the last key of each sorted block
+    uint32_t* order;      ///< elements: [0, kept) are sorted, [at, count) are not scanned yet; kept <= at
+    uint32_t* blockEnds;  ///< memory for the last key of each sorted block
     size_t kept;
     size_t at;
     size_t count;
     uint64_t last;       ///< key * 2^32 + element of the last sorted element; 0 if no element is sorted
-    uint64_t* displaced; ///< key * 2^32 + element of each element that is out of order
+    uint64_t* displaced; ///< the values key * 2^32 + element of the elements that are out of order
     size_t displacedCount;
     size_t mostDisplaced;
 };
 
-/// Continues the scan by whole vectors of elements. Stops at a vector with an absent element or with more
-/// than one element out of order, or when `displaced` is full.
+/// Continues the scan with one SIMD vector of elements after another. Stops at a vector with an absent
+/// element or with more than one element out of order, or when `displaced` is full.
 void extendSortedByVectors(SortedPart& sorted);
 
 /// Removes the elements of the set `changed` from the last order. The remaining elements are sorted.
@@ -35,8 +35,9 @@ void extendSortedByVectors(SortedPart& sorted);
 void keepUnchanged(SortedPart& sorted, const uint8_t* changed);
 
 /// Merges elements into the sorted part. Afterwards its `order` contains all elements.
-/// @param moved key * 2^32 + element, ascending
-/// @param count number of moved elements; SortedPart::order must have room for as many behind its sorted part
+/// @param moved the values key * 2^32 + element of the elements, ascending
+/// @param count number of moved elements; SortedPart::order must have space for as many elements behind its
+///         sorted part
 void mergeMoved(const SortedPart& sorted, const uint64_t* moved, size_t count);
 
 } // namespace fx::render

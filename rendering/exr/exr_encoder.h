@@ -1,9 +1,9 @@
 /// @file exr_encoder.h
 /// Encodes images with named channels as OpenEXR files (scan lines, ZIP).
 ///
-/// The file is encoded in memory, so that the caller can write it completely or not at all. Threads: any. One
-/// call uses up to `threads` workers of OpenEXR's own pool. The encoded bytes do not depend on the number of
-/// workers.
+/// The file is encoded in memory, so that the caller can write it completely or not at all. Threads: any. A
+/// call uses up to `threads` worker threads of OpenEXR's own pool. The encoded bytes do not depend on the
+/// number of workers.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -23,13 +23,15 @@ enum class ExrPrecision
     Whole, ///< 32 bits, integers from 0 to 2^24; values are rounded and clamped
 };
 
-/// One channel: `values[(row * width + column) * stride + offset]`, rows from the top.
+/// One channel of the image. A value is `values[(row * width + column) * stride + offset]`; the top row is
+/// the first.
 struct ExrChannel
 {
-    std::string name; ///< such as "R" or "layer.R"; unique in the image, not empty, at most 255 bytes
+    /// Name of the channel, such as "R" or "layer.R"; unique in the image, not empty, at most 255 bytes.
+    std::string name;
     std::span<const float> values;
-    size_t offset = 0; ///< [float] index of the first value
-    size_t stride = 1; ///< [float] distance of neighboring pixels, >= 1
+    size_t offset = 0; ///< [float] index in `values` of the first value of the channel
+    size_t stride = 1; ///< [float] distance in `values` of neighboring pixels, >= 1
     ExrPrecision precision = ExrPrecision::Half;
 };
 
@@ -38,7 +40,7 @@ struct ExrImage
     int width = 0;  ///< [pixel] 1..16384
     int height = 0; ///< [pixel] 1..16384
     std::vector<ExrChannel> channels;
-    float whiteLuminance = 0.0f; ///< [cd/m2] luminance of the value 1; 0 if unknown
+    float whiteLuminance = 0.0f; ///< [cd/m2] luminance of a pixel with the value 1; 0 if unknown
 };
 
 /// Adds channels R, G, B, A of an interleaved RGBA image, with `layer` before their names ("fire" gives

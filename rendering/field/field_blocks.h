@@ -9,46 +9,52 @@
 
 namespace fx::render {
 
-constexpr int kBrickCells = 8; ///< cells along a side of a brick
-/// samples along a side; those on faces are also in the neighboring bricks
+constexpr int kBrickCells = 8; ///< number of cells along a side of a brick
+/// number of samples along a side of a brick; samples on its faces are also stored in the neighboring bricks
 constexpr int kBrickSamples = kBrickCells + 1;
-constexpr int kBrickColumns = 16; ///< bricks in the textures along x and along y
+constexpr int kBrickColumns = 16; ///< number of bricks in the textures along x and along y
 
 /// A field: a lattice of cubic voxels, divided into bricks.
 struct FieldBlock
 {
-    glm::vec4 corner;  ///< xyz first sample relative to the eye [m]; w side of a voxel [m]
-    glm::ivec4 bricks; ///< xyz number of bricks along each axis; w first entry in the table of bricks
-    /// x least radius of a ball [m]; y upper bound of the extinction [1/m]; z number of the field's detail +
-    /// 1, 0: none; w number of the field's grid of glow + 1, 0: none
+    glm::vec4 corner; ///< xyz position of the first sample relative to the eye [m]; w side of a voxel [m]
+    /// xyz number of bricks along each axis; w index of the field's first entry in the table of bricks.
+    glm::ivec4 bricks;
+    /// x least radius of a ball [m]; y upper bound of the extinction [1/m]; z index of the field's detail +
+    /// 1, or 0 without detail; w index of the field's grid of glow + 1, or 0 without a grid
     glm::vec4 limits;
 };
 static_assert(sizeof(FieldBlock) == 48);
 
-/// The detail of one field; shaders/field/field_detail.glsl reads this layout.
+/// Detail of one field; shaders/field/field_detail.glsl reads this layout.
 struct FieldDetailBlock
 {
-    /// Affine maps from a point p [m] to noise coordinates [cell], dot(xyz, p) + w: three rows for each
-    /// generation. The offsets of balls are added to the result.
+    /// Rows of the affine maps from a point p [m] to noise coordinates [cell], three for each generation. A
+    /// coordinate is dot(xyz, p) + w. The offsets of balls are added to the result.
     glm::vec4 rows[6];
-    glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest; w ramp
-    glm::vec4 noise;   ///< x gain; y weight of the second generation; z cooling; w glow
-    /// xy size of lumps of each generation [m]; z factor of detail-conservation; w octaves
+    glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest and w ramp of FieldDetailNumbers
+    /// x gain of FieldDetailNumbers; y weight of the second generation; z cooling and w glow of
+    /// FieldDetailNumbers.
+    glm::vec4 noise;
+    /// xy size of the lumps of each generation [m]; z factor of formula detail-conservation; w number of
+    /// octaves
     glm::vec4 lumps;
-    glm::vec4 soft; ///< x softening as the medium thins
+    glm::vec4 soft; ///< x softening of FieldDetailNumbers
 };
 static_assert(sizeof(FieldDetailBlock) == 160);
 
-constexpr int kGlowCells = 32;       ///< cells along a side of a grid
-constexpr int kGlowRays[2] = {8, 4}; ///< blocks along x and y in the texture of rays; one block per direction
+constexpr int kGlowCells = 32; ///< number of cells along a side of a grid
+/// Number of blocks along x and y in the texture of rays; one block per direction.
+constexpr int kGlowRays[2] = {8, 4};
 
 /// A grid in which the light that media emit is propagated; shaders/field/field_glow.glsl reads this layout.
 struct FieldGlowBlock
 {
-    glm::vec4 corner; ///< xyz [m] relative to the eye; w side of a cell [m]
-    /// Like `corner`, for the grid of the last frame whose light is the start; w 0: none.
+    glm::vec4 corner; ///< xyz lowest corner relative to the eye [m]; w side of a cell [m]
+    /// Like `corner`, for the grid of the last frame from whose light the propagation starts; w 0: there is
+    /// none.
     glm::vec4 before{0.0f};
-    glm::vec4 number{0.0f}; ///< x number of the grid of the last frame
+    glm::vec4 number{0.0f}; ///< x index of that grid in the last frame
 };
 static_assert(sizeof(FieldGlowBlock) == 48);
 
@@ -56,8 +62,8 @@ static_assert(sizeof(FieldGlowBlock) == 48);
 struct FieldBrickBlock
 {
     uint32_t field;
-    uint32_t place; ///< position in the field, in bricks: x + 1024 y + 1024^2 z
-    uint32_t first; ///< first entry of the brick in the list of numbers of balls
+    uint32_t place; ///< position of the brick in its field, in bricks: x + 1024 y + 1024^2 z
+    uint32_t first; ///< index of the brick's first entry in the list of balls
     uint32_t count; ///< number of its balls
 };
 static_assert(sizeof(FieldBrickBlock) == 16);
@@ -73,21 +79,22 @@ struct NearBrickBlock
 };
 static_assert(sizeof(NearBrickBlock) == 16);
 
-/// A ball in a brick.
+/// A ball that touches a brick.
 struct NearPartBlock
 {
     uint32_t number; ///< index of the ball
-    float share;     ///< [1] share of the ball that is taken out of the field
+    float share;     ///< [1] share of the ball that is removed from the field
 };
 static_assert(sizeof(NearPartBlock) == 8);
 
-constexpr int kFieldTileColumns = 32, kFieldTileRows = 18; ///< division of the window into parts
+/// Number of parts into which the window is divided along x and y.
+constexpr int kFieldTileColumns = 32, kFieldTileRows = 18;
 constexpr int kFieldTiles = kFieldTileColumns * kFieldTileRows;
 
 /// The fields that are visible in a part of the window.
 struct FieldTileBlock
 {
-    uint32_t first; ///< first entry in the list of numbers of fields
+    uint32_t first; ///< index of the first entry in the list of fields
     uint32_t count;
 };
 static_assert(sizeof(FieldTileBlock) == 8);

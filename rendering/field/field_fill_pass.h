@@ -27,7 +27,7 @@ public:
         ResourceId balls, fieldTexels, bricks, brickBalls;
         FieldTextures textures;
         uint32_t brickCount;                      ///< > 0
-        ResourceId materials = {}, lumpTile = {}; ///< invalid: no field has detail
+        ResourceId materials = {}, lumpTile = {}; ///< inputs for detail; invalid: no field has detail
     };
     struct Outputs
     {
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program with or without layers and detail.
+/// The program of the pass, with or without layers and detail.
 const ProgramDesc& fieldFillProgram(bool layers, bool detail);
 
 } // namespace fx::render

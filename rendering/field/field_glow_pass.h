@@ -13,8 +13,9 @@ namespace fx::render {
 /// Textures of the grids of FieldGlowPlan. The grids are stacked along z.
 struct GlowTextures
 {
-    ResourceId cells = {};   ///< RGBA32F emitted light, later with what is scattered once; extinction
-    ResourceId scatter = {}; ///< RGBA16F extinction times albedo; mean cosine of the phase function
+    /// RGBA32F rgb emitted light, to which light that is scattered once is added; a extinction.
+    ResourceId cells = {};
+    ResourceId scatter = {}; ///< RGBA16F rgb extinction times albedo; a mean cosine of the phase function
     ResourceId rays = {};    ///< RGBA16F radiance; one block per direction, side by side along x and y
     ResourceId first = {};   ///< RGBA16F mean radiance of emitted light
     ResourceId light = {};   ///< RGBA16F logarithm of the mean radiance of emitted and scattered light
@@ -36,13 +37,14 @@ public:
     {
         ResourceId fieldTexels;
         FieldTextures field;
-        ResourceId lumpTile; ///< used with detail only
-        bool detail;         ///< some field has detail
+        ResourceId lumpTile; ///< used only if a field has detail
+        bool detail;         ///< true: a field has detail
         ResourceId grids;
         GlowTextures glow;
-        uint32_t fieldCount;    ///< > 0
-        uint32_t gridCount;     ///< > 0
-        int cells = kGlowCells; ///< along a side of a grid, a multiple of 8; addTo() requires kGlowCells
+        uint32_t fieldCount; ///< > 0
+        uint32_t gridCount;  ///< > 0
+        /// Number of cells along a side of a grid, a multiple of 8; addTo() requires kGlowCells.
+        int cells = kGlowCells;
     };
     struct Outputs
     {

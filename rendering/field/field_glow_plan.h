@@ -16,7 +16,8 @@
 
 namespace fx::render {
 
-constexpr size_t kMaxGlowGrids = 4; ///< per view; the fields that emit least get no grid
+/// Largest number of grids per view; the fields that emit least get no grid.
+constexpr size_t kMaxGlowGrids = 4;
 
 /// Builds the list of grids of a frame. The memory is kept from frame to frame. Threads: one at a time.
 class FieldGlowPlan
@@ -26,10 +27,11 @@ public:
 
     /// Builds the grids, and sets FieldBlock::limits.w of each field to the number of its grid + 1, or to 0
     /// if it has no grid.
-    /// @param emitted [exposed m2] of each field: sum of cross section times emitted light over its balls
+    /// @param emitted [exposed m2] for each field: sum over its balls of cross section times emitted light
     /// @param eye [m] world position to which fields are relative
-    /// @param networkCells > 0: cells along a side of a network's grid; all fields get grids, the largest on
-    ///         the picture first. 0: fields that emit get grids of kGlowCells
+    /// @param networkCells number of cells along a side of the grid of an illumination network; all fields
+    ///         get grids, in the order of their size on the picture. 0: no networks; fields that emit light
+    ///         get grids of kGlowCells
     void build(std::span<FieldBlock> ioFields, std::span<const float> emitted, const glm::dvec3& eye,
                int networkCells = 0);
     void clear() { grids_.clear(); }
@@ -40,15 +42,16 @@ private:
     /// Overlapping fields that share a grid.
     struct Source
     {
-        glm::vec3 low, high; ///< [m] relative to the eye
-        float emitted;       ///< [exposed m2]; with networks: size on the picture [sr]
+        glm::vec3 low, high; ///< [m] corners of the fields' common box, relative to the eye
+        float emitted;       ///< [exposed m2] emitted light; with networks, the size on the picture [sr]
     };
 
-    static bool brighter(const Source& a, const Source& b); ///< sorts by `emitted`; if equal, by position
+    /// True if `a` is sorted before `b`: by decreasing `emitted`; if equal, by position.
+    static bool brighter(const Source& a, const Source& b);
     void listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all);
     void placeGrid(const Source& source, std::span<FieldBlock> ioFields, const glm::dvec3& eye);
 
-    int cells_; ///< cells along a side of a grid
+    int cells_; ///< number of cells along a side of a grid
     std::pmr::vector<Source> sources_;
     std::pmr::vector<FieldGlowBlock> grids_;
 };

@@ -10,7 +10,7 @@
 
 namespace fx::render {
 
-/// Single and multiple scattering of the light of the sun, of point lights, of sky and ground; see
+/// Computes single and multiple scattering of the light of the sun, of point lights, of sky and ground; see
 /// shaders/shared/scattered_light.glsl and shaders/shared/sky_light.glsl.
 ///
 /// reads   fields, bricks  as in FieldFillPass
@@ -29,12 +29,13 @@ public:
         ResourceId fields, bricks;
         FieldTextures textures;
         LightBindings lights;
-        const ViewBlock* view;            ///< of the picture
+        const ViewBlock* view;            ///< view block of the picture
         uint32_t brickCount;              ///< > 0
-        ResourceId glow = {}, grids = {}; ///< invalid: no field has a grid
-        /// Moments of NetworkPasses for the same grids; used instead of `glow`.
+        ResourceId glow = {}, grids = {}; ///< inputs for emitted light; invalid: no field has a grid
+        /// Moments of the light in illumination networks on the same grids, from NetworkPasses; used instead
+        /// of `glow`.
         ResourceId network = {};
-        int networkCells = 0; ///< along a side of the network's grids
+        int networkCells = 0; ///< number of cells along a side of the network's grids
     };
     struct Outputs
     {
@@ -43,7 +44,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program with or without layers and detail.
+/// The program of the pass, with or without layers, detail and illumination networks.
 const ProgramDesc& fieldLightProgram(bool layers, bool detail, bool network = false);
 
 } // namespace fx::render

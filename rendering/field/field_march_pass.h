@@ -9,17 +9,19 @@
 namespace fx::render {
 
 constexpr size_t kFieldMarchPrograms = 2 * 2 * 2;
-/// The program with or without layers, detail of fields, and loose media (balls and cards outside of fields).
+/// The program of the pass, with or without layers, detail of fields, and loose media (balls and cards
+/// outside of fields).
 const ProgramDesc& fieldMarchProgram(bool layers, bool detail, bool loose);
 const ProgramDesc& fieldMarchProgramAt(size_t index);
 
 /// Balls and cards outside of fields, listed per tile of 16 x 16 texels as in the composition `slabs`.
 struct LooseMedia
 {
-    /// Draw arguments of the non-empty tiles, with or without fields; invalid without loose media.
+    /// Buffer with the arguments of a draw of the tiles that are not empty, with or without fields; invalid
+    /// without loose media.
     ResourceId tiles;
-    ResourceId lists; ///< numbers of balls, see SlabTilePass
-    ResourceId balls; ///< texture of SlabBallPass; invalid: no balls
+    ResourceId lists; ///< buffer of the indices of balls, see SlabTilePass
+    ResourceId balls; ///< texture written by SlabBallPass; invalid: no balls
     CardLists cards;
     int slabs = 16; ///< least number of slabs along a ray for balls and cards
 };
@@ -42,11 +44,11 @@ public:
         FieldTextures textures;
         ResourceId fieldTexels;   ///< texture of FieldTexelPass
         ResourceId tiles;         ///< buffer of FieldTexels::tiles()
-        ResourceId lumpTile = {}; ///< texture of LumpTilePass; invalid: no field has detail
+        ResourceId lumpTile = {}; ///< texture written by LumpTilePass; invalid: no field has detail
         LooseMedia loose = {};
     };
-    /// Value of SlabTilePass::Inputs::maxOfTile. It is low because each step of a ray reads the whole list of
-    /// a tile.
+    /// Value of SlabTilePass::Inputs::maxOfTile. It is small because each step of a ray reads the whole list
+    /// of a tile.
     static constexpr uint32_t kMaxLooseOfTile = 256;
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);

@@ -1,5 +1,5 @@
 /// @file field_near_pass.h
-/// The pass that takes shares of balls near the eye out of the samples of fields.
+/// The pass that subtracts shares of balls near the eye from the samples of fields.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -8,7 +8,8 @@
 
 namespace fx::render {
 
-/// Comes between the passes that spread light through fields, which need all of the medium, and
+/// Subtracts shares of balls near the eye from fields, because these shares are drawn as loose balls. It runs
+/// after the passes that propagate light through fields, because these need the whole medium, and before
 /// FieldLightPass.
 ///
 /// reads   balls        buffer of BlobInstance
@@ -16,7 +17,7 @@ namespace fx::render {
 ///         bricks       buffer of FieldBrickBlock
 ///         nearBricks   buffer of NearBrickBlock
 ///         nearParts    buffer of NearPartBlock
-/// writes  textures     filled, not yet lit; without the material of detail, as fields with detail keep their
+/// writes  textures     filled, not yet lit; but not the material of detail: fields with detail keep their
 ///                      balls. Equal inputs give equal bits.
 /// Formula: voxel-kernel.
 class FieldNearPass
@@ -35,7 +36,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program with or without layers.
+/// The program of the pass, with or without layers.
 const ProgramDesc& fieldNearProgram(bool layers);
 
 } // namespace fx::render

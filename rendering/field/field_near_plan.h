@@ -1,10 +1,11 @@
 /// @file field_near_plan.h
-/// Balls near the eye that rays sum up exactly, and not through voxels.
+/// Finds the balls near the eye that are integrated exactly along rays instead of through voxels.
 ///
-/// Between its samples a field is linear. An eye in a dense medium sees some centimeters, which may be much
-/// less than a voxel, so that the errors of the interpolation fill its picture, and change as it moves.
-/// Therefore a share of each small ball near the eye is taken out of its field, and summed up as loose balls
-/// are. Shares are continuous in the place of the eye and in radii; what a field keeps is the rest.
+/// A field is interpolated linearly between its samples. In a dense medium the visible distance may be some
+/// centimeters, much less than a voxel. Then the interpolation errors would fill the picture, and would
+/// change as the eye moves. Therefore a share of each small ball near the eye is removed from its field, and
+/// is drawn as a loose ball. Shares are continuous functions of the position of the eye and of the radius.
+/// The field keeps the remaining share.
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -19,41 +20,44 @@
 
 namespace fx::render {
 
-/// A ball, of which a share is not in its field.
+/// A ball near the eye, with the share that is removed from its field.
 struct NearBall
 {
-    uint32_t number; ///< in the list of all balls
+    uint32_t number; ///< index in the list of all balls
     uint32_t field;
-    float share; ///< [1] > 0, at most 1
+    float share; ///< [1] removed share, > 0 and at most 1
 };
 
-/// Keeps its memory from frame to frame. Threads: one at a time.
+/// Selects the balls and lists the bricks that they touch. Memory is kept from frame to frame. Threads: one
+/// at a time.
 class FieldNearPlan
 {
 public:
     explicit FieldNearPlan(std::pmr::memory_resource* memory);
 
-    /// [voxel] from the eye, beyond which no ball is near.
+    /// [voxel] Balls farther from the eye than this are not near.
     static constexpr float kReach = 2.0f;
-    /// [voxel] radius at and above which fields are exact enough by themselves.
+    /// [voxel] At and above this radius, fields are accurate without removing balls.
     static constexpr float kLargest = 5.5f;
-    /// At most so many balls of a view are near: each step of a ray near the eye reads them.
+    /// Largest number of near balls in a view. It is limited because each step of a ray near the eye reads
+    /// all of them.
     static constexpr size_t kMost = 128;
 
     void clear();
-    /// A ball that may be near. @param ball xyz [m] relative to the eye; w radius [m] @param voxel [m] of its
-    /// field
+    /// Adds a ball that may be near.
+    /// @param ball xyz [m] position relative to the eye; w radius [m]
+    /// @param voxel [m] side of a voxel of its field
     void add(uint32_t number, uint32_t field, const glm::vec4& ball, float voxel);
-    /// Gives shares to the balls that were added, in their order.
+    /// Computes the shares of the added balls, in the order in which they were added.
     void choose();
     std::span<const NearBall> balls() const { return balls_; }
 
-    /// One of balls() touches a brick.
+    /// Records that one of balls() touches a brick.
     void addToBrick(uint32_t brick, const NearBall& ball)
     {
         parts_.push_back({brick, ball.number, ball.share});
     }
-    /// Lists the bricks of all calls of addToBrick().
+    /// Lists the bricks that were passed to addToBrick().
     void listBricks();
     std::span<const NearBrickBlock> bricks() const { return bricks_; }
     std::span<const NearPartBlock> parts() const { return brickParts_; }
@@ -61,8 +65,9 @@ public:
 private:
     struct Candidate
     {
-        NearBall ball; ///< its share follows from its radius alone
-        float away;    ///< [voxel] from the eye to its surface, below 0 inside
+        NearBall ball; ///< its share is a function of its radius only
+        /// [voxel] Distance from the eye to the surface of the ball; negative if the eye is inside.
+        float away;
     };
     struct Part
     {

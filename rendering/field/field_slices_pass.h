@@ -11,6 +11,7 @@ namespace fx::render {
 
 extern const ProgramDesc kFieldSlicesProgram;
 
+/// Adds the change of extinction by the detail of fields to light slices.
 /// reads   fieldTexels    of FieldTexelPass
 ///         table          table of bricks, of FieldFillPass
 ///         change         change of extinction by detail, see FieldTextures
@@ -25,7 +26,7 @@ public:
         ResourceId fieldTexels, table;
         ResourceId change;
         ResourceId stacks;
-        LightBindings lights; ///< must have planes
+        LightBindings lights; ///< lights, which must have planes
         uint32_t fieldCount;
         uint32_t stackCount;
     };

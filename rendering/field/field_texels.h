@@ -8,11 +8,14 @@
 
 namespace fx::render {
 
-constexpr int kFieldColumns = 1024; ///< texels in a row; also in shaders/field/field_blocks.glsl
-constexpr int kTableColumns = 1024; ///< texels in a row of the table of bricks; also in the shader
-/// the shaders have the same number
+/// Number of texels in a row; the same constant is in shaders/field/field_blocks.glsl.
+constexpr int kFieldColumns = 1024;
+/// Number of texels in a row of the table of bricks; the same constant is in the shader.
+constexpr int kTableColumns = 1024;
+/// number of texels of a FieldDetailBlock; the same constant is in the shaders
 constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4);
-constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12; ///< texture units; also in the shader
+/// Texture units; the same constants are in the shader.
+constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12;
 
 /// Number of rows of a texture for `count` texels. It is a power of two, so that the texture is seldom
 /// reallocated.
@@ -29,7 +32,7 @@ public:
     void build(const FieldPlan& plan, std::span<const FieldDetailBlock> details);
 
     std::span<const glm::vec4> texels() const { return texels_; }
-    /// As FieldPlan::tiles(), but `first` is the index of a texel.
+    /// Like FieldPlan::tiles(), except that `first` is the index of a texel.
     std::span<const FieldTileBlock> tiles() const { return tiles_; }
 
 private:

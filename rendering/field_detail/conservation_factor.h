@@ -50,19 +50,22 @@ struct DetailedCaster
 {
     MediumCaster ball;
     std::array<glm::vec3, 2> carried; ///< [cell] coordinates of both generations, see BlobDetail
-    uint64_t id;                      ///< constant during the life of the ball
+    uint64_t id;                      ///< id of the ball, constant during its life
 };
 
-/// Computes the factor f. The memory is kept from call to call. Threads: one at a time.
+/// Computes the factor f of formula detail-conservation. The memory is kept from call to call. Threads: one
+/// at a time.
 class ConservationFactor
 {
 public:
-    static constexpr float kMin = 0.25f; ///< [1] smaller factors would make dense lumps look like mist
-    static constexpr float kMax = 4.0f;  ///< [1] larger factors would make remnants of thin medium look solid
+    /// [1] Least factor; smaller ones would make dense lumps look like mist.
+    static constexpr float kMin = 0.25f;
+    /// [1] Largest factor; larger ones would make remnants of thin medium look solid.
+    static constexpr float kMax = 4.0f;
 
     explicit ConservationFactor(std::pmr::memory_resource* memory);
 
-    /// [1] Returns f of formula detail-conservation, kMin .. kMax. Equal input gives equal bits.
+    /// [1] The factor f of formula detail-conservation, kMin .. kMax. Equal input gives equal bits.
     /// @param balls all balls of the group, visible or not
     float of(const GroupDetail& detail, std::span<const DetailedCaster> balls);
 
@@ -82,7 +85,7 @@ private:
     Cells cells_;
     std::pmr::vector<float> thinning_;   ///< [1] thinning of each ball
     std::pmr::vector<uint32_t> starts_;  ///< by cell: index of its first entry in inCells_
-    std::pmr::vector<uint32_t> inCells_; ///< numbers of balls, sorted by cell
+    std::pmr::vector<uint32_t> inCells_; ///< indices of balls, sorted by cell
 };
 
 } // namespace fx::render

@@ -1,5 +1,6 @@
 /// @file detailed_field.h
-/// Reference evaluation of the field of a group of balls with its detail, at single points; simple and slow.
+/// Evaluates the field of a group of balls with its detail at single points. It is a simple and slow
+/// reference.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"
@@ -10,29 +11,31 @@
 
 namespace fx::render {
 
-/// A ball of medium with its carried coordinates.
+/// A ball of medium with its noise coordinates.
 struct DetailedBall
 {
     glm::vec3 center;   ///< [m]
     float radius;       ///< [m] > 0
     float crossSection; ///< [m2] >= 0
-    glm::vec3 place[2]; ///< [m] carried coordinates of both generations
+    glm::vec3 place[2]; ///< [m] noise coordinates of both generations, which move with the ball
 };
 
-/// Positions are in the space of the group. Threads: any thread may call const functions.
+/// The smooth field of a group of balls, and its extinction with detail. Positions are in the space of the
+/// group. Threads: any thread may call const functions.
 class DetailedField
 {
 public:
-    /// @param tile must outlive the field
+    /// @param tile noise, which must outlive the field
     DetailedField(std::vector<DetailedBall> balls, const FieldDetailNumbers& numbers, const LumpTile& tile);
 
     SmoothMedium smoothAt(const glm::vec3& point) const;
-    /// [1/m] Eroded extinction, multiplied by factor().
+    /// [1/m] Eroded extinction at a point, multiplied by factor().
+    /// @param pixel [m] width of a pixel at the point
     float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
     MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
 
-    /// Computes factor(), which restores the integral of the smooth field after erosion: the sum of smooth
-    /// extinctions over the sum of eroded extinctions, at the points of a lattice.
+    /// Computes factor(), by which the eroded field gets the integral of the smooth field: the sum of smooth
+    /// extinctions divided by the sum of eroded extinctions, both at the points of a lattice.
     /// @param spacing [m] distance of lattice points, at most half of the size of lumps
     void conserveIntegral(float spacing);
     float factor() const { return factor_; } ///< [1] > 0

@@ -13,7 +13,7 @@
 namespace fx::render {
 
 constexpr int kMaxDetailOctaves = 5;
-constexpr float kMaxDetailGain = 6.0f; ///< upper bound of n of field-detail
+constexpr float kMaxDetailGain = 6.0f; ///< upper bound of the symbol n of formula field-detail
 
 /// Constants of a group of the kind "material" at a moment.
 struct FieldDetailNumbers
@@ -21,42 +21,45 @@ struct FieldDetailNumbers
     /// One of the two generations of coordinates.
     struct Generation
     {
-        float length = 1;       ///< [m] size of the largest lumps when the generation began
-        float growth = 1;       ///< [1] see foundation/snapshot/material_kind.h
-        glm::vec3 offset{0.0f}; ///< [cell] added to the coordinates, so that generations have different noise
+        float length = 1; ///< [m] size of the largest lumps when the generation began
+        float growth = 1; ///< [1] constant Growth0 or Growth1 of foundation/snapshot/material_kind.h
+        /// [cell] Offset of the coordinates, which gives the generations different noise.
+        glm::vec3 offset{0.0f};
     };
-    std::array<Generation, 2> generations; ///< in the order of the columns Place0, Place1
+    std::array<Generation, 2> generations; ///< generations in the order of the columns Place0, Place1
     float fade = 0;                        ///< [1] weight of generations[1], 0 .. 1
-    float thinnest = 0, densest = 0;       ///< [1] t0, t1 of field-detail; densest 0: no detail
-    float ramp = 0.25f;                    ///< [1] w of field-detail
-    float gain = 0.55f;                    ///< [1] amplitude of an octave over that of the octave before
-    float cooling = 0, glow = 0;           ///< [1] c, b of field-detail
-    float softening = 0;                   ///< [1] a over v of field-detail
+    float thinnest = 0, densest = 0; ///< [1] t0 and t1 of formula field-detail; densest is 0 without detail
+    float ramp = 0.25f;              ///< [1] symbol w of formula field-detail
+    float gain = 0.55f;              ///< [1] amplitude of an octave divided by that of the previous octave
+    float cooling = 0, glow = 0;     ///< [1] c and b of formula field-detail
+    float softening = 0;             ///< [1] a / v of formula field-detail
 
     bool isGiven() const { return densest > thinnest; }
-    float length() const; ///< [m] present size of the largest lumps, weighted mean of both generations
+    float length() const; ///< [m] present size of the largest lumps, as a weighted mean of both generations
 };
 
-/// Parameters from the constants of a group of the kind "material".
+/// Reads the parameters from the constants of a group of the kind "material".
 FieldDetailNumbers fieldDetailNumbers(std::span<const float> constants);
 
 /// The smooth field at a point.
 struct SmoothMedium
 {
     float extinction = 0;           ///< [1/m]
-    std::array<glm::vec3, 2> place; ///< [m] carried coordinates of both generations
-    float thinning = 0;             ///< [1] v of field-detail
+    std::array<glm::vec3, 2> place; ///< [m] noise coordinates of both generations, which move with the medium
+    float thinning = 0;             ///< [1] symbol v of formula field-detail
 };
 
 /// The field with detail.
 struct MediumDetail
 {
-    float share = 1;       ///< [1] extinction over that of the smooth field
-    float temperature = 1; ///< [1] multiplies the temperature
-    float noise = 0;       ///< [1] z of field-detail
+    float share = 1;       ///< [1] extinction divided by that of the smooth field
+    float temperature = 1; ///< [1] factor of the temperature
+    float noise = 0;       ///< [1] symbol z of formula field-detail
 };
 
-/// [1] v of field-detail for a single ball. @param crossSection [m2] @param radius [m]
+/// [1] Symbol v of formula field-detail, for a single ball.
+/// @param crossSection [m2]
+/// @param radius [m]
 float thinningOf(const FieldDetailNumbers& numbers, float crossSection, float radius);
 
 /// Evaluates the detail at a point by the formulas field-detail and lump-noise.
@@ -68,7 +71,8 @@ MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, c
 /// most `most` [1/m]. The result is not multiplied by GroupDetail::factor.
 float maxErodedExtinction(const FieldDetailNumbers& numbers, float most);
 
-/// [1] n m of field-detail: mean eroded extinction over smooth extinction. @param extinction [1/m] smooth
+/// [1] Symbol n m of formula field-detail: mean eroded extinction divided by smooth extinction.
+/// @param extinction [1/m] smooth extinction
 float meanErodedShare(const FieldDetailNumbers& numbers, float extinction, float thinning = 0);
 
 } // namespace fx::render

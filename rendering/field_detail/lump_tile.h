@@ -12,27 +12,28 @@ namespace fx::render {
 constexpr int kLumpCells = 8; ///< period of the cube, in cells
 /// [1] mean of lumpAt(), see tests/rendering/core/test_field_detail.cpp
 constexpr float kLumpMean = 0.54464f;
-/// [1] standard deviation of lumpAt(); 5 % less with linear interpolation between 64 texels.
+/// [1] Standard deviation of lumpAt(). With linear interpolation between 64 texels it is 5 % less.
 constexpr float kLumpDeviation = 0.13360f;
 
-/// Hash of a corner or a cell of the lattice, 0 .. 2^24 - 1; equal to the one in
+/// Hash of a corner or a cell of the lattice, 0 .. 2^24 - 1; equal to the hash in
 /// shaders/field/lump_tile.comp.glsl.
 uint32_t lumpHash(uint32_t x, uint32_t y, uint32_t z, uint32_t purpose);
 
-/// B of formula lump-noise, 0 .. 1. @param cells coordinates [cell], each >= -kLumpCells
+/// Symbol B of formula lump-noise, 0 .. 1.
+/// @param cells coordinates [cell], each >= -kLumpCells
 float lumpAt(const glm::vec3& cells);
 
-/// lumpAt() at the texels of a cube, normalized to mean 0 and deviation 1; interpolated linearly between
-/// texels. Immutable; callable from any thread.
+/// Values of lumpAt() at the texels of a cube, normalized to mean 0 and deviation 1, and interpolated
+/// linearly between texels. Immutable; callable from any thread.
 class LumpTile
 {
 public:
-    /// @param texels along a side, kLumpCells times a power of two; 64 texels use 1 MiB
+    /// @param texels number of texels along a side, kLumpCells times a power of two; 64 texels use 1 MiB
     explicit LumpTile(int texels = 64);
 
     float at(const glm::vec3& cells) const;
     int texels() const { return texels_; }
-    const std::vector<float>& values() const { return values_; } ///< x fastest
+    const std::vector<float>& values() const { return values_; } ///< values of the texels, x fastest
 
 private:
     int texels_;

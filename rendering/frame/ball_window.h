@@ -1,5 +1,6 @@
 /// @file ball_window.h
-/// Rectangle of the window that a ball covers, as drawn by shaders/shared/blob_quad.glsl before clipping.
+/// Computes the rectangle of the window that a ball covers. It equals the rectangle that
+/// shaders/shared/blob_quad.glsl draws, before clipping.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -10,13 +11,13 @@
 
 namespace fx::render {
 
-/// [pixel] Least radius at which blobs are drawn. With it, the sum of the pixels is the blob's light within 6
-/// %.
+/// [pixel] Least radius with which blobs are drawn. With this radius, the sum over the pixels differs from
+/// the light of the blob by at most 6 %.
 inline constexpr float kMinPixels = 1.15f;
 
 /// Slopes of the two tangents from the eye to a ball, in the plane of one screen axis and the view axis;
 /// limited to +-1e9. Equal to tangentSlopes() of blob_quad.glsl.
-/// @param c, depth [m] of the center along the screen axis and along the view axis
+/// @param c, depth [m] coordinates of the center along the screen axis and along the view axis
 inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)
 {
     constexpr float kAll = 1e9f;
@@ -31,7 +32,7 @@ inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)
 }
 
 /// Range of clip coordinates of a ball along one screen axis, the smaller one first.
-/// @param c, depth [m] of the center along the screen axis and along the view axis
+/// @param c, depth [m] coordinates of the center along the screen axis and along the view axis
 inline std::pair<float, float> clipRange(const CameraGeometry& camera, int axis, float c, float depth,
                                          float radius)
 {

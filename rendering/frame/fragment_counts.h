@@ -1,5 +1,6 @@
 /// @file fragment_counts.h
-/// Number of fragments of a frame for each size of layers, and the share of the picture that media cover.
+/// Types for the number of fragments of a frame with each size of layers, and for the share of the picture
+/// that media cover.
 #pragma once
 
 #include <array>
@@ -8,10 +9,10 @@
 
 namespace fx::render {
 
-/// Layers can be drawn at the picture's width and height divided by these numbers.
+/// Width and height of layers may be those of the picture divided by one of these numbers.
 inline constexpr std::array<int, 3> kLayerDivisors = {1, 2, 4};
 
-/// Number of fragments for layers of each of kLayerDivisors.
+/// Number of fragments, for each divisor in kLayerDivisors.
 using FragmentCounts = std::array<uint64_t, kLayerDivisors.size()>;
 
 inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
@@ -20,11 +21,11 @@ inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
         ioSum[i] += counts[i];
 }
 
-/// Shares of the picture that techniques cover, [0, 1). They weight the errors of scalability levels.
+/// Shares of the picture that techniques cover, [0, 1). They are weights of the errors of scalability levels.
 struct ScreenShare
 {
-    double media = 0; ///< covered by blobs
-    double hot = 0;   ///< covered by blobs with heat
+    double media = 0; ///< share covered by blobs
+    double hot = 0;   ///< share covered by blobs with heat
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file row_revisions.h
-/// Revisions of the rows of particles and ribbons, by group. Equal revisions mean equal rows: rows that were
-/// uploaded before, or rows that instances of a shared simulation have in common.
+/// Revisions of the rows of particles and ribbons, by group. Equal revisions mean equal rows. They occur for
+/// rows that have not changed since an earlier snapshot, and for instances of a shared simulation.
 ///
 /// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
@@ -18,7 +18,7 @@ namespace fx::render {
 struct RowRevision
 {
     uint32_t first = 0, count = 0;
-    uint64_t revision = 0; ///< 0: unknown content
+    uint64_t revision = 0; ///< revision of the columns; 0: the content is unknown
 
     bool operator==(const RowRevision&) const = default;
 };
@@ -27,8 +27,10 @@ struct RowRevision
 struct SnapshotRowRevisions
 {
     std::span<const RowRevision> parts; ///< ranges of all groups, one group after another
-    std::span<const size_t> begin;      ///< first part of each group, and the end; empty: one part per group
-    /// by group: first group with the same rows, which may be itself; empty: all differ
+    /// Index of the first part of each group, and the number of parts; empty: each group has one part.
+    std::span<const size_t> begin;
+    /// by group: index of the first group with the same rows, possibly the group itself; empty: all groups
+    /// differ
     std::span<const uint32_t> alike;
 
     std::span<const RowRevision> of(size_t group) const
@@ -39,13 +41,13 @@ struct SnapshotRowRevisions
     size_t alikeOf(size_t group) const { return alike.empty() ? group : alike[group]; }
 };
 
-/// Whether the columns of two groups of one kind are the same, bit for bit; ids, constants and placements may
-/// differ.
+/// Tests whether the columns of two groups of one kind are equal, bit for bit; ids, constants and placements
+/// may differ.
 bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
                   std::span<const base::ColumnDesc> columns);
 
-/// Whether two pools of successive snapshots have equal data in all rows, including rows of dead particles.
-/// Also false if a comparison would be expensive.
+/// Tests whether two pools of successive snapshots have equal data in all rows, including rows of dead
+/// particles. Also returns false if a comparison would be expensive.
 bool haveSameRows(const base::PooledRows& a, const base::PooledRows& b,
                   std::span<const base::ColumnDesc> columns);
 
@@ -54,6 +56,7 @@ class SamePools
 {
 public:
     explicit SamePools(std::pmr::memory_resource* memory) : same_(memory) {}
+    /// Compares the pools of two snapshots.
     /// @param older may be null
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
     bool holdSame(const base::GroupRoster::Entry& newer, const base::GroupRoster::Entry& older) const
@@ -63,7 +66,7 @@ public:
 
 private:
     static constexpr uint32_t kNone = ~0u;
-    /// by pool of the newer snapshot: equal pool of the older one, or kNone
+    /// by pool of the newer snapshot: index of the equal pool of the older one, or kNone
     std::pmr::vector<uint32_t> same_;
 };
 
@@ -75,11 +78,12 @@ public:
         : parts_(memory), before_(memory), alike_(memory), table_(memory), pools_(memory)
     {}
 
+    /// Assigns a revision to the rows of each group.
     /// @param older null, or a snapshot of the same scene; rows that are equal in both snapshots get equal
     ///         revisions
-    /// @param before revisions of `older`; without parts they are unknown
-    /// @param kinds kinds that get revisions; pools always get revisions
-    /// @param ioLast the last assigned revision; increased for each new one
+    /// @param before revisions of the rows of `older`; empty: they are unknown
+    /// @param kinds kinds of groups that get revisions; pools always get revisions
+    /// @param ioLast last assigned revision; increased for each new revision
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
                const SnapshotRowRevisions& before, std::span<const base::KindId> kinds, uint64_t& ioLast);
     SnapshotRowRevisions revisions() const { return {parts_, {}, alike_}; }
@@ -92,7 +96,7 @@ private:
     std::pmr::vector<RowRevision> parts_;
     std::pmr::vector<RowRevision> before_;
     std::pmr::vector<uint32_t> alike_;
-    std::pmr::vector<uint32_t> table_; ///< groups by a sample of their rows; open addressing
+    std::pmr::vector<uint32_t> table_; ///< hash table of groups, by a sample of their rows; open addressing
     SamePools pools_;
 };
 

@@ -13,13 +13,14 @@ namespace fx::render {
 /// A point light, a ball or a spot. The light source itself is not drawn.
 struct SceneLight
 {
-    glm::dvec3 position{0.0};               ///< [m] world
-    glm::vec3 intensity{0.0f};              ///< [cd] in every direction; of a spot, inside of the inner angle
-    float radius = 0.0f;                    ///< [m] of a ball of uniform luminance; 0: a point
-    glm::vec3 direction{0.0f, -1.0f, 0.0f}; ///< unit, direction of a spot's light
+    glm::dvec3 position{0.0};  ///< [m] world
+    glm::vec3 intensity{0.0f}; ///< [cd] intensity in every direction; for a spot, inside of the inner angle
+    float radius = 0.0f;       ///< [m] radius of a ball of uniform luminance; 0: a point light
+    glm::vec3 direction{0.0f, -1.0f, 0.0f}; ///< unit vector, direction in which a spot emits
     /// [rad] half angle up to which a spot has its full intensity
     float innerAngle = std::numbers::pi_v<float>;
-    float outerAngle = std::numbers::pi_v<float>; ///< [rad] >= inner; pi: light in all directions
+    /// [rad] Half angle beyond which a spot is dark, >= innerAngle; pi: light in all directions.
+    float outerAngle = std::numbers::pi_v<float>;
 
     bool isSpot() const { return outerAngle < std::numbers::pi_v<float>; }
     bool isBall() const { return radius > 0.0f; }

@@ -1,5 +1,5 @@
 /// @file snapshot_match.h
-/// Matching groups of two snapshots, and their interpolated placement.
+/// Finds matching groups of two snapshots, and interpolates their placement.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -14,7 +14,7 @@ namespace fx::render {
 constexpr size_t kNoGroup = ~size_t(0);
 
 /// Index of the group of `older` with the given name (instance, solver and kind); kNoGroup if there is none.
-/// @param older may be null @param hint most likely index
+/// @param older may be null @param hint index that is tested first, because the group most likely has it
 size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint);
 
 /// Placement of a group, relative to `eye`, interpolated by `t` towards the newer snapshot.
@@ -22,7 +22,7 @@ size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& na
 base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
                             const glm::dvec3& eye);
 
-/// World velocity of points that are fixed in the local space of a group.
+/// World velocity of each point that is fixed in the local space of a group.
 struct PlaceDrift
 {
     glm::mat3 turn{0.0f};  ///< [1/s]
@@ -31,7 +31,8 @@ struct PlaceDrift
     glm::vec3 at(const glm::vec3& local) const { return turn * local + shift; }
 };
 
-/// Velocity by the motion of the placement. @param older may be null: the placement is constant
+/// World velocity due to the motion of the placement.
+/// @param older null: the placement is constant
 /// @param seconds [s] time between the two snapshots
 PlaceDrift placeDrift(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float seconds);
 

@@ -12,24 +12,24 @@
 
 namespace fx::render {
 
-/// Whether all groups, ids, columns, constants and placements of two snapshots are equal, bit for bit. The
-/// comparison ends at the first difference, so it is cheap for snapshots of moving particles. Pooled rows are
-/// compared in the order of the pool: equal groups with another order of pooled rows count as different.
+/// Tests whether all groups, ids, columns, constants and placements of two snapshots are equal, bit for bit.
+/// The comparison ends at the first difference, so it is cheap for snapshots of moving particles. Pooled rows
+/// are compared in the order of the pool: equal groups with another order of pooled rows count as different.
 bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b);
 
-/// Revisions of the two snapshots of a frame; 0: no snapshot.
+/// Revisions of the two snapshots of a frame; 0 if there is no snapshot.
 struct RevisionPair
 {
     uint64_t newer = 0;
     uint64_t older = 0;
 
     bool operator==(const RevisionPair&) const = default;
-    /// Every moment between the two snapshots is drawn the same.
+    /// True if every moment between the two snapshots looks the same.
     bool isSteady() const { return newer == older; }
 };
 
-/// Assigns a revision to each different content. A snapshot is compared with its predecessor once. While
-/// nothing moves in a scene, all its snapshots have the same revision.
+/// Assigns revisions to snapshots: equal content gets an equal revision. A snapshot is compared with its
+/// predecessor once. While nothing moves in a scene, all its snapshots have the same revision.
 class SnapshotRevisions
 {
 public:
@@ -38,7 +38,8 @@ public:
           rowIds_(memory), known_{Known(memory), Known(memory), Known(memory), Known(memory)}
     {}
 
-    /// From the next snapshot on, rows of groups of `kind` get revisions too. `kind` must stay valid.
+    /// Requests that from the next snapshot on, rows of groups of `kind` also get revisions. `kind` must stay
+    /// valid.
     void stampRowsOf(const base::KindDesc& kind) { rowKinds_.push_back(&kind); }
 
     RevisionPair revisionsOf(const base::SnapshotPair& snapshots);
@@ -61,7 +62,7 @@ private:
     std::pmr::vector<const base::KindDesc*> rowKinds_;
     std::pmr::vector<base::KindId> rowIds_; ///< ids of rowKinds_ in the schema of the last snapshot
     std::array<Known, 4> known_;
-    size_t next_ = 0; ///< index in known_ of the entry to overwrite next
+    size_t next_ = 0; ///< index in known_ of the entry that is overwritten next
     uint64_t last_ = 0;
     uint64_t lastRows_ = 0;
 };

@@ -29,20 +29,21 @@ struct ViewBlock
 };
 static_assert(sizeof(ViewBlock) == 14 * 16);
 
-/// Values computed from a camera.
+/// Geometry of a camera.
 struct CameraGeometry
 {
     glm::dvec3 eye;               ///< [m] world
-    glm::vec3 right, up, forward; ///< unit, world axes
+    glm::vec3 right, up, forward; ///< unit vectors along world axes
     bool orthographic;
-    float nearDistance;   ///< [m] of the near plane along the view axis
-    glm::vec2 clipScale;  ///< change of clip x, y per unit of slope (perspective) or per meter (orthographic)
-    glm::vec2 clipOffset; ///< clip x, y of the view axis
+    float nearDistance; ///< [m] distance of the near plane along the view axis
+    /// Change of the clip coordinates x, y per unit of slope (perspective) or per meter (orthographic).
+    glm::vec2 clipScale;
+    glm::vec2 clipOffset; ///< clip coordinates x, y of the view axis
 };
 
 CameraGeometry cameraGeometry(const CameraView& camera);
 
-/// @param width, height of the target [pixel]
+/// @param width, height [pixel] size of the target
 ViewBlock makeViewBlock(const CameraView& camera, int width, int height);
 
 } // namespace fx::render

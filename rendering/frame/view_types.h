@@ -16,8 +16,8 @@ namespace fx::render {
 /// Mapping of distance to depth-buffer values. The host chooses it.
 enum class DepthConvention : uint8_t
 {
-    Standard, ///< near maps to the smaller value
-    Reversed, ///< near maps to 1, the far plane or infinity to 0
+    Standard, ///< the near plane has the smaller depth value
+    Reversed, ///< the near plane has the depth value 1, and the far plane or infinity has 0
 };
 
 /// Camera of one frame. The matrices are relative to `origin`, so that floats are precise far from the
@@ -25,29 +25,33 @@ enum class DepthConvention : uint8_t
 struct CameraView
 {
     glm::dvec3 origin{0.0};     ///< [m] world position to which the matrices are relative
-    glm::mat4 view{1.0f};       ///< rigid; right-handed, looks along -Z
-    glm::mat4 projection{1.0f}; ///< perspective or orthographic, infinite far plane allowed
+    glm::mat4 view{1.0f};       ///< rigid transform, right-handed; the camera looks along -Z
+    glm::mat4 projection{1.0f}; ///< perspective or orthographic; an infinite far plane is allowed
     DepthConvention depth = DepthConvention::Standard;
-    bool zeroToOne = false; ///< clip space z in [0, w] (glClipControl GL_ZERO_TO_ONE) instead of [-w, w]
+    bool zeroToOne = false; ///< clip space z is in [0, w] (glClipControl GL_ZERO_TO_ONE) instead of [-w, w]
     bool upperLeftOrigin = false; ///< glClipControl GL_UPPER_LEFT
 
     bool operator==(const CameraView&) const = default;
 };
 
-/// How the optical depth of a blob along a ray is computed.
+/// Model by which the optical depth of a blob along a ray is computed.
 enum class BillboardForm : uint8_t
 {
-    Planar,   ///< flat card whose opacity depends on the distance to the center only; classical particles
-    Constant, ///< homogeneous ball with the same total extinction; [USS06]
-    Kernel,   ///< the quartic kernel of the gas; exact integral with clipping
+    /// a flat card whose opacity depends only on the distance from its center, as for classical particles.
+    Planar,
+    Constant, ///< a homogeneous ball with the same total extinction; [USS06]
+    Kernel,   ///< the quartic kernel of the gas, with its exact integral over the visible part of a ray
 };
 
-/// How overlapping media are combined. rendering/compositions has an entry for each value except Automatic.
+/// Way in which overlapping media are combined. rendering/compositions has an entry for each value except
+/// Automatic.
 enum class Composition : uint8_t
 {
-    Sorted,    ///< balls and cards are blended one after another, farthest first
-    Slabs,     ///< all media are summed in slabs of each ray; the result does not depend on their order
-    Volume,    ///< balls of an effect are summed in voxels; rays march through them; independent of order
+    Sorted, ///< balls and cards are blended one after another, the farthest first
+    Slabs,  ///< all media are summed in slabs along each ray; the result does not depend on their order
+    /// Balls of an effect are summed in voxels, through which rays march; the result does not depend on their
+    /// order.
+    Volume,
     Automatic, ///< the composition that the visible effects prefer; the caller of the renderer chooses it
 };
 constexpr size_t kCompositionCount = size_t(Composition::Automatic);
@@ -58,11 +62,11 @@ inline Composition resolved(Composition asked, Composition preferred)
     return asked == Composition::Automatic ? preferred : asked;
 }
 
-/// Bits of ViewSettings::outputs. Each adds a picture of reference data, such as motion or depth.
+/// Bits of ViewSettings::outputs. Each bit requests a picture of reference data, such as motion or depth.
 namespace view_output {
 enum : uint32_t
 {
-    InstanceId = 1,   ///< id of the instance with the largest share of the pixel
+    InstanceId = 1,   ///< id of the instance with the largest share in the pixel
     Motion = 2,       ///< [pixel] motion since the previous frame
     FirstDepth = 4,   ///< [m] distance at which media begin to be visible
     MeanDepth = 8,    ///< [m] mean distance of visible particles
@@ -75,10 +79,11 @@ constexpr uint32_t kAll = (1u << kCount) - 1;
 /// One directional light (the sun), and uniform light of sky and ground.
 struct Lighting
 {
-    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< towards the light, unit
-    /// [lx] on a surface perpendicular to the direction; linear Rec. 709, weighted as a luminance
+    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< unit vector towards the light
+    /// [lx] Illuminance of a surface perpendicular to the direction, in channels of linear Rec. 709; (E, E,
+    /// E) is white light of E lx.
     glm::vec3 sunIlluminance{0.0f};
-    glm::vec3 skyLuminance{0.0f}; ///< [cd/m2] uniform over all directions
+    glm::vec3 skyLuminance{0.0f}; ///< [cd/m2] luminance of the sky, uniform over all directions
     float groundAlbedo = 0.2f;    ///< [1] albedo of the ground, which reflects light from below
 
     bool operator==(const Lighting&) const = default;
@@ -88,11 +93,11 @@ struct Lighting
 struct HostLight
 {
     glm::dvec3 position{0.0};  ///< [m] world
-    glm::vec3 intensity{0.0f}; ///< [cd] in the direction of its maximum
+    glm::vec3 intensity{0.0f}; ///< [cd] intensity in the direction of its maximum
     float radius = 0.05f;      ///< [m] > 0, radius of the glowing ball
-    glm::vec3 axis{0, -1, 0};  ///< unit, direction of a spot
+    glm::vec3 axis{0, -1, 0};  ///< unit vector, direction in which a spot emits
     float cosInner = -1.0f;    ///< [1] cosine of the angle up to which a spot has its full intensity
-    /// [1] cosine of the angle beyond which it is dark; -1: light in all directions
+    /// [1] cosine of the angle beyond which a spot is dark; -1: light in all directions
     float cosOuter = -1.0f;
 
     bool operator==(const HostLight&) const = default;
@@ -111,9 +116,10 @@ struct HostLights
 /// Size of the light slices of a light.
 struct SliceResolution
 {
-    /// Texels along a side of a plane of the sun, 8..512, a multiple of 8. Point lights have half as many.
+    /// Number of texels along a side of a plane of the sun, 8..512, a multiple of 8. Point lights have half
+    /// as many.
     int texels = 128;
-    int planes = 32; ///< 3..128; 1 and 2 become 3; 0: media cast no shadow
+    int planes = 32; ///< number of planes, 3..128; 1 and 2 become 3; 0: media cast no shadow
 
     bool operator==(const SliceResolution&) const = default;
 };
@@ -123,19 +129,22 @@ struct SliceSettings
 {
     bool enabled = true;
     SliceResolution resolution;
-    int castingPoints = 2; ///< 0..4 brightest point lights for which media cast shadows
-    int samples = 2;       ///< 1..4 points along a ray through a ball at which light is sampled
-    bool multiple = true;  ///< with multiple scattering
-    /// Multiple scattering by an illumination network where media are drawn in voxels; false: by a formula.
+    int castingPoints = 2; ///< number of brightest point lights for which media cast shadows, 0..4
+    int samples = 2;       ///< number of points along a ray through a ball at which light is sampled, 1..4
+    bool multiple = true;  ///< true: with multiple scattering
+    /// True: multiple scattering by an illumination network where media are drawn in voxels. False: by a
+    /// formula.
     bool network = false;
-    /// The caller of the renderer sets `multiple` and `network` to what the visible effects prefer.
+    /// True: the caller of the renderer sets `multiple` and `network` to the values that the visible effects
+    /// prefer.
     bool automatic = false;
-    /// 24..64 cells along a side of the network's grids, a multiple of 8; 0: a third of ViewSettings::voxels
+    /// Number of cells along a side of the network's grids, 24..64, a multiple of 8; 0: a third of
+    /// ViewSettings::voxels.
     uint8_t networkCells = 0;
-    int refreshFrames = 1; ///< 1..16 frames between updates of the planes for moving media
+    int refreshFrames = 1; ///< number of frames between updates of the planes for moving media, 1..16
 
-    /// Texels and planes are fixed in the world; false: they move with media and eye, to measure the
-    /// difference.
+    /// True: texels and planes are fixed in the world. False: they move with media and eye, which serves to
+    /// measure the difference.
     bool snapped = true;
 
     bool operator==(const SliceSettings&) const = default;
@@ -144,38 +153,40 @@ struct SliceSettings
 /// Heat shimmer.
 struct ShimmerSettings
 {
-    float strength = 1.0f;   ///< [1] multiplies every offset; with 0 the picture does not change, bit for bit
+    float strength = 1.0f;   ///< [1] factor of every offset; with 0 the picture does not change, bit for bit
     float maxOffset = 12.0f; ///< [pixel] largest offset in a picture of 720 pixels height
 };
 
-/// Glare by overflow redistribution, [UBT96].
+/// Glare by redistribution of overflow, [UBT96].
 struct DazzleSettings
 {
     bool enabled = true;
     float white = 8.0f; ///< [1] exposed value at which the sensor saturates, > 0
     /// Sensor law f(over) = over (a + b exp(-c over)), where `over` is the overflow of a pixel in units of
-    /// `white`. For a clean lens a is about 0.01; with a = 1 the whole overflow is spread.
+    /// `white`. For a clean lens, `a` is about 0.01. With a = 1, the whole overflow is distributed to other
+    /// pixels.
     float a = 0.01f;
     float b = 0.0f;
     float c = 1.0f;         ///< >= 0
-    float riseTime = 0.05f; ///< [s] time constant when glare grows; 0 is immediate
-    float fallTime = 0.4f;  ///< [s] time constant when glare fades
+    float riseTime = 0.05f; ///< [s] time constant for increasing glare; 0: glare increases at once
+    float fallTime = 0.4f;  ///< [s] time constant for decreasing glare
 };
 
 /// Level of detail of distant effects. The simulation does not depend on these settings.
 struct LodSettings
 {
-    /// [1] An effect draws one blob per `bias` pixels of its disc on the picture, and at least twelve. These
-    /// blobs are enlarged to represent the others. 0: all blobs are drawn.
+    /// [1] Number of blobs that an effect draws: one per `bias` pixels of its disc on the picture, and at
+    /// least twelve. These blobs are enlarged to represent the others. 0: all blobs are drawn.
     float bias = 0.0f;
 
-    /// [pixel] Effects with a smaller radius on the picture are drawn as impostors; at most
+    /// [pixel] Largest radius on the picture at which an effect is drawn as an impostor; at most
     /// kMaxImpostorPixels. 0: no impostors.
     float impostorPixels = 0.0f;
-    static constexpr float kMaxImpostorPixels = 13.0f; ///< an impostor has 32 x 32 texels, with a margin
+    /// Limited by the 32 x 32 texels of an impostor, which include a margin.
+    static constexpr float kMaxImpostorPixels = 13.0f;
 
-    /// Levels and impostors do not change when the camera moves. Used to measure the effect of such changes
-    /// on the picture.
+    /// True: levels and impostors do not change when the camera moves. This serves to measure the effect of
+    /// such changes on the picture.
     bool hold = false;
 
     bool operator==(const LodSettings&) const = default;
@@ -192,30 +203,35 @@ struct ViewSettings
     DazzleSettings dazzle;
     BillboardForm form = BillboardForm::Kernel;
     Composition composition = Composition::Sorted;
-    int slabs = 16;        ///< 6 or 16 along each ray, for Composition::Slabs
-    int voxels = 96;       ///< 16..256 along 16 radii of an effect's balls, for Composition::Volume
-    bool saveState = true; ///< restore every GL state that rendering changes; false: the host restores it
-    bool detail = true;    ///< procedural detail of blobs
-    /// [1] (0, 1], share of the particles that are drawn. They are enlarged to keep the total cross section.
+    int slabs = 16; ///< number of slabs along each ray, 6 or 16, for Composition::Slabs
+    /// Number of voxels along 16 radii of an effect's balls, 16..256, for Composition::Volume.
+    int voxels = 96;
+    /// True: rendering restores every GL state that it changes; false: the host restores it.
+    bool saveState = true;
+    bool detail = true; ///< true: draw the procedural detail of blobs
+    /// [1] Share of the particles that are drawn, (0, 1]. They are enlarged to keep the total cross section.
     float particleShare = 1.0f;
-    bool toneMap = false;      ///< write display-referred values
-    bool layerOutputs = false; ///< also write fire, smoke, dust, depth and optical depth to separate textures
-    uint32_t outputs = 0;      ///< view_output bits; with 0, there is no pass, program or memory for outputs
-    /// Count contributing fragments and read statistics back. This adds a pass and waits for the GPU.
+    bool toneMap = false; ///< true: write display-referred values
+    /// True: also write fire, smoke, dust, depth and optical depth to separate textures.
+    bool layerOutputs = false;
+    uint32_t outputs = 0; ///< bits of view_output; with 0, there is no pass, program or memory for outputs
+    /// True: count contributing fragments and read statistics back. This adds a pass and waits for the GPU.
     bool countOverdraw = false;
     LodSettings lod;
-    bool overlay = false; ///< the caller of the renderer fills FrameRequest::overlay
-    /// 1, 2 or 4: media and transparent particles are drawn at no more than 1, 1/2 or 1/4 of the width and
-    /// height. Opaque particles always have the full size.
+    /// True: draw the boxes of FrameRequest::overlay, which the caller of the renderer fills.
+    bool overlay = false;
+    /// Least divisor of layers: 1, 2 or 4. Media and transparent particles are drawn at no more than 1, 1/2
+    /// or 1/4 of the picture's width and height. Opaque particles are always drawn at the full size.
     int layerDivisor = 1;
-    /// Estimated fragments per frame; above it, layers are drawn smaller; 0: no limit.
+    /// Largest estimated number of fragments per frame. If it is exceeded, layers are drawn smaller. 0: no
+    /// limit.
     uint64_t fragmentBudget = 0;
 };
 
-/// The host's shadow map of the sun: depth of the host's opaque surfaces, seen from the sun.
+/// The host's shadow map of the sun: depth of the host's opaque surfaces as visible from the sun.
 struct HostShadowMap
 {
-    uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: no surface shadows media
+    uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: surfaces cast no shadow on media
     DepthConvention depth = DepthConvention::Standard;
     /// Affine map from world position minus CameraView::origin [m] to texture coordinates and stored depth,
     /// each 0..1.
@@ -226,17 +242,18 @@ struct HostShadowMap
 /// GL names of the host's targets for one frame; 0 means absent.
 struct HostTargets
 {
-    /// 2-D texture with the opaque picture [cd/m2 times exposure]; read and written
+    /// 2-D texture with the opaque picture [cd/m2 times exposure]; media are drawn into it
     uint32_t color = 0;
     uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
-    /// Used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0.
+    /// Used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0 of
+    /// this framebuffer.
     uint32_t framebuffer = 0;
     bool useFramebuffer = false; ///< true: draw into `framebuffer` (0 is the window) instead of `color`
     int width = 0;               ///< [pixel]
     int height = 0;              ///< [pixel]
 };
 
-/// Maps ids of instances in snapshots to the ids that the host uses; without a function both are equal.
+/// Maps ids of instances in snapshots to the ids that the host uses; without a function, both are equal.
 struct InstanceNames
 {
     uint64_t (*name)(const void* owner, uint64_t instance) = nullptr;
@@ -249,7 +266,7 @@ struct InstanceNames
 struct OverlayBox
 {
     glm::vec4 centerHalf; ///< [m] xyz center relative to the camera's origin; w half of the side
-    glm::vec4 color;      ///< premultiplied, in the unit of the picture
+    glm::vec4 color;      ///< color, premultiplied, in the unit of the picture
 };
 
 /// Input of one frame.
@@ -258,63 +275,68 @@ struct FrameRequest
     CameraView camera;
     HostTargets targets;
     HostShadowMap sunShadow;
-    /// [s] since this view's last frame; used for adaptation of the glare only
+    /// [s] time since the last frame of this view; used only for the adaptation of the glare
     double deltaTime = 0.0;
-    double interpolation = 1.0;            ///< [0, 1] moment between the older and the newer snapshot
-    double time = 0.0;                     ///< [s] scene time, drives moving noise
-    bool resetHistory = false;             ///< camera cut: adaptation starts from this frame
-    std::span<const OverlayBox> overlay{}; ///< drawn over the finished picture
-    InstanceNames instances;               ///< for ViewSettings::outputs; constant for a scene
+    double interpolation = 1.0; ///< [0, 1] moment between the older and the newer snapshot
+    double time = 0.0;          ///< [s] scene time, which animates noise
+    bool resetHistory = false;  ///< true: the camera has jumped, so that adaptation starts from this frame
+    std::span<const OverlayBox> overlay{}; ///< boxes that are drawn over the finished picture
+    InstanceNames instances;               ///< used for ViewSettings::outputs; constant for a scene
 };
 
 /// Counters of one rendered frame. Counts are exact unless called estimated.
 struct FrameStatistics
 {
-    uint32_t blobs = 0;          ///< drawn after culling
-    uint32_t blobsCulled = 0;    ///< outside the view
-    uint32_t blobsNonFinite = 0; ///< dropped because a value was not finite
-    uint32_t blobsThinned = 0;   ///< not drawn due to the level of detail
+    uint32_t blobs = 0;          ///< blobs that were drawn
+    uint32_t blobsCulled = 0;    ///< blobs that were omitted because they are outside of the view
+    uint32_t blobsNonFinite = 0; ///< blobs that were omitted because a value was not finite
+    uint32_t blobsThinned = 0;   ///< blobs that were omitted by the level of detail
     uint32_t impostors = 0;      ///< effects drawn as impostors
-    uint32_t impostorsTaken = 0; ///< impostor textures rendered in this frame
-    /// Groups of blobs by drawn share: all; at least 1/2; at least 1/8; less.
+    uint32_t impostorsTaken = 0; ///< number of impostors rendered in this frame
+    /// Number of groups of blobs by the share that is drawn: all; at least 1/2; at least 1/8; less.
     uint32_t lodGroups[4] = {0, 0, 0, 0};
-    uint64_t particles = 0;        ///< sprites, meshes and pieces of ribbons that were drawn
-    uint64_t sprites = 0;          ///< part of `particles`
-    uint64_t meshes = 0;           ///< part of `particles`
-    uint64_t ribbonPieces = 0;     ///< part of `particles`
-    uint64_t gpuParticles = 0;     ///< rows of drawn particles that the GPU computed
-    uint64_t particlesThinned = 0; ///< not drawn due to the level of detail
+    uint64_t particles = 0;        ///< drawn sprites, meshes and pieces of ribbons
+    uint64_t sprites = 0;          ///< number of sprites in `particles`
+    uint64_t meshes = 0;           ///< number of meshes in `particles`
+    uint64_t ribbonPieces = 0;     ///< number of pieces of ribbons in `particles`
+    uint64_t gpuParticles = 0;     ///< drawn particles whose rows the GPU computed
+    uint64_t particlesThinned = 0; ///< particles that were omitted by the level of detail
     uint64_t particlesOrdered = 0; ///< drawn particles that were sorted by depth or age
-    uint64_t uploadedBytes = 0;    ///< [byte] data of blobs and particles uploaded for this frame
-    uint64_t keptRowBytes = 0;     ///< [byte] rows that were uploaded for earlier steps and are reused
-    /// [byte] rows that equal those of another group and are uploaded once
+    /// [byte] Size of the data of blobs and particles that were uploaded for this frame.
+    uint64_t uploadedBytes = 0;
+    /// [byte] Size of the rows that were uploaded for earlier steps and are reused.
+    uint64_t keptRowBytes = 0;
+    /// [byte] size of the rows that were not uploaded because they equal those of another group
     uint64_t sharedRowBytes = 0;
-    uint64_t sortedElements = 0; ///< elements sorted by distance or age for this frame
-    /// Gathered, sorted and uploaded data of the last frame were reused.
+    uint64_t sortedElements = 0; ///< number of elements that were sorted by distance or age for this frame
+    /// True: the gathered, sorted and uploaded data of the last frame were reused.
     bool keptLists = false;
-    uint32_t passes = 0; ///< executed passes
+    uint32_t passes = 0; ///< number of executed passes
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
-    uint32_t programsCompiled = 0; ///< programs compiled during this frame; 0 after warm-up
-    uint64_t textureBytes = 0;     ///< [byte] textures that the view has allocated
-    /// [byte] transient resources of the frame, if they did not share memory
+    /// Number of programs that were compiled during this frame; 0 after warm-up.
+    uint32_t programsCompiled = 0;
+    uint64_t textureBytes = 0; ///< [byte] size of the textures that the view has allocated
+    /// [byte] size that the frame's transient resources would have without sharing memory
     uint64_t unsharedBytes = 0;
-    uint64_t sharedBytes = 0;     ///< [byte] transient resources of the frame, with shared memory
-    uint64_t coveredPixels = 0;   ///< texels of layers that media cover; with countOverdraw
-    uint64_t shadedFragments = 0; ///< fragments that contribute, at the size of layers; with countOverdraw
-    /// Fragments of the rectangles of blobs and particles, at the size of layers.
+    uint64_t sharedBytes = 0;   ///< [byte] size of the frame's transient resources, which share memory
+    uint64_t coveredPixels = 0; ///< texels of layers that media cover; counted only with countOverdraw
+    /// Contributing fragments at the size of layers; counted only with countOverdraw.
+    uint64_t shadedFragments = 0;
+    /// Estimated fragments of the bounding rectangles of blobs and particles, at the size of layers.
     uint64_t estimatedFragments = 0;
-    /// of this frame: as in the settings, or larger to keep within fragmentBudget
+    /// divisor of layers in this frame: as in the settings, or larger to keep within fragmentBudget
     int layerDivisor = 1;
-    /// Entries in the lists of all tiles; this and the next two with countOverdraw only.
+    /// Entries in the lists of all tiles. This counter and the next two are set only with countOverdraw.
     uint64_t listedBalls = 0;
-    /// Entries dropped from full lists; the listed balls are weighted to represent them.
+    /// Entries that were dropped because lists were full. The listed balls are weighted to represent them.
     uint64_t spilledBalls = 0;
     /// Fragments of sprites, ribbons and impostors that were dropped because lists were full.
     uint64_t spilledCards = 0;
     Composition composition = Composition::Sorted;
-    uint32_t compositionSize = 0; ///< number of slabs or voxels; 0 for Composition::Sorted
-    /// Mean overflow per pixel in units of DazzleSettings::white; with countOverdraw and dazzle.
+    /// Number of slabs or voxels in the settings of the composition; 0 for Composition::Sorted.
+    uint32_t compositionSize = 0;
+    /// Mean overflow per pixel in units of DazzleSettings::white; set only with countOverdraw and dazzle.
     double overflow[3] = {0, 0, 0};
 };
 

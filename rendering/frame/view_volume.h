@@ -15,8 +15,8 @@ class ViewVolume
 public:
     explicit ViewVolume(const CameraGeometry& camera) : camera_(camera) {}
 
-    /// False if the sphere is certainly outside of the view volume.
-    /// @param center [m] relative to the eye, world axes
+    /// True if the sphere may be visible; false if it is certainly outside of the view volume.
+    /// @param center [m] position relative to the eye, along world axes
     bool touches(const glm::vec3& center, float radius) const
     {
         const glm::vec3 c(glm::dot(center, camera_.right), glm::dot(center, camera_.up),

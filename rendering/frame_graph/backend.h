@@ -46,7 +46,7 @@ constexpr size_t formatBytes(Format format)
     return 0;
 }
 
-/// One version of a texture or buffer of the frame graph. FrameGraph returns these ids.
+/// Id of a version of a texture or buffer in the frame graph.
 struct ResourceId
 {
     uint32_t index = ~0u;
@@ -68,9 +68,10 @@ struct ProgramDesc
 
 enum class Blend : uint8_t
 {
-    None,          ///< the source replaces the destination
-    Premultiplied, ///< source + (1 - source alpha) * destination, for color and alpha of every target
-    Additive,      ///< source + destination
+    None, ///< the source replaces the destination
+    /// Result = source + (1 - source alpha) * destination, for color and alpha of every target.
+    Premultiplied,
+    Additive, ///< source + destination
 };
 
 enum class Sampling : uint8_t
@@ -78,7 +79,7 @@ enum class Sampling : uint8_t
     Nearest, ///< clamped to the edge
     Linear,  ///< clamped to the edge
     LinearRepeat,
-    Trilinear, ///< also between mip levels; clamped to the edge
+    Trilinear, ///< linear filter, also between mip levels; coordinates are clamped to the edge
     TrilinearRepeat,
 };
 
@@ -92,15 +93,15 @@ struct TextureBinding
 struct ImageBinding
 {
     uint32_t unit;
-    ResourceId texture; ///< written by a compute program
+    ResourceId texture; ///< texture that a compute program writes
 };
 
 struct BufferBinding
 {
     uint32_t binding;
     ResourceId buffer;
-    uint64_t offset = 0;    ///< [byte] a multiple of GlLimits::storageAlignment
-    uint64_t bytes = 0;     ///< [byte] 0: up to the end of the buffer
+    uint64_t offset = 0;    ///< [byte] begin of the range, a multiple of GlLimits::storageAlignment
+    uint64_t bytes = 0;     ///< [byte] size of the range; 0: up to the end of the buffer
     bool isUniform = false; ///< true: a std140 block at uniform binding 1; false: a storage buffer
 };
 
@@ -113,14 +114,14 @@ struct DrawCall
     std::span<const ResourceId> targets = {};
     std::span<const TextureBinding> textures = {};
     std::span<const BufferBinding> buffers = {};
-    std::span<const std::byte> uniforms = {}; ///< std140 block at uniform binding 0
+    std::span<const std::byte> uniforms = {}; ///< data of the std140 block at uniform binding 0
     Blend blend = Blend::None;
     uint32_t vertices = 3;
     uint32_t instances = 1;
-    ResourceId depthTarget = {}; ///< depth texture; tested and written when valid
-    bool reversedDepth = false;  ///< depth test GREATER instead of LESS
-    /// Indirect draw arguments: a buffer that begins with vertices, instances, 0, 0 as 32-bit words. If
-    /// valid, it replaces `vertices` and `instances`. A dispatch writes it.
+    ResourceId depthTarget = {}; ///< depth texture; if it is valid, depth is tested and written
+    bool reversedDepth = false;  ///< true: the depth test is GREATER; false: LESS
+    /// Buffer with indirect draw arguments, which a dispatch has written. It begins with vertices, instances,
+    /// 0, 0 as 32-bit words. If valid, it replaces the members `vertices` and `instances`.
     ResourceId indirect = {};
 };
 
@@ -134,7 +135,7 @@ struct DispatchCall
     uint32_t groups[3] = {1, 1, 1};
 };
 
-/// Executes the operations of a pass. Data of spans is copied before a call returns.
+/// Executes the operations of a pass. The data of spans are copied before a call returns.
 class Backend
 {
 public:
@@ -149,13 +150,14 @@ public:
     /// program.
     virtual void dispatch(const DispatchCall& call) = 0;
     virtual void upload(ResourceId buffer, std::span<const std::byte> bytes) = 0;
-    virtual void copyTexture(ResourceId source, ResourceId destination) = 0; ///< same size and format
+    /// Both textures must have the same size and format.
+    virtual void copyTexture(ResourceId source, ResourceId destination) = 0;
 
     virtual int width(ResourceId texture) const = 0;
     virtual int height(ResourceId texture) const = 0;
 };
 
-/// Bytes of a trivially copyable struct with std140 layout, for uniforms.
+/// The bytes of a trivially copyable struct with std140 layout, for uniforms.
 template <class T>
 std::span<const std::byte> asUniforms(const T& block)
 {

@@ -3,9 +3,9 @@
 /// resources of disjoint lifetimes share memory.
 ///
 /// Use: begin(), import external resources, addPass() in order of execution, keep() the results, compile(),
-/// execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). Misuse (a stale version, reading an unwritten
-/// resource, an empty size) is stored in status(); then nothing executes. A frame allocates nothing if an
-/// earlier frame was at least as large. Threads: one thread at a time.
+/// execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). After misuse (use of an old version, reading
+/// an unwritten resource, an empty size), status() has the error and nothing is executed. A frame allocates
+/// nothing if an earlier frame was at least as large. Threads: one thread at a time.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -117,22 +117,22 @@ public:
         uint32_t importedName = 0;
         uint32_t physical = ~0u; ///< index of the physical texture or buffer; ~0 if imported or never used
     };
-    /// The resource of a version.
+    /// The resource to which a version belongs.
     const Resource& resource(ResourceId id) const { return resources_[versions_[id.index].resource]; }
-    /// Whether the resource belongs to this frame.
+    /// True if the id belongs to a resource of this frame.
     bool contains(ResourceId id) const { return id.index < versions_.size(); }
     std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
     /// Planned memory of the frame's transient resources, without imported ones.
     struct Memory
     {
-        uint64_t unshared; ///< [byte] without sharing
-        uint64_t shared;   ///< [byte] with sharing between resources of disjoint lifetimes
+        uint64_t unshared; ///< [byte] size of the resources if they did not share memory
+        uint64_t shared;   ///< [byte] size with memory shared between resources of disjoint lifetimes
     };
     Memory memory() const;
     std::span<const std::string_view> executedPasses() const { return executed_; }
     uint32_t culledPasses() const { return static_cast<uint32_t>(passes_.size() - executed_.size()); }
-    /// Whether the executed pass with this index declared to read (write) any version of the resource.
+    /// True if the executed pass with this index declared to read (write) any version of the resource.
     bool passReads(size_t executedIndex, ResourceId id) const
     {
         return passAccesses(executedIndex, id, false);
@@ -141,7 +141,7 @@ public:
     {
         return passAccesses(executedIndex, id, true);
     }
-    std::string toGraphviz() const; ///< the graph in DOT language for display, with culled passes dashed
+    std::string toGraphviz() const; ///< the graph in the DOT language; culled passes are dashed
 
     static constexpr size_t kExecuteBytes = 512;
 
@@ -152,10 +152,10 @@ private:
     struct Version
     {
         uint32_t resource;
-        uint32_t number;   ///< 0 before the first write of this frame
-        uint32_t writer;   ///< pass, kNone for number 0
-        uint32_t previous; ///< version that the write replaced
-        bool needed;       ///< read by an executed pass, or kept
+        uint32_t number;   ///< number of the version; 0 before the first write of this frame
+        uint32_t writer;   ///< index of the pass that wrote the version; kNone for number 0
+        uint32_t previous; ///< the version that was replaced by this write
+        bool needed;       ///< an executed pass reads the version, or it was passed to keep()
     };
     struct Access
     {
@@ -166,16 +166,16 @@ private:
     {
         std::string_view name;
         uint32_t firstAccess;
-        uint32_t lastAccess; ///< one past the last
+        uint32_t lastAccess; ///< index of the last access + 1
         bool sideEffect;
         bool alive;
         void (*run)(void* state, Backend& backend);
         alignas(std::max_align_t) std::byte state[kExecuteBytes];
     };
-    /// When a resource is used, as indices of executed passes.
+    /// The use of a resource: indices of executed passes.
     struct Lifetime
     {
-        uint32_t latest; ///< latest version
+        uint32_t latest; ///< latest version of the resource
         uint32_t creator;
         uint32_t first;
         uint32_t last;
@@ -203,12 +203,13 @@ private:
     std::pmr::vector<Version> versions_;
     std::pmr::vector<Pass> passes_;
     std::pmr::vector<Access> accesses_;
-    std::pmr::vector<uint32_t> executedIndex_; ///< by executed pass: index in passes_
+    std::pmr::vector<uint32_t> executedIndex_; ///< by executed pass: its index in passes_
     std::pmr::vector<std::string_view> executed_;
     std::pmr::vector<PhysicalTexture> physicalTextures_;
     std::pmr::vector<size_t> physicalBuffers_;
-    std::pmr::vector<uint32_t> order_;     ///< scratch: transient resources, sorted by first use
-    std::pmr::vector<uint32_t> busyUntil_; ///< scratch: last use per physical resource
+    std::pmr::vector<uint32_t> order_; ///< scratch: transient resources, sorted by first use
+    /// Scratch: index of the pass that last uses each physical resource.
+    std::pmr::vector<uint32_t> busyUntil_;
 };
 
 } // namespace fx::render

@@ -33,11 +33,11 @@ public:
         Kind kind = Kind::Draw;
         std::string_view pass;
         const ProgramDesc* program = nullptr;
-        std::vector<ResourceId> targets; ///< targets of the draw, clear, upload or copy
+        std::vector<ResourceId> targets; ///< resources to which the draw, clear, upload or copy writes
         std::vector<TextureBinding> textures;
         std::vector<ImageBinding> images;
         std::vector<BufferBinding> buffers;
-        std::vector<std::byte> bytes; ///< uniforms, or the upload
+        std::vector<std::byte> bytes; ///< data of the uniforms or of the upload
         Blend blend = Blend::None;
         uint32_t vertices = 0;
         uint32_t instances = 0;

@@ -19,7 +19,7 @@ namespace fx::render {
 struct GlAtlas
 {
     uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY
-    int width = 1;        ///< [texel] of one frame
+    int width = 1;        ///< [texel] width of one frame
     int height = 1;
     int frames = 1;
 };
@@ -45,10 +45,11 @@ public:
     GlAssetCache& operator=(const GlAssetCache&) = delete;
 
     /// The texture array of image `id`, which has `columns` x `rows` frames, row by row from the upper left.
-    /// One white texel if no image has this id.
+    /// If no image has this id, the result is one white texel.
     /// @return OutOfMemory, InvalidArgument (more frames than the context's arrays have layers)
     base::Result<GlAtlas> atlas(const base::AssetTable* table, base::AssetId id, int columns, int rows);
-    /// The buffer of mesh `id`. @return OutOfMemory, NotFound if no mesh has this id
+    /// The buffer of mesh `id`.
+    /// @return OutOfMemory, NotFound if no mesh has this id
     base::Result<GlMesh> mesh(const base::AssetTable* table, base::AssetId id);
 
     void release();                           ///< deletes all objects; they are created again on use

@@ -30,21 +30,23 @@
 
 namespace fx::render {
 
-/// How a frame writes to targets of an sRGB format.
+/// Encoding of colors that a frame writes to targets of an sRGB format.
 enum class SrgbTargets : uint8_t
 {
-    Light, ///< writes linear light; OpenGL blends it linearly and encodes it
-    Codes, ///< writes encoded values, which are stored without conversion
+    Light, ///< passes write linear light; OpenGL blends it linearly and encodes it
+    Codes, ///< passes write encoded values, which are stored without conversion
 };
 
 class GlBackend final : public Backend
 {
 public:
     static constexpr uint32_t kTextureUnits = GlDrawState::kUnits;
-    static constexpr uint32_t kImageUnits = 7;      ///< units 0..6
-    static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
-    static constexpr uint32_t kUniformBindings = 2; ///< binding 0 (uniforms of the call) and binding 1
-    static constexpr uint32_t kColorTargets = 8;    ///< minimum that OpenGL 4.5 guarantees
+    static constexpr uint32_t kImageUnits = 7;      ///< number of texture units, 0..6
+    static constexpr uint32_t kStorageBindings = 8; ///< number of storage bindings, 0..7
+    /// Number of uniform bindings: 0 for the uniforms of the call, and 1.
+    static constexpr uint32_t kUniformBindings = 2;
+    /// Number of color targets, the minimum that OpenGL 4.5 guarantees.
+    static constexpr uint32_t kColorTargets = 8;
 
     GlBackend(GlDevice& device, std::pmr::memory_resource* memory);
 
@@ -52,10 +54,10 @@ public:
     /// `graph` must be compiled and stay valid until endFrame(). A pending GL error of the host is discarded.
     /// @return the graph's own status, GlFailed (context lost), OutOfMemory, InvalidArgument (size)
     base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light);
-    /// @return status()
+    /// Ends the frame. @return status()
     base::Status endFrame();
 
-    /// First failure since beginFrame(). After a failure, drawing calls do nothing.
+    /// The first failure since beginFrame(), or Ok. After a failure, drawing calls do nothing.
     const base::Status& status() const { return status_; }
 
     /// GL name of a resource of the current graph; 0 for a framebuffer or a culled resource. Textures marked
@@ -63,14 +65,14 @@ public:
     uint32_t textureName(ResourceId texture) const;
     uint32_t bufferName(ResourceId buffer) const;
 
-    /// Whether `texture` is the GL name of a transient texture of this backend.
+    /// True if `texture` is the GL name of a transient texture of this backend.
     bool owns(uint32_t texture) const { return pool_.owns(texture); }
 
-    uint32_t drawCalls() const { return drawCalls_; } ///< draws and dispatches of the last frame
+    uint32_t drawCalls() const { return drawCalls_; } ///< number of draws and dispatches of the last frame
     /// [byte] Size of all pooled textures and buffers.
     uint64_t pooledBytes() const { return pool_.bytes() + uniforms_.bytes(); }
-    /// Sets the timer to which the begin of each pass is reported; may be null. It must stay valid while it
-    /// is set.
+    /// Sets the timer, whose functions are called when a pass begins; null: no timer. It must stay valid
+    /// while it is set.
     void setTimer(GlPassTimer* timer) { timer_ = timer; }
     void releasePool(); ///< deletes all pooled objects; the next frame creates them again
 
@@ -106,7 +108,7 @@ private:
     GlPassTimer* timer_ = nullptr;
     size_t pass_ = 0; ///< index of the running pass among the executed ones
     uint32_t drawCalls_ = 0;
-    bool hasDrawn_ = true; ///< whether draws were issued since the last barrier, in this frame or before
+    bool hasDrawn_ = true; ///< true: draws were issued since the last barrier, in this frame or before
 };
 
 } // namespace fx::render

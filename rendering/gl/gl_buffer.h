@@ -15,6 +15,7 @@ class GlDevice;
 class GlBuffer
 {
 public:
+    /// Creates a buffer.
     /// @return InvalidArgument for 0 bytes, OutOfMemory
     static base::Result<GlBuffer> create(GlDevice& device, size_t bytes, const char* label);
 
@@ -32,8 +33,9 @@ private:
     size_t bytes_ = 0;
 };
 
-/// Ensures that `ioBuffer` has at least `bytes`; a new buffer is as large as the next power of two. The
-/// content is undefined afterwards. Does nothing for 0 bytes. @return OutOfMemory
+/// Replaces `ioBuffer` by a larger buffer if it has less than `bytes`. The size of a new buffer is the next
+/// power of two. Afterwards, the content is undefined. Does nothing for 0 bytes.
+/// @return OutOfMemory
 base::Status makeRoom(GlDevice& device, GlBuffer& ioBuffer, size_t bytes, const char* label);
 
 } // namespace fx::render

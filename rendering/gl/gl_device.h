@@ -25,13 +25,13 @@ namespace fx::render {
 /// Limits of the context. They are queried once, when the device is created.
 struct GlLimits
 {
-    int version = 0;           ///< 10 major + minor
+    int version = 0;           ///< version of OpenGL: 10 major + minor
     int textureSize = 0;       ///< [pixel] largest width and height
     int volumeSize = 0;        ///< [pixel] largest side of a texture of three dimensions
     int uniformAlignment = 0;  ///< [byte] alignment of offsets into uniform buffers
     int uniformBlockBytes = 0; ///< [byte] largest uniform block
     int storageAlignment = 0;  ///< [byte] alignment of offsets into storage buffers
-    bool debugContext = false; ///< passes are named by debug groups
+    bool debugContext = false; ///< true: passes are named by debug groups
     std::string renderer;      ///< GL_RENDERER
     std::string versionText;
 };
@@ -39,11 +39,12 @@ struct GlLimits
 class GlDevice
 {
 public:
-    /// Replaces embedded GLSL. Returns the complete text of source `name` with `defines`, or nothing to use
-    /// the embedded text.
+    /// A function that replaces embedded GLSL. It returns the complete text of the source `name` with
+    /// `defines`, or nothing to use the embedded text.
     using SourceOverride =
         std::function<std::optional<std::string>(std::string_view name, std::string_view defines)>;
 
+    /// Creates a device for the current context.
     /// @return GlUnsupported with the missing functions or version in the message, InvalidArgument without a
     ///         loader
     static base::Result<std::unique_ptr<GlDevice>> create(const GlLoader& loader,
@@ -56,7 +57,7 @@ public:
 
     const GlLimits& limits() const { return limits_; }
     std::pmr::memory_resource* memory() const { return memory_; }
-    uint64_t callCount() const { return gl.monitor.calls; } ///< GL calls since creation
+    uint64_t callCount() const { return gl.monitor.calls; } ///< number of GL calls since creation
 
     /// Compiles the program `desc` in advance, unless it is compiled already. `desc` must have static
     /// storage, because programs are identified by the address of their description.
@@ -71,12 +72,13 @@ public:
     /// if compilation fails; `outStatus` then has the reason.
     uint32_t program(const ProgramDesc& desc, base::Status& outStatus);
 
-    uint32_t programsCompiled() const { return programsCompiled_; } ///< since creation, with lateCompiles()
-    /// Programs compiled by a draw instead of by compile().
+    /// Number of programs compiled since creation, including lateCompiles().
+    uint32_t programsCompiled() const { return programsCompiled_; }
+    /// Number of programs that were compiled by program() and not in advance by compile().
     uint32_t lateCompiles() const { return lateCompiles_; }
 
     void setSourceOverride(SourceOverride sourceOverride) { sourceOverride_ = std::move(sourceOverride); }
-    /// The next use of a program compiles it again; for live editing.
+    /// Discards all programs, so that the next use of a program compiles it again. Used for live editing.
     void forgetPrograms() { programs_.clear(); }
 
     uint64_t textureBytes() const { return textureBytes_; } ///< [byte] size of all existing GlTextures

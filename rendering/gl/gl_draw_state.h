@@ -1,8 +1,8 @@
 /// @file gl_draw_state.h
-/// Sets all GL state for drawing: all states once per frame, then only differences between draws.
+/// Sets the GL state for drawing: all states once per frame, then only those that differ between draws.
 ///
-/// The state is cached from reset() on, so no other code may set state until the frame ends. The states that
-/// it changes are listed in gl_touched_state.cpp.
+/// From reset() on, the state is cached, so that no other code may set GL state until the frame ends.
+/// gl_touched_state.cpp lists the states that this class changes.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"
@@ -16,20 +16,22 @@ namespace fx::render {
 class GlDrawState
 {
 public:
-    static constexpr uint32_t kUnits = 13; ///< texture units 0 to 12
+    static constexpr uint32_t kUnits = 13; ///< number of texture units, 0 to 12
 
     explicit GlDrawState(GlDevice& device);
 
     /// Sets every state that affects draws, independent of the host's state.
-    /// @param encodeSrgb linear values are written to targets of an sRGB format
+    /// @param encodeSrgb true: OpenGL encodes linear values that are written to targets of an sRGB format
     void reset(bool encodeSrgb);
 
     void useProgram(uint32_t program);
     /// Sets the viewport to the whole framebuffer.
     void bindFramebuffer(uint32_t framebuffer, int width, int height);
-    void drawToFirst(bool only); ///< `only`: color writes are disabled for draw buffers other than the first
+    /// If `only` is true, color writes are disabled for draw buffers other than the first.
+    void drawToFirst(bool only);
     void setBlend(Blend blend);
-    void setDepth(bool tested, bool reversed); ///< `tested` enables both depth test and depth writes
+    /// If `tested` is true, both depth test and depth writes are enabled.
+    void setDepth(bool tested, bool reversed);
     void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);
 
 private:
@@ -43,7 +45,7 @@ private:
     };
 
     GlDevice& device_;
-    GlVertexArray vertexArray_; ///< without attributes: shaders fetch their data
+    GlVertexArray vertexArray_; ///< vertex array without attributes, because shaders fetch their data
     std::array<GlSampler, 5> samplers_;
     uint32_t program_ = kUnknown;
     uint32_t framebuffer_ = kUnknown;

@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-/// GL names of the attached textures. 0 means no attachment, also between color attachments.
+/// GL names of the attached textures. 0 means no attachment, and may occur between other color attachments.
 struct GlAttachments
 {
     std::array<uint32_t, 8> colors{};
@@ -33,8 +33,8 @@ public:
     void beginFrame();
 
     /// Finds or creates the framebuffer with these attachments.
-    /// @param foreign an attachment belongs to the host, which may have deleted the texture and reused its
-    ///         name; the framebuffer is then attached and checked again once per frame
+    /// @param foreign true: an attachment belongs to the host, which may have deleted the texture and reused
+    ///         its name; therefore attachments are set and checked again once per frame
     /// @return GlFailed with the reason why the framebuffer is incomplete
     base::Result<uint32_t> find(const GlAttachments& attachments, bool foreign);
 

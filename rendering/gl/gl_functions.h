@@ -15,8 +15,8 @@
 
 namespace fx::render {
 
-/// The host's loader. Returns a function of the current context by its name ("glDrawArrays"); null if it does
-/// not exist.
+/// The host's loader. It returns a function of the current context by its name ("glDrawArrays"), or null if
+/// it does not exist.
 struct GlLoader
 {
     void* user = nullptr;
@@ -27,8 +27,8 @@ struct GlLoader
 struct GlCallMonitor
 {
     uint64_t calls = 0;
-    /// Called with the name of each called function, with "gl". If it returns false, the call is suppressed
-    /// and returns zero. Only tests set a hook.
+    /// Called before each GL function, with its name including "gl". If it returns false, the call is
+    /// suppressed and returns zero. Only tests set a hook.
     std::function<bool(const char* name)> hook;
 };
 
@@ -48,7 +48,8 @@ public:
         return pointer_(arguments...);
     }
 
-    /// @return false if the loader does not find the function
+    /// Loads the function.
+    /// @return false if the loader does not find it
     bool load(const GlLoader& loader, const char* name, GlCallMonitor& monitor)
     {
         name_ = name;

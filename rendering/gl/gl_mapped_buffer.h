@@ -20,6 +20,7 @@ class GlDevice;
 class GlMappedBuffer
 {
 public:
+    /// Creates and maps a buffer.
     /// @return InvalidArgument for 0 bytes, OutOfMemory
     static base::Result<GlMappedBuffer> create(GlDevice& device, size_t bytes, const char* label);
 
@@ -33,7 +34,8 @@ public:
     /// The mapped memory. Writes are visible to all later draws. Call wait() before writing.
     std::byte* data() const { return data_; }
 
-    void fence(); ///< call this after the draws that read the buffer; requires create()
+    /// Inserts a fence. Must be called after the draws that read the buffer. Requires create().
+    void fence();
     /// Waits until all draws before the last fence() have finished reading.
     /// @return GlFailed after ten seconds
     base::Status wait();

@@ -18,11 +18,13 @@ public:
     GlMessages(const GlMessages&) = delete;
     GlMessages& operator=(const GlMessages&) = delete;
 
-    uint32_t errors() const { return errors_; }             ///< messages of type error
-    uint32_t highSeverity() const { return highSeverity_; } ///< messages of high severity, errors included
-    /// Messages of type error or of high severity; 0 for a correct program.
+    uint32_t errors() const { return errors_; } ///< number of messages of the type error
+    /// Number of messages of high severity, including errors.
+    uint32_t highSeverity() const { return highSeverity_; }
+    /// Number of messages that are errors or have high severity; 0 for a correct program.
     uint32_t serious() const { return serious_; }
-    const std::string& first() const { return first_; } ///< text of the first serious message
+    /// Text of the first error or message of high severity.
+    const std::string& first() const { return first_; }
 
 private:
     static void APIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,

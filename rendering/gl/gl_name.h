@@ -9,8 +9,8 @@
 
 namespace fx::render {
 
-/// Deletes the GL object in its destructor, which requires the current context. `Delete` is the glDelete...
-/// function of the table.
+/// Owner of a GL object. Its destructor deletes the object and requires the current context. `Delete` is the
+/// glDelete... function of the table.
 template <auto Delete>
 class GlName
 {

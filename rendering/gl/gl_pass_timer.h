@@ -19,31 +19,31 @@ namespace fx::render {
 enum class TimingClock : uint8_t
 {
     Off,
-    Gpu,  ///< GL timestamps, without waiting
-    Host, ///< a clock of the host, with glFinish() wherever the group changes
+    Gpu,  ///< uses timestamps of the GPU, without waiting
+    Host, ///< uses a clock of the host, with glFinish() wherever the group changes
 };
 
 /// Times of one finished frame.
 struct GroupTimes
 {
-    uint64_t tag = 0;                                  ///< argument of beginFrame()
-    std::array<double, kMaxPassGroups> milliseconds{}; ///< by index of PassGroups
+    uint64_t tag = 0;                                  ///< argument that was passed to beginFrame()
+    std::array<double, kMaxPassGroups> milliseconds{}; ///< times of the groups, by their number in PassGroups
     double total() const                               ///< [ms]
     {
         return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
     }
 };
 
-/// A clock of the host, which returns the time since any origin [ms].
+/// A function that returns the time of a host's clock [ms], relative to any origin.
 using HostClock = double (*)();
 double steadyMilliseconds();
 
 class GlPassTimer
 {
 public:
-    static constexpr size_t kFrames = 6; ///< frames whose results may be pending
-    /// Maximum number of timestamps of one frame. Passes after further changes of the group are counted in
-    /// the last group.
+    static constexpr size_t kFrames = 6; ///< largest number of frames whose results are pending
+    /// Largest number of timestamps of one frame. If the group changes more often, the remaining passes are
+    /// counted in the last group.
     static constexpr size_t kStamps = 12;
 
     GlPassTimer(GlDevice& device, PassGroups groups) : device_(device), groups_(std::move(groups)) {}
@@ -53,14 +53,14 @@ public:
 
     const PassGroups& groups() const { return groups_; }
 
-    /// Whether GL can measure time: if its counter has 0 bits, all times would be 0.
+    /// True if GL can measure time. If its counter has 0 bits, all times would be 0.
     bool hasGpuClock();
 
-    /// @param tag returned with the result
+    /// Begins a frame. @param tag number that is returned with the times
     void beginFrame(TimingClock clock, uint64_t tag);
-    void beginPasses(); ///< the commands of the frame begin
+    void beginPasses(); ///< Must be called before the first pass of the frame.
     void beginPass(std::string_view name);
-    void endFrame(bool succeeded); ///< a frame that failed gives no result
+    void endFrame(bool succeeded); ///< Ends the frame. A frame that failed gives no result.
 
     /// Returns the times of the oldest finished frame, and removes them. Does not wait. @return false if no
     /// result is available
@@ -72,7 +72,7 @@ private:
     struct Frame
     {
         std::array<uint32_t, kStamps> queries{};
-        std::array<size_t, kStamps> groups{}; ///< group of the passes after stamp i
+        std::array<size_t, kStamps> groups{}; ///< by index of a timestamp: group of the passes that follow it
         std::array<double, kStamps> host{};   ///< [ms]
         size_t stamps = 0;
         uint64_t tag = 0;
@@ -88,7 +88,7 @@ private:
     size_t waiting_ = 0; ///< number of pending frames
     Frame* open_ = nullptr;
     size_t group_ = 0;
-    int counterBits_ = -1; ///< -1: not queried yet
+    int counterBits_ = -1; ///< number of bits of GL's time counter; -1: not queried yet
 };
 
 } // namespace fx::render

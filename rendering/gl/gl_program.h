@@ -19,13 +19,14 @@ class GlDevice;
 struct GlStageSource
 {
     GLenum stage;     ///< GL_VERTEX_SHADER, GL_FRAGMENT_SHADER, GL_COMPUTE_SHADER
-    const char* name; ///< for messages
-    std::string text; ///< complete GLSL
+    const char* name; ///< name for messages
+    std::string text; ///< complete text in GLSL
 };
 
 class GlProgram
 {
 public:
+    /// Compiles the stages and links the program.
     /// @return GlFailed with the program's name, the stage and the driver's log
     static base::Result<GlProgram> link(GlDevice& device, const char* name,
                                         std::span<const GlStageSource> stages);

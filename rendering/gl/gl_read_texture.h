@@ -9,14 +9,14 @@ namespace fx::render {
 
 class GlDevice;
 
-/// The first `channels` (1 to 4) channels of each texel as floats, row by row upwards from texture coordinate
-/// 0. Normalized formats give [0, 1]. GL's pixel-pack state is restored.
+/// Reads the first `channels` (1 to 4) channels of each texel as floats, row by row upwards from texture
+/// coordinate 0. Normalized formats give [0, 1]. GL's pixel-pack state is restored.
 std::vector<float> readTexture(GlDevice& device, uint32_t texture, int width, int height, int channels);
 
-/// Depth values in [0, 1] of a depth texture, in the same order.
+/// Reads the depth values, in [0, 1], of a depth texture. The order of texels is that of readTexture().
 std::vector<float> readDepthTexture(GlDevice& device, uint32_t texture, int width, int height);
 
-/// Texels of a texture of one or two unsigned channels, in the same order.
+/// Reads a texture of one or two unsigned channels. The order of texels is that of readTexture().
 std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height,
                                       int channels = 1);
 

@@ -21,14 +21,14 @@ public:
 
     /// Assigns a GL object to every physical resource of the graph. If nothing has changed, the objects are
     /// those of the last frame. Textures and buffers that have not been used for several frames are deleted,
-    /// and `framebuffers` is notified.
+    /// and so are the framebuffers in `framebuffers` that use them.
     base::Status realise(const FrameGraph& graph, GlFramebufferCache& framebuffers);
     /// Deletes all objects; the next realise() creates new ones.
     void release(GlFramebufferCache& framebuffers);
 
     uint32_t texture(uint32_t physical) const { return textures_[assigned_[physical]].texture.name(); }
     uint32_t buffer(uint32_t physical) const { return buffers_[physical].buffer.name(); }
-    bool owns(uint32_t texture) const; ///< whether `texture` is the GL name of a texture of the pool
+    bool owns(uint32_t texture) const; ///< true if `texture` is the GL name of a texture of the pool
     uint64_t bytes() const;            ///< [byte] size of all objects
 
 private:
@@ -50,8 +50,8 @@ private:
 
     GlDevice& device_;
     std::pmr::vector<PooledTexture> textures_;
-    std::pmr::vector<uint32_t> assigned_;    ///< physical index -> index of textures_
-    std::pmr::vector<PooledBuffer> buffers_; ///< by physical index
+    std::pmr::vector<uint32_t> assigned_;    ///< by index of a physical resource: index in textures_
+    std::pmr::vector<PooledBuffer> buffers_; ///< by index of a physical resource
     uint64_t frame_ = 0;
 };
 

@@ -17,7 +17,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// The states that drawing changes as text, one line per state, such as "GL_BLEND (draw buffers 0 to 7)".
+/// Names of the GL states that drawing changes, one per line, such as "GL_BLEND (draw buffers 0 to 7)".
 std::span<const char* const> touchedState();
 
 class GlStateGuard
@@ -30,7 +30,7 @@ public:
     GlStateGuard& operator=(const GlStateGuard&) = delete;
 
 private:
-    GlDevice* device_; ///< null when inactive
+    GlDevice* device_; ///< null if the guard is not active
     std::array<GlSavedState, kGlSavedStates> saved_;
 };
 

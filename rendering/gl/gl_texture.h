@@ -20,6 +20,7 @@ GLenum glInternalFormat(Format format); ///< GL_RGBA32F and so on
 class GlTexture
 {
 public:
+    /// Creates a texture of two dimensions.
     /// @param label a string literal, shown in debuggers and error messages
     /// @return InvalidArgument if a side is not in [1, limits().textureSize] (then no GL call is made),
     ///         OutOfMemory
@@ -39,7 +40,7 @@ public:
     uint32_t name() const { return name_; }
     int width() const { return width_; }   ///< [pixel]
     int height() const { return height_; } ///< [pixel]
-    int depth() const { return depth_; }   ///< [pixel] 1 with two dimensions
+    int depth() const { return depth_; }   ///< [pixel] 1 for a texture of two dimensions
     GLenum internalFormat() const { return internalFormat_; }
     uint64_t bytes() const; ///< [byte] size of all texels; 0 without a texture
 

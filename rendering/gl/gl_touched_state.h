@@ -20,9 +20,10 @@ struct GlSavedState
 
 struct GlTouchedState
 {
-    const char* name; ///< shown to users
-    GLenum what;      ///< passed to `save` and `restore`
-    uint32_t count;   ///< number of indices (draw buffers, units, bindings); 0 to count - 1 are saved
+    const char* name; ///< name of the state, as shown to users
+    GLenum what;      ///< argument of `save` and `restore`
+    /// Number of indices (of draw buffers, units or bindings); the state is saved at indices 0 to count - 1.
+    uint32_t count;
     void (*save)(const GlFunctions& gl, GLenum what, uint32_t index, GlSavedState& outSaved);
     void (*restore)(const GlFunctions& gl, GLenum what, uint32_t index, const GlSavedState& saved);
 };
@@ -31,7 +32,7 @@ struct GlTouchedState
 /// saved or restored come first in the table.
 std::span<const GlTouchedState> glTouchedStates();
 
-constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts
+constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts of all states
 constexpr uint32_t kGlTouchedStates = 43;
 
 } // namespace fx::render

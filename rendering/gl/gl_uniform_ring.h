@@ -10,11 +10,13 @@
 
 namespace fx::render {
 
-/// OpenGL executes later writes after the reads of earlier draws, so memory is reused without waiting.
+/// Ring buffer of uniform blocks. Memory is reused without waiting, because OpenGL executes later writes
+/// after the reads of earlier draws.
 class GlUniformRing
 {
 public:
-    static constexpr size_t kCapacity = size_t(1) << 18; ///< [byte] enough for the blocks of a few frames
+    /// [byte] Size of the buffer, enough for the blocks of a few frames.
+    static constexpr size_t kCapacity = size_t(1) << 18;
 
     explicit GlUniformRing(GlDevice& device) : device_(device) {}
 

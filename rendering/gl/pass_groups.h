@@ -1,5 +1,5 @@
 /// @file pass_groups.h
-/// Groups of passes whose times are added.
+/// Groups of passes. The times of the passes of a group are added.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace fx::render {
 struct TimedPass
 {
     std::string_view pass;
-    std::string_view group = {}; ///< empty: "other"
+    std::string_view group = {}; ///< name of the group; empty: "other"
 };
 
 constexpr size_t kMaxPassGroups = 8;
@@ -24,7 +24,8 @@ constexpr size_t kMaxPassGroups = 8;
 class PassGroups
 {
 public:
-    /// @param passes their names must stay valid
+    /// Adds passes to their groups.
+    /// @param passes passes whose names must stay valid
     void add(std::span<const TimedPass> passes)
     {
         for (const TimedPass& timed : passes) {

@@ -58,7 +58,7 @@ namespace fx::render {
 /// The depth texture of a frame.
 struct GpuDepth
 {
-    ResourceId distance;                ///< output of SceneDistancePass; invalid: no contacts
+    ResourceId distance; ///< output of SceneDistancePass; invalid: particles collide with no surface
     const CameraView* camera = nullptr; ///< camera of the depth texture
     int width = 0, height = 0;          ///< [pixel]
 };
@@ -66,18 +66,22 @@ struct GpuDepth
 /// Layout of the last members of the uniform block in shaders/gpu_particles/gpu_particles.comp.glsl.
 struct GpuDepthBlock
 {
-    glm::vec4 right, up, forward; ///< xyz, w: affine map of a local position to the camera's axes [m]
-    glm::vec4 window;             ///< k, k', c, c'
-    /// Coefficients of the depth error e = x + y d + z d^2 of 24 bits, d [m] along the view axis.
+    /// Xyz, w: affine map of a local position to a coordinate along this axis of the camera [m].
+    glm::vec4 right, up, forward;
+    glm::vec4 window; ///< k, k', c, c'
+    /// Coefficients of the depth error e = x + y d + z d^2 that 24-bit depth has at the distance d [m] along
+    /// the view axis.
     glm::vec4 error;
-    /// x, y size of the texture [pixel]; z 1: parallel camera; w meters per local unit of length
+    /// x, y size of the texture [pixel]; z 1 for a parallel projection, else 0; w meters per local unit of
+    /// length
     glm::vec4 size;
 };
 
+/// The data for collisions of an emitter with the depth texture.
 /// @param place placement of the emitter in the world
 GpuDepthBlock makeGpuDepthBlock(const GpuDepth& depth, const base::Placement& place);
 
-/// True for emitters that collide with the depth texture.
+/// True if the emitter collides with the depth texture.
 bool meetsDepth(const base::GpuParticleFeatures& features);
 
 } // namespace fx::render

@@ -2,7 +2,7 @@
 /// GPU data of emitters whose particles are computed on the GPU: a program for each combination of features,
 /// and a buffer with the constants of each emitter.
 ///
-/// Nothing is created before the first such emitter. Threads: [GL thread].
+/// Programs and buffers are created when the first such emitter occurs. Threads: [GL thread].
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -34,7 +34,8 @@ public:
     /// @return GlFailed (compilation failed), GlUnsupported (built without FXSDK_GPU_PARTICLES)
     base::Status compile(const base::GpuParticleProgram& emitter);
     /// GPU data of an emitter, valid until the next call. The first call for an emitter compiles and uploads.
-    /// @return as compile(), OutOfMemory, TooLarge (exceeds the limit of storage buffers)
+    /// @return the errors of compile(), OutOfMemory, TooLarge (the constants exceed the limit of storage
+    ///         buffers)
     base::Result<const Entry*> find(const std::shared_ptr<const base::GpuParticleProgram>& emitter);
     /// Removes emitters that have not been used for a long time.
     void nextFrame();

@@ -12,22 +12,22 @@
 
 namespace fx::render {
 
-/// Input to compute the rows of a group.
+/// A request to compute the rows of a group.
 struct GpuRowsJob
 {
     const ProgramDesc* program;
-    uint32_t batch;                  ///< batch that draws the rows
-    bool isNewer;                    ///< true: newer rows of the batch; false: older rows
-    BufferPart numbers;              ///< base::GpuParticleNumbers
-    BufferPart words;                ///< base::GpuParticleMoment and the data after it
+    uint32_t batch;     ///< index of the batch that draws the rows
+    bool isNewer;       ///< true: the job writes the newer rows of the batch; false: the older rows
+    BufferPart numbers; ///< constants of the emitter, as base::GpuParticleNumbers
+    BufferPart words;   ///< a base::GpuParticleMoment and the data that follow it
     std::array<int32_t, 16> columns; ///< offsets of the columns, as in ParticleBlock
     uint32_t rows;
     // Only for emitters whose motion is computed in steps, see GpuStates:
-    BufferPart reached = {}; ///< state of the particles
-    BufferPart steps = {};   ///< data of the steps to compute now
+    BufferPart reached = {}; ///< buffer of the state of the particles
+    BufferPart steps = {};   ///< data of the steps that the job computes
     uint32_t stepCount = 0;
     bool meetsDepth = false;
-    base::Placement place = {}; ///< placement, for collisions with depth
+    base::Placement place = {}; ///< placement of the emitter, for collisions with depth
 };
 
 /// Computes particles from the published data of their emitters. Program: gpu_particles, one permutation for
@@ -35,11 +35,11 @@ struct GpuRowsJob
 ///
 /// reads   distance  [m] along each pixel's ray to opaque geometry, for emitters that collide with it
 /// writes  the rows of batches, in the same layout as rows uploaded from the CPU
-/// Not added if there are no jobs.
+/// The pass is not added if there are no jobs.
 class GpuRowsPass
 {
 public:
-    /// @param batches must be imported; their written resources get new versions
+    /// @param batches batches, which must be imported; their written resources get new versions
     /// @param depth depth texture with which particles collide in all steps of the jobs; its camera must
     ///         outlive the call
     static void addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches,

@@ -1,10 +1,9 @@
 /// @file gpu_states.h
-/// State on the GPU of particles whose motion is computed in steps, for one view.
+/// GPU state of particles whose motion is computed in steps, for one view.
 ///
-/// Each step continues from the state of an emitter after the last step. The state may belong to another
-/// history, if the host has gone back in time. Or it does not exist, because the view is new or the emitter
-/// was hidden for long. In both cases all steps since the births of the particles are computed again, with
-/// the same bits.
+/// A step continues from the emitter's state after the previous step. This state cannot be used if the host
+/// has gone back in time, and it does not exist if the view is new or if the emitter was hidden for a long
+/// time. In these cases all steps since the births of the particles are computed again, with the same bits.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -28,16 +27,18 @@ class GpuStates
 public:
     GpuStates(GlDevice& device, std::pmr::memory_resource* memory) : device_(device), states_(memory) {}
 
-    /// Sets the members of a job that concern steps. The job must run after jobs that were prepared earlier.
-    /// Does nothing if the group's motion has a closed form. An emitter may have at most two jobs per frame.
+    /// Sets those members of a job that concern steps. Jobs must run in the order in which they were
+    /// prepared. Does nothing if the group's motion has a closed form. An emitter may have at most two jobs
+    /// per frame.
     /// @return OutOfMemory, TooLarge (for the context's storage buffers)
     base::Status prepare(const base::SnapshotGroup& group, GpuRowsJob& ioJob);
     /// Deletes states that have not been used for a long time.
     void nextFrame();
-    /// Call this if prepared jobs have not run: all states are computed from the births again.
+    /// Must be called if prepared jobs have not run. Then all states are computed again from the births of
+    /// the particles.
     void forget();
 
-    uint64_t bytes() const; ///< [byte] held
+    uint64_t bytes() const; ///< [byte] size of all buffers
 
 private:
     struct State
@@ -46,7 +47,8 @@ private:
         uint32_t solver;
         std::shared_ptr<const base::GpuParticleProgram> emitter;
         GlBuffer reached;
-        std::array<GlBuffer, 2> steps; ///< used alternately: each of two jobs of a frame needs its own
+        /// Data of steps; two buffers, because each of the two jobs of a frame needs its own.
+        std::array<GlBuffer, 2> steps;
         uint32_t turn = 0;
         base::GpuStepMark mark;
         uint64_t usedFrame = 0;

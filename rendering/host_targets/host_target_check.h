@@ -15,11 +15,12 @@ class HostTargetCheck
 public:
     explicit HostTargetCheck(GlDevice& device) : device_(device), textures_(device) {}
 
+    /// Checks the targets of a request.
     /// @return InvalidArgument; the message states the member of FrameRequest, the fault and the remedy
     base::Status check(const FrameRequest& request);
 
 private:
-    /// [pixel] Size of the frame's target; 0 if OpenGL does not provide it, as for a window.
+    /// [pixel] Size of the frame's target; 0 if it cannot be queried from OpenGL, as for a window.
     struct Size
     {
         GLint width = 0;

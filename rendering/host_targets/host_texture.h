@@ -17,7 +17,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// Use of a texture of the host by a frame.
+/// Use of a texture of the host in a frame.
 enum class HostUse : uint8_t
 {
     Nothing,
@@ -26,8 +26,9 @@ enum class HostUse : uint8_t
     ReadDepth,
 };
 
-/// Properties of a texture that OpenGL provides in a few calls. If properties are equal, the result of the
-/// check is equal. If a texture was recreated with the same name, different properties show this.
+/// Properties of a texture that can be queried from OpenGL in a few calls. Equal properties mean that the
+/// result of the check is equal, also if the host has deleted a texture and created another with the same
+/// name.
 struct HostTexture
 {
     uint32_t name = 0;
@@ -37,7 +38,7 @@ struct HostTexture
     GLint width = 0;  ///< [texel]
     GLint height = 0; ///< [texel]
     GLint baseLevel = 0;
-    GLint stencilMode = 0; ///< for ReadDepth only
+    GLint stencilMode = 0; ///< used only for ReadDepth
     std::array<GLint, 4> swizzle{};
 
     bool operator==(const HostTexture&) const = default;
@@ -50,8 +51,9 @@ class HostTextureCheck
 public:
     explicit HostTextureCheck(GlDevice& device) : device_(device) {}
 
-    /// @param member  name of the frame's member for the message, such as "frame.colorTexture"
-    /// @param outFacts untouched on failure
+    /// Checks a texture.
+    /// @param member name of the frame's member for the message, such as "frame.colorTexture"
+    /// @param outFacts receives the properties; not changed on failure
     /// @return InvalidArgument with the fault and the remedy
     base::Status check(uint32_t name, HostUse use, const char* member, HostTexture& outFacts);
 
@@ -62,13 +64,16 @@ private:
     std::string formatFault(const HostTexture& facts) const;
 
     GlDevice& device_;
-    std::array<HostTexture, 16> good_{}; ///< the last accepted textures; hosts may alternate between several
-    size_t next_ = 0;                    ///< index in good_ of the entry to replace next
+    /// The textures that were accepted last; there are several, because hosts may alternate between them.
+    std::array<HostTexture, 16> good_{};
+    size_t next_ = 0; ///< index in good_ of the entry that is replaced next
 };
 
 // Names of OpenGL's enumerants, for messages: host_format_names.cpp.
 
-std::string glFormatName(GLenum internalFormat); ///< such as "GL_RGBA8UI"; a number for unknown formats
-std::string glTargetName(GLenum target);         ///< "GL_TEXTURE_2D_MULTISAMPLE"; a number otherwise
+/// Name of the format, such as "GL_RGBA8UI"; the number as text for unknown formats.
+std::string glFormatName(GLenum internalFormat);
+/// Name of the target, such as "GL_TEXTURE_2D_MULTISAMPLE"; the number as text for unknown targets.
+std::string glTargetName(GLenum target);
 
 } // namespace fx::render

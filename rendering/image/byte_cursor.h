@@ -1,5 +1,6 @@
 /// @file byte_cursor.h
-/// Reads the bytes of a file in order and never past the end. All readers of binary formats use it.
+/// Reads the bytes of a file one after another, and never reads past the end. All readers of binary formats
+/// use it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 /// @file image.h
-/// Pictures in memory, and their PNG and Radiance files. For tools and scene files; libfxsdk reads no images.
+/// Pictures in memory, and their PNG and Radiance files. Tools and readers of scene files use them; libfxsdk
+/// itself reads no images.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -16,7 +17,7 @@ struct Image
 {
     int width = 0;    ///< [pixel]
     int height = 0;   ///< [pixel]
-    int channels = 0; ///< 3 for RGB, 4 for RGBA
+    int channels = 0; ///< number of channels: 3 for RGB, 4 for RGBA
     std::vector<float> pixels;
 
     float* at(int x, int y)

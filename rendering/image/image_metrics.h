@@ -16,7 +16,8 @@ struct Difference
     double rms = 0;
 };
 
-/// @return InvalidArgument when sizes or channels differ
+/// Compares two images.
+/// @return InvalidArgument if sizes or numbers of channels differ
 base::Result<Difference> compare(const Image& a, const Image& b);
 
 } // namespace fx::image

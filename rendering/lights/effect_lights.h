@@ -12,22 +12,23 @@
 
 namespace fx::render {
 
-/// Light of one group of a snapshot.
+/// Light that one group of a snapshot emits.
 struct EffectLight
 {
-    glm::dvec3 position; ///< [m] world: center of the emitted light
-    glm::vec3 intensity; ///< [cd] in every direction
+    glm::dvec3 position; ///< [m] world position of the center of the emitted light
+    glm::vec3 intensity; ///< [cd] intensity, equal in every direction
     float radius;        ///< [m] root mean square extent of the emission, > 0
-    /// Emitted by balls of medium, whose fields may propagate the light more accurately than a point light.
+    /// True: the light is emitted by balls of medium, whose fields may propagate it more accurately than a
+    /// point light does.
     bool isOfMedium = false;
-    /// [m] distance within which occlusion of the light is already included in the intensity
+    /// [m] Distance from the center. The intensity already includes occlusion within this distance.
     float ownReach = 0.0f;
 };
 
-constexpr size_t kMaxEffectLights = 4;  ///< largest number of lights in drawing
+constexpr size_t kMaxEffectLights = 4;  ///< largest number of effect lights that are used for drawing
 constexpr size_t kMaxLightSources = 16; ///< largest number of kinds of snapshot data that emit light
 
-/// How groups of one kind of snapshot data emit light.
+/// Describes how groups of one kind of snapshot data emit light.
 struct LightSource
 {
     const base::KindDesc* kind;
@@ -37,13 +38,14 @@ struct LightSource
     bool (*lightOf)(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& group,
                     EffectLight& outLight);
 
-    /// Completes the light of a group that is among the brightest; null: it is complete. Here costly work
-    /// belongs.
+    /// Computes an accurate intensity for a light that is among the brightest ones; null: lightOf() is
+    /// accurate. Only this function may be slow.
     void (*complete)(const base::FrameSnapshot& snapshot, size_t group, EffectLight& ioLight) = nullptr;
 };
 
 /// Computes one light for each group that emits light, and writes the brightest ones to `out`, brightest
-/// first, at most kMaxEffectLights. Brightness before LightSource::complete() decides.
+/// first, at most kMaxEffectLights. They are selected by their brightness before LightSource::complete() is
+/// called.
 /// @param sources at most kMaxLightSources are used
 /// @return number of lights written to `out`
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSource* const> sources,
@@ -54,26 +56,27 @@ class GroupGlow
 {
 public:
     /// Adds an element. Elements with values that are not finite are ignored, since they are not drawn.
-    /// @param intensity [cd]  @param radius [m]  @return whether it was added
+    /// @param intensity [cd]  @param radius [m]  @return true if the element was added
     bool add(const glm::vec3& position, const glm::vec3& intensity, float radius);
 
-    bool isDark() const; ///< the sum is too small to be a light
+    bool isDark() const; ///< true if the sum is too small to be a light
 
     glm::dvec3 center() const { return moment_ / weight_; } ///< [m] mean position of the emitted light
 
-    /// [m] root mean square extent.
+    /// [m] Root mean square extent of the emission.
     /// @param leastSquare [m2] square of the result if all elements are at one point
     float extent(float leastSquare) const;
 
-    /// The sum as a light in the world. @param extent [m] in the space of the group
+    /// The sum of the elements as one light in the world.
+    /// @param extent [m] in the space of the group
     /// @param visible [1] share of the light that leaves the group
     EffectLight light(const base::Placement& placement, float extent, float visible) const;
 
 private:
     glm::vec3 intensity_{0.0f};
-    glm::dvec3 moment_{0.0}; ///< luminous weight times position
+    glm::dvec3 moment_{0.0}; ///< sum of luminous weight times position
     double weight_ = 0.0;
-    double spread_ = 0.0; ///< weight times squared extent
+    double spread_ = 0.0; ///< sum of luminous weight times squared extent
 };
 
 } // namespace fx::render

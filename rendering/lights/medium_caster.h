@@ -9,7 +9,7 @@ namespace fx::render {
 /// A ball of medium with the quartic kernel.
 struct MediumCaster
 {
-    glm::vec3 center;   ///< [m] relative to the eye
+    glm::vec3 center;   ///< [m] position relative to the eye
     float radius;       ///< [m] > 0
     float crossSection; ///< [m2] extinction cross section, >= 0
 };

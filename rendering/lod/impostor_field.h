@@ -29,9 +29,9 @@ struct ImpostorSubject
 /// How an effect is drawn in this frame.
 struct ImpostorPlan
 {
-    /// [1] share of its cross section that is drawn as blobs; 0: blobs need not be gathered
+    /// [1] share of the effect's cross section that is drawn as blobs; 0: blobs need not be gathered
     float blobShare = 1.0f;
-    bool isTaken = false; ///< the impostor is rendered in this frame, so that its blobs are needed
+    bool isTaken = false; ///< true: the impostor is rendered in this frame, so that its blobs are needed
     uint32_t slot = 0;    ///< index of the impostor among those rendered in this frame
 };
 
@@ -40,53 +40,57 @@ class ImpostorField
 public:
     /// [s] Interval at which the impostor of a changing effect is rendered again.
     static constexpr float kInterval = 0.1f;
-    /// Share of the largest size. Above it, impostor and blobs are both drawn, cross-faded.
+    /// [1] Factor of Frame::mostPixels. Effects with a radius between this size and mostPixels are drawn both
+    /// as impostor and as blobs, cross-faded.
     static constexpr float kBand = 0.75f;
-    /// [pixel] change by rotation of the view above which an impostor is rendered again
+    /// [pixel] Change of an impostor by rotation of the view. If it is larger, the impostor is rendered
+    /// again.
     static constexpr float kParallax = 1.0f;
-    static constexpr float kGrowth = 1.25f;      ///< [1] factor of the size beyond which it is rendered again
-    static constexpr float kFadeSeconds = 0.25f; ///< [s] time in which the first impostor replaces the blobs
+    static constexpr float kGrowth = 1.25f; ///< [1] change of size by which an impostor is rendered again
+    /// [s] Duration of the cross-fade from the blobs to the first impostor.
+    static constexpr float kFadeSeconds = 0.25f;
 
     explicit ImpostorField(std::pmr::memory_resource* memory);
 
     struct Frame
     {
-        float mostPixels;  ///< [pixel] radius up to which effects are drawn as impostors; 0: none
-        double seconds;    ///< [s] since the last frame
-        uint64_t content;  ///< revision of the shown content
-        uint64_t lighting; ///< hash of the lighting; impostors with another lighting are not shown
-        bool forget;       ///< the camera has jumped
-        bool hold = false; ///< impostors and their shares do not change
+        float mostPixels; ///< [pixel] largest radius of an effect that is drawn as an impostor; 0: none
+        double seconds;   ///< [s] since the last frame
+        uint64_t content; ///< revision of the shown content
+        /// Hash of the lighting; impostors that were rendered with another lighting are not shown.
+        uint64_t lighting;
+        bool forget;       ///< true: the camera has jumped
+        bool hold = false; ///< true: impostors and their shares do not change
     };
     void begin(const Frame& frame, const CameraGeometry& camera);
-    /// Called once for each effect in a frame.
+    /// Decides how an effect is drawn. Must be called once for each effect in a frame.
     ImpostorPlan plan(const ImpostorSubject& subject);
-    void end(); ///< frees the tiles of effects that were not planned in this frame
+    void end(); ///< frees the tiles of effects for which plan() was not called in this frame
 
     /// Camera axes and square size of the impostor that is rendered in `slot`.
     const ImpostorTaking& taking(uint32_t slot) const { return takings_[slot]; }
     std::span<const ImpostorTaking> takings() const { return takings_; }
     std::span<const ImpostorInstance> shown() const { return shown_; }
     std::span<const float> distances() const { return distances_; } ///< [m] distances of shown()
-    /// True when no cross-fade is in progress and no impostor is due.
+    /// True if no cross-fade is in progress and no impostor must be rendered again.
     bool isSettled() const { return settled_; }
 
 private:
     struct Entry
     {
         uint64_t instance = 0;
-        uint32_t tiles = 0;     ///< index of the first of two tiles
-        uint32_t newest = 0;    ///< 0 or 1: which of the two tiles is newer
-        float mix = 1.0f;       ///< [1] weight of the newer impostor; the older has 1 - mix
+        uint32_t tiles = 0;     ///< index of the first of the two tiles
+        uint32_t newest = 0;    ///< which of the two tiles has the newer impostor: 0 or 1
+        float mix = 1.0f;       ///< [1] weight of the newer impostor; the weight of the older one is 1 - mix
         float presence = 0.0f;  ///< [1] share of the effect that is drawn as an impostor
         glm::vec3 direction{0}; ///< view direction of the newer impostor
         glm::vec3 right{0}, up{0};
-        float pixels = 0.0f;      ///< [pixel] radius when the newer was rendered
-        float olderPixels = 0.0f; ///< [pixel] radius when the older was rendered
+        float pixels = 0.0f;      ///< [pixel] radius on the picture when the newer impostor was rendered
+        float olderPixels = 0.0f; ///< [pixel] radius on the picture when the older impostor was rendered
         uint64_t content = 0;
         uint64_t lighting = 0;
         bool hasPicture = false;
-        bool hasOlder = false; ///< two impostors exist
+        bool hasOlder = false; ///< true: there are two impostors
         bool isUsed = false;
     };
     Entry* find(uint64_t instance);
@@ -97,7 +101,7 @@ private:
     Frame frame_{};
     const CameraGeometry* camera_ = nullptr;
     std::pmr::vector<Entry> entries_; ///< sorted by instance
-    std::pmr::vector<Entry> fresh_;   ///< added in this frame
+    std::pmr::vector<Entry> fresh_;   ///< entries that were added in this frame
     std::pmr::vector<uint32_t> freeTiles_;
     std::pmr::vector<ImpostorTaking> takings_;
     std::pmr::vector<ImpostorInstance> shown_;

@@ -1,5 +1,6 @@
 /// @file level_of_detail.h
-/// Share of the particles of each effect that a view draws, by the size of the effect on the picture.
+/// Computes the share of the particles of each effect that a view draws, from the size of the effect on the
+/// picture.
 ///
 /// Particles are omitted in an order that is fixed for their lifetime, so that they do not flicker. The
 /// remaining particles are enlarged or made more opaque to represent the omitted ones. All changes are
@@ -19,9 +20,9 @@
 namespace fx::render {
 
 /// Rank of a particle, [0, 1); particles with the highest ranks are omitted first. Ranks are a golden-ratio
-/// sequence with a random offset for each 1024 ids. In any run of births, about the share s has ranks below
-/// s. The same holds for every second or third birth. Errors are far below those of random numbers, and there
-/// are no long regular patterns.
+/// sequence with a random offset for each 1024 ids. For any number s in [0, 1], about the share s of any
+/// consecutive births has ranks below s; the same holds for every second or third birth. The deviation from
+/// this share is far less than for random numbers, and there are no long regular patterns.
 inline float birthRank(uint64_t id)
 {
     const uint64_t block = id >> 10;
@@ -63,7 +64,7 @@ class LodRamp
 {
 public:
     static constexpr float kFade = 0.25f;
-    static constexpr float kAll = 1.0f / (1.0f - kFade); ///< share from which on all particles are drawn
+    static constexpr float kAll = 1.0f / (1.0f - kFade); ///< least share with which all particles are drawn
 
     LodRamp() = default; ///< all particles are drawn
     explicit LodRamp(float share);
@@ -76,22 +77,23 @@ private:
     float mean_ = 1.0f;
 };
 
-/// How one group is drawn.
+/// Parameters with which the elements of a group are drawn.
 struct LodLevel
 {
     LodRamp ramp;
     float grownPixels = 0.0f;   ///< [pixel] largest radius to which a blob is enlarged
-    float swollenPixels = 0.0f; ///< [pixel] largest increase of its radius
+    float swollenPixels = 0.0f; ///< [pixel] largest increase of the radius of a blob
 };
 
-/// Number of groups by their drawn share: all; at least half; at least an eighth; less.
+/// Number of groups by the share that is drawn: all; at least half; at least an eighth; less.
 using LodCounts = std::array<uint32_t, 4>;
 
 class LevelOfDetail
 {
 public:
-    static constexpr float kBand = 1.15f;         ///< hysteresis: a level changes only beyond this factor
-    static constexpr float kMinKeptBlobs = 12.0f; ///< least number of drawn blobs of a group
+    /// Hysteresis: a level changes only if the size has changed by more than this factor.
+    static constexpr float kBand = 1.15f;
+    static constexpr float kMinKeptBlobs = 12.0f; ///< least number of blobs that are drawn of a group
     static constexpr float kGrown = 1.15f;        ///< [pixel] see formula lod-weight
     static constexpr float kSwollen = 0.1f;       ///< [1] see formula lod-weight
 
@@ -101,18 +103,20 @@ public:
     /// jumped
     void begin(const LodSettings& settings, const CameraGeometry& camera, int height, bool forget);
 
-    /// The level of a group. Called once per frame and group. Without a bias all elements are drawn.
+    /// The level of a group. Must be called once per frame for each group. If LodSettings::bias is 0, all
+    /// elements are drawn.
     /// @param place placement of the group relative to the eye
     LodLevel levelOf(const base::GroupInfo& group, const base::Placement& place);
 
-    /// The level of a group of particles or ribbons. counts() does not include it.
+    /// The level of a group of particles or ribbons. counts() does not count this group.
     /// @param pieces  number of particles, or of pieces of strips, that are drawn without a level of detail
     /// @param wholes  number of particles, or of strips; at least kMinKeptBlobs of them are drawn
     LodLevel levelOfRows(const base::GroupInfo& group, const base::Placement& place, uint32_t pieces,
                          uint32_t wholes);
 
     bool isOn() const { return settings_.bias > 0.0f; }
-    const LodCounts& counts() const { return counts_; } ///< counts of this frame so far
+    /// Numbers of groups that this frame has counted so far.
+    const LodCounts& counts() const { return counts_; }
 
 private:
     struct Entry
@@ -120,7 +124,8 @@ private:
         uint64_t instance;
         uint32_t solver;
         uint32_t kind;
-        float share;  ///< present share; by hysteresis it may differ from the wanted one
+        /// Present share; because of hysteresis, it may differ from the share for the present size.
+        float share;
         float radius; ///< [pixel] radius of the group on the picture
         bool operator<(const Entry& other) const;
     };

@@ -18,22 +18,22 @@
 
 namespace fx::render {
 
-/// Number of drawn elements in rows.
+/// Number of elements that are drawn for rows.
 struct DrawnRows
 {
-    uint32_t pieces = 0; ///< particles whose radius is above 0, or pieces of strips
-    uint32_t wholes = 0; ///< number of particles or strips
+    uint32_t pieces = 0; ///< number of particles whose radius is above 0, or of pieces of strips
+    uint32_t wholes = 0; ///< number of whole particles or strips
 };
 DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon);
 
-/// Rows of a group that belong to one effect. Each effect has its own level.
+/// Range of the rows of a group that belong to one effect. Each effect has its own level of detail.
 struct RowPart
 {
     base::GroupInfo info; ///< info of the effect's group, with the placement in the newer snapshot
     uint32_t first, count;
 };
 
-/// Drawn shape of a row.
+/// The shape that is drawn for a row.
 enum class RowShape : uint8_t
 {
     Card, ///< a sprite or mesh of any opacity
@@ -42,11 +42,11 @@ enum class RowShape : uint8_t
     SolidStrip, ///< an opaque ribbon: its width can change, but not its opacity
 };
 
-/// Factors of size and opacity of a row, relative to drawing without a level of detail.
+/// Factors of size and opacity of a row, relative to drawing all rows.
 struct RowFactors
 {
     float size;    ///< [1] factor of the radius, or of the half width of a strip
-    float opacity; ///< [1] factor
+    float opacity; ///< [1] factor of the opacity
 };
 
 /// @formula lod-rows
@@ -86,19 +86,20 @@ RowFactors rowFactors(const LodLevel& level, float rank, float pixels, RowShape 
 struct SimplificationInputs
 {
     const base::SnapshotGroup* rows;
-    std::span<const RowPart> parts; ///< empty: all rows belong to the effect of the group
+    /// Ranges of rows by effect; empty: all rows belong to the effect of the group.
+    std::span<const RowPart> parts;
     /// Placement of the group at the moment of the frame, relative to the eye.
     base::Placement place;
     RowShape shape;
     const CameraGeometry* camera;
-    float pixelsPerSlope; ///< [pixel] size on the picture of a length of 1 m at a distance of 1 m
+    float pixelsPerSlope; ///< [pixel] size on the picture of an object of 1 m at a distance of 1 m
 };
 
 /// Computes the factors of all rows.
-/// @param outFactors by row: two binary16 numbers, size in the lower half, opacity in the upper; 0: not
-///         drawn. Not written if all rows are drawn unchanged
+/// @param outFactors for each row, two binary16 numbers: the factor of size in the lower half, that of
+///         opacity in the upper. 0: the row is not drawn. Not written if all rows are drawn unchanged
 /// @param ioLeftOut increased by the number of omitted particles or pieces of strips
-/// @return whether any row is omitted or changed
+/// @return true if any row is omitted or changed
 bool simplifyRows(const SimplificationInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
                   uint64_t& ioLeftOut);
 

@@ -12,12 +12,12 @@ namespace fx::render {
 
 /// Number of fragments of the bounding rectangles of all blobs, clipped to the window, for each of
 /// kLayerDivisors. Occlusion by opaque surfaces is ignored.
-/// @param width, height of the picture [pixel]
+/// @param width, height [pixel] size of the picture
 FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
                                  int height);
 
-/// Approximate share of the picture that the blobs cover, which weights their errors. It is 1 - exp(-sum of
-/// areas), which assumes random positions.
+/// Approximate share of the picture that the blobs cover; a weight of their errors. It is 1 - exp(-sum of
+/// areas), which holds for random positions.
 ScreenShare screenShare(std::span<const BlobInstance> blobs, const CameraGeometry& camera);
 
 } // namespace fx::render

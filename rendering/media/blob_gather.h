@@ -21,42 +21,42 @@ namespace fx::render {
 /// A blob relative to the eye, before lighting.
 struct GatheredBlob
 {
-    glm::vec3 center;                   ///< [m] relative to the eye, world axes
-    float radius;                       ///< [m] > 0
-    float crossSection;                 ///< [m2] > 0
-    float temperature;                  ///< [K]
-    glm::vec3 albedo;                   ///< [1]
-    glm::vec3 emission;                 ///< [cd/m2] in addition to black-body emission
-    float fireShare;                    ///< [1]
-    float heat;                         ///< [K]
-    float seed;                         ///< [0, 1) seed of procedural detail, from the id
-    float detailAmount;                 ///< [1]
-    float detailScale;                  ///< [1]
-    float anisotropy;                   ///< [1]
-    uint32_t layer;                     ///< MediaLayer
-    int detail = -1;                    ///< index of the detail of its group; -1: no detail
-    glm::vec3 velocity{0.0f};           ///< [m/s] relative to the world
+    glm::vec3 center;         ///< [m] position relative to the eye, along world axes
+    float radius;             ///< [m] > 0
+    float crossSection;       ///< [m2] > 0
+    float temperature;        ///< [K]
+    glm::vec3 albedo;         ///< [1]
+    glm::vec3 emission;       ///< [cd/m2] emission in addition to black-body emission
+    float fireShare;          ///< [1]
+    float heat;               ///< [K]
+    float seed;               ///< [0, 1) seed of procedural detail, computed from the id of the blob
+    float detailAmount;       ///< [1]
+    float detailScale;        ///< [1]
+    float anisotropy;         ///< [1]
+    uint32_t layer;           ///< MediaLayer
+    int detail = -1;          ///< index of the detail of its group; -1: no detail
+    glm::vec3 velocity{0.0f}; ///< [m/s] velocity relative to the world
     std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
 };
 
-/// Range of the blobs of one instance among the visible ones.
+/// Range of an instance's blobs in the list of visible blobs.
 struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    ImpostorPlan plan; ///< how the instance is drawn
+    ImpostorPlan plan; ///< decision about how the instance is drawn
 };
 
 /// Consecutive blobs of an instance: those of one group with detail, or of consecutive groups without detail.
 struct BlobRun
 {
     size_t instance;                 ///< index in the list of instances
-    int detail;                      ///< index of the group's detail; -1: none
+    int detail;                      ///< index of the detail of the group; -1: no detail
     size_t visibleBegin, visibleEnd; ///< range among the visible blobs
     size_t mediumBegin, mediumEnd;   ///< range among all blobs, visible or not
 };
 
-/// Additional data for blobs that are drawn as fields.
+/// Additional data, for blobs that are drawn as fields.
 struct FieldGather
 {
     explicit FieldGather(std::pmr::memory_resource* memory)
@@ -73,7 +73,7 @@ struct GatherCounts
 {
     uint32_t culled = 0;
     uint32_t nonFinite = 0;
-    uint32_t thinned = 0; ///< omitted by the level of detail
+    uint32_t thinned = 0; ///< number of blobs that were omitted by the level of detail
 };
 
 /// Appends every visible blob to `outVisible`, in the order of groups and ids. Appends every blob to
@@ -88,13 +88,14 @@ struct GatherCounts
 /// foundation/snapshot/streak.h.
 ///
 /// @param share share of the blobs that is appended to `outVisible`, (0, 1]. Blobs are selected by id, so
-///         that they do not flicker, and get the cross section of the omitted ones. All blobs cast shadows.
+///         that they do not flicker. Their cross sections are increased to represent the omitted blobs. All
+///         blobs cast shadows.
 /// @param impostors selects the effects that are drawn as impostors; null: none. Blobs of an effect that is
 ///         drawn only as an impostor are not gathered, but at most 16 of them are appended to `outMedium`, to
 ///         represent the shadow of all. If an impostor is rendered in this frame, its blobs are gathered also
 ///         outside of the view.
 /// @param lod reduces the blobs of groups that are small on the picture, for shadows too; null: none
-/// @param castsShadows whether effects that are drawn only as an impostor cast shadows
+/// @param castsShadows true: effects that are drawn only as an impostor cast shadows
 /// @param outFields receives the detail of groups, and runs of blobs; may be null
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,

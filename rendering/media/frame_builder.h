@@ -24,28 +24,29 @@ public:
     explicit FrameBuilder(std::pmr::memory_resource* memory);
 
     /// Builds the list for one frame. Equal input gives equal bits. [GL thread] Makes no GL calls.
-    /// @param lod LevelOfDetail::begin() has been called for this frame
-    /// @param content revision of the shown content, for impostors
+    /// @param lod level of detail, for which LevelOfDetail::begin() has been called in this frame
+    /// @param content revision of the shown content; impostors are rendered again when it changes
     /// @param castsShadows as in gatherBlobs()
     /// @param isSorted false: blobs() have the order of groups and ids
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
                const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0,
                bool castsShadows = true, bool isSorted = true);
 
-    std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first, unless not sorted
-    /// Effects of blobs(); empty when blobs are sorted.
+    /// Blobs, the farthest first; if not sorted, in the order of groups and ids.
+    std::span<const BlobInstance> blobs() const { return sorted_; }
+    /// Effects to which blobs() belong; empty if blobs are sorted.
     std::span<const BlobEffect> effects() const { return effects_; }
-    /// Materials of blobs() for the detail of their fields; empty if they are sorted.
+    /// Materials of blobs(), in the same order, for the detail of their fields; empty if blobs are sorted.
     std::span<const BlobMaterial> materials() const { return materials_; }
     std::span<const GroupDetail> details() const { return fields_.details; }
-    /// Marks of blobs(); empty without ViewSettings::outputs.
+    /// Marks of blobs(), in the same order; empty without ViewSettings::outputs.
     std::span<const BlobMark> marks() const { return sortedMarks_; }
-    bool anyHeat() const { return anyHeat_; }     ///< a blob causes heat shimmer
-    bool anyDetail() const { return anyDetail_; } ///< a blob has procedural detail
+    bool anyHeat() const { return anyHeat_; }     ///< true if a blob causes heat shimmer
+    bool anyDetail() const { return anyDetail_; } ///< true if a blob has procedural detail
     /// All shadow casters, visible or not.
     std::span<const MediumCaster> casters() const { return casters_; }
     const GatherCounts& counts() const { return counts_; }
-    /// The stream of blobs(); count 0 without blobs.
+    /// The stream that draws blobs(). Its count is 0 if there are no blobs.
     DrawStream stream() const;
 
     /// The drawn impostors, farthest first.
@@ -55,9 +56,9 @@ public:
     /// Blobs of the effects whose impostors are rendered in this frame, relative to takingCamera().
     std::span<const BlobInstance> takenBlobs() const { return sortedTaken_; }
     std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< tile of each rendered impostor
-    /// True if a next frame with the same camera and snapshots would be the same.
+    /// True if a frame with the same camera and snapshots would be the same as the last one.
     bool isSettled() const { return impostors_.isSettled(); }
-    /// Call this if the impostors of the last frame were not rendered.
+    /// Must be called if the impostors of the last frame were not rendered.
     void forgetPictures() { mustForget_ = true; }
 
 private:
@@ -79,7 +80,7 @@ private:
     std::pmr::vector<BlobMaterial> materials_;
     std::pmr::vector<BlobMark> marks_, sortedMarks_; ///< marks of shaded_ and sorted_
     InstanceNames names_;
-    bool isMarked_ = false; ///< the frame has marks
+    bool isMarked_ = false; ///< true: the frame has marks
     std::pmr::vector<BlobEffect> effects_;
     std::pmr::vector<std::pair<float, float>> radii_; ///< scratch: radius and cross section
     std::pmr::vector<BlobInstance> sorted_;
@@ -92,10 +93,10 @@ private:
     std::pmr::vector<BlobInstance> taken_;
     std::pmr::vector<BlobInstance> sortedTaken_;
     std::pmr::vector<float> takenDistances_;
-    std::pmr::vector<uint32_t> identity_; ///< order_ if nothing is sorted
+    std::pmr::vector<uint32_t> identity_; ///< the numbers 0, 1, 2 and so on: the order of unsorted blobs
     std::pmr::vector<uint32_t> takenTiles_;
     std::span<const uint32_t> impostorOrder_;
-    Lighting lighting_; ///< settings of the last frame, like hostLights_ and slices_
+    Lighting lighting_; ///< settings of the last frame; hostLights_ and slices_ too
     HostLights hostLights_;
     SliceSettings slices_;
     float exposureEv100_ = 0.0f;

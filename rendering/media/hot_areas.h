@@ -1,5 +1,5 @@
 /// @file hot_areas.h
-/// Areas of the picture that may contain hot gas, for heat shimmer.
+/// Finds the areas of the picture that may contain hot gas, for heat shimmer.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// [pixel] Side of the tiles of which areas consist.
+/// [pixel] Side of a tile. Areas consist of tiles.
 inline constexpr uint32_t kHotTile = 16;
 
 class HotAreas
@@ -27,7 +27,7 @@ public:
     void find(std::span<const BlobInstance> blobs, const CameraView& camera, int width, int height);
     void clear() { areas_.clear(); }
 
-    /// Areas of the last find().
+    /// The areas that the last find() found.
     std::span<const HotArea> areas() const { return areas_; }
 
 private:
@@ -36,8 +36,8 @@ private:
 
     uint32_t width_ = 0, height_ = 0; ///< [pixel]
     uint32_t columns_ = 0, rows_ = 0; ///< [tile]
-    /// By tile: blobs that begin at the tile minus blobs that end at it. Prefix sums are the numbers of blobs
-    /// on tiles.
+    /// By tile: number of blobs that begin at the tile minus number of blobs that end at it. A prefix sum
+    /// gives the number of blobs on each tile.
     std::pmr::vector<int32_t> counts_;
     std::pmr::vector<HotArea> areas_;
 };

@@ -37,16 +37,17 @@ constexpr int kMaxNetworkMoments = 9;
 struct NeighborDirection
 {
     glm::ivec3 step{0};  ///< difference of cell indices
-    int squares = 1;     ///< squared length of the step, 1 to 3
+    int squares = 1;     ///< squared length of the step to the neighbor in cells, 1 to 3
     double weight = 0.0; ///< [sr]
 };
 
-/// The directions with their weights. A direction and its opposite are consecutive. @param count 6, 14 or 26
+/// The directions with their weights. A direction and its opposite are consecutive. @param count number of
+/// directions: 6, 14 or 26
 std::vector<NeighborDirection> neighborDirections(int count);
 
-/// Values of all harmonics in a direction. @param direction unit
+/// Values of all harmonics in a direction. @param direction unit vector
 std::array<double, kMaxNetworkMoments> harmonics(const glm::dvec3& direction);
-/// Band of harmonic k: 0, 1 or 2.
+/// Band of the harmonic with the index k: 0, 1 or 2.
 constexpr int harmonicBand(int k)
 {
     return k == 0 ? 0 : k < 4 ? 1 : 2;

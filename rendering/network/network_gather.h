@@ -1,5 +1,6 @@
 /// @file network_gather.h
-/// Light that a medium scatters and emits to an eye, from the light in the cells of an illumination network.
+/// Computes the light that a medium scatters and emits to an eye, from the light in the cells of an
+/// illumination network.
 #pragma once
 
 #include "rendering/network/network_phase.h"
@@ -47,15 +48,17 @@ struct GatherPoint
     double irradiance = 0.0; ///< [lx] F
 };
 
-/// Two parts of the light per k ds: one is attenuated by T, one by T'.
+/// Two parts of the scattered light per optical depth k ds of formula network-gather: the first is attenuated
+/// by T, the second by T'.
 struct GatheredLight
 {
     double plain = 0.0;  ///< [cd/m2] (2)
-    double scaled = 0.0; ///< [cd/m2] first part of (1)
+    double scaled = 0.0; ///< [cd/m2] first part of equation (1)
 };
 
 GatheredLight gatherUnscattered(const NetworkPhase& phase, const GatherPoint& point);
-/// [cd/m2] second part of (1). @param toEye unit, from the point to the eye
+/// [cd/m2] Second part of equation (1).
+/// @param toEye unit vector from the point to the eye
 double gatherScattered(const NetworkPhase& phase, double albedo, const NetworkState& state,
                        const glm::dvec3& position, const glm::dvec3& toEye);
 

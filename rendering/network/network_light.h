@@ -1,5 +1,6 @@
 /// @file network_light.h
-/// Unscattered light of the sun and of lamps in the cells of a network, by rays through the grid.
+/// Computes the unscattered light of the sun and of lamps in the cells of a network, by rays through the
+/// grid.
 #pragma once
 
 #include "rendering/network/scattering_network.h"
@@ -9,8 +10,8 @@ namespace fx::render {
 /// A source of parallel light.
 struct NetworkSun
 {
-    glm::dvec3 travel{0.0, -1.0, 0.0}; ///< unit, direction in which the light travels
-    double illuminance = 0.0;          ///< [lx] on a surface perpendicular to the light
+    glm::dvec3 travel{0.0, -1.0, 0.0}; ///< unit vector, direction in which the light travels
+    double illuminance = 0.0;          ///< [lx] illuminance of a surface perpendicular to the light
 };
 
 /// A ball light, which may be inside of the medium. Outside of its radius it illuminates like a point light;
@@ -18,16 +19,16 @@ struct NetworkSun
 struct NetworkLamp
 {
     glm::dvec3 position{0.0}; ///< [m]
-    double radius = 0.0;      ///< [m] extent of the ball, in which nothing blocks its light
+    double radius = 0.0;      ///< [m] radius of the ball, within which nothing blocks its light
     double intensity = 0.0;   ///< [cd]
 };
 
 /// Adds the light of a sun to a network.
-/// @param samples along each axis of a cell, 1..8; the cell gets the mean of the samples
+/// @param samples number of samples along each axis of a cell, 1..8; the cell gets the mean of the samples
 void addSun(ScatteringNetwork& io, const NetworkSun& sun, int samples, base::TaskRunner& tasks);
 
-/// Adds the light of a lamp. The cell that contains the lamp and its neighbors have at least kNearLampSamples
-/// along each axis, because the light varies most there.
+/// Adds the light of a lamp. In the cell that contains the lamp and in its neighbors, at least
+/// kNearLampSamples samples are taken along each axis, because the light varies most there.
 void addLamp(ScatteringNetwork& io, const NetworkLamp& lamp, int samples, base::TaskRunner& tasks);
 constexpr int kNearLampSamples = 12;
 

@@ -31,14 +31,17 @@ class NetworkMixing
 {
 public:
     void clear();
-    /// Stores a step. The vectors consist of parts of equal length.
-    /// @param weight one for each element of a part  @param depth number of differences that are kept, 0..4
+    /// Stores a step of the iteration: its input and its output. Both vectors consist of parts of equal
+    /// length.
+    /// @param weight weight of each element of a part
+    /// @param depth number of differences between steps that are kept, 0..4
     void remember(std::span<const float> input, std::span<const float> output, std::span<const float> weight,
                   int depth);
-    /// Whether `output` equals the output of the last step.
+    /// True if `output` equals the output of the last step.
     bool continues(std::span<const float> output) const;
     bool isReady() const { return !earlier_.empty(); }
-    /// Replaces the output of the last step by the mix. Does nothing after the first step.
+    /// Replaces the output of the last step by the mixture of the last steps. Does nothing after the first
+    /// step.
     void mix(std::span<float> io) const;
 
 private:

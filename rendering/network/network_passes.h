@@ -11,20 +11,22 @@
 
 namespace fx::render {
 
-/// blocks along x and y in the texture of rays; one block per direction
+/// number of blocks along x and y in the texture of rays; one block per direction
 constexpr int kNetworkRays[2] = {7, 4};
-constexpr int kNetworkMoments = 3; ///< blocks of moments, and of sources: one per color
+constexpr int kNetworkMoments = 3; ///< number of blocks of moments, and of blocks of sources: one per color
 constexpr int kNetworkMedium = 2;  ///< blocks of the medium
 
 /// Three-dimensional textures of blocks of `cells` cubed texels, see shaders/network/network_grid.glsl. All
 /// are RGBA32F, except `scatter`.
 struct NetworkTextures
 {
-    ResourceId cells = {};   ///< emitted light [exposed/m], extinction [1/m]
-    ResourceId scatter = {}; ///< extinction times albedo [1/m], mean cosine
+    ResourceId cells = {};   ///< rgb emitted light [exposed/m]; a extinction [1/m]
+    ResourceId scatter = {}; ///< rgb extinction times albedo [1/m]; a mean cosine of the phase function
     ResourceId medium = {};  ///< kNetworkMedium blocks
-    ResourceId unswept = {}; ///< kNetworkMoments blocks: sources, without scattered light of the network
-    ResourceId sources = {}; ///< kNetworkMoments blocks: sources, with scattered light of the network
+    /// KNetworkMoments blocks: sources without the light that the network has scattered.
+    ResourceId unswept = {};
+    /// KNetworkMoments blocks: sources with the light that the network has scattered.
+    ResourceId sources = {};
     ResourceId moments = {}; ///< kNetworkMoments blocks: moments of the light; kept from frame to frame
     ResourceId rays = {};    ///< kNetworkRays blocks
 };
@@ -43,10 +45,11 @@ public:
         ResourceId grids;
         NetworkTextures textures;
         LightBindings lights;
-        int cells;          ///< along a side of a grid, a multiple of 8
+        int cells;          ///< number of cells along a side of a grid, a multiple of 8
         uint32_t gridCount; ///< > 0
         int sweeps;         ///< number of sweeps
-        bool prepares;      ///< medium or lights have changed; false: starts from the present sources
+        /// True: medium or lights have changed; false: the sweeps start from the present sources.
+        bool prepares;
     };
     struct Outputs
     {

@@ -35,16 +35,18 @@ namespace fx::render {
 /// @tests     tests/rendering/network/test_network_basis.cpp
 struct NetworkPhase
 {
-    double anisotropy = 0.0;                      ///< [1] g, clamped to its range
+    double anisotropy = 0.0;                      ///< [1] mean cosine g, clamped to its range
     double peak = 0.0;                            ///< [1] f
     std::array<double, 3> factors{1.0, 0.0, 0.0}; ///< [1] g_l
     int bands = 2;                                ///< L + 1
 
-    double extinctionShare(double albedo) const { return 1.0 - albedo * peak; } ///< [1] k' over k
+    double extinctionShare(double albedo) const { return 1.0 - albedo * peak; } ///< [1] k' / k
     double albedo(double albedo) const { return albedo * (1.0 - peak) / (1.0 - albedo * peak); }
     double series(double cosine) const; ///< [1/sr] P
 };
 
+/// The phase function with few moments that approximates the Henyey-Greenstein function.
+/// @param anisotropy [1] mean cosine g
 /// @param moments 4 or 9
 NetworkPhase networkPhase(double anisotropy, int moments);
 

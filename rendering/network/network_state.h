@@ -30,15 +30,17 @@ struct NetworkGrid
 struct NetworkState
 {
     NetworkGrid grid;
-    int moments = 0;          ///< 4 or 9; 0: no light
-    std::vector<float> light; ///< [cd/m2 sr] the first moment of all cells, then the second, and so on
+    int moments = 0; ///< number of moments, 4 or 9; 0: no light
+    /// [cd/m2 sr] Values of the first moment in all cells, then those of the second, and so on.
+    std::vector<float> light;
 };
 
-/// The same light in another grid, by linear interpolation. Outside of the old grid it is the light at the
-/// nearest border. Moments that `state` does not have are 0.
+/// Returns the same light in another grid, by linear interpolation. Outside of the old grid, the light is
+/// that at the nearest point of its border. Moments that `state` does not have are 0.
 NetworkState resampled(const NetworkState& state, const NetworkGrid& grid, int moments);
 
-/// Value at a point, interpolated linearly between the centers of cells. @param values one per cell
+/// Value at a point, interpolated linearly between the centers of cells.
+/// @param values one value per cell
 double interpolated(const float* values, const NetworkGrid& grid, const glm::dvec3& position);
 
 } // namespace fx::render

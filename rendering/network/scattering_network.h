@@ -24,23 +24,23 @@ namespace fx::render {
 /// Directions, moments and phase function of a network.
 struct NetworkSettings
 {
-    int directions = 26;     ///< 6, 14 or 26; 6 directions require 4 moments
-    int moments = 4;         ///< 4, or 9 for g above 0.4
-    double anisotropy = 0.0; ///< [1] mean cosine g of the phase function, -1..1, see network-phase
+    int directions = 26;     ///< number of directions: 6, 14 or 26; 6 directions require 4 moments
+    int moments = 4;         ///< number of moments: 4; or 9, for a mean cosine g above 0.4
+    double anisotropy = 0.0; ///< [1] mean cosine g of the phase function, -1..1, see formula network-phase
 };
 
 /// The medium in the cells. Arrays have one value per cell.
 struct NetworkMedium
 {
-    NetworkGrid grid;                  ///< 1 to 256 cells along each axis
+    NetworkGrid grid;                  ///< grid of 1 to 256 cells along each axis
     std::span<const float> extinction; ///< [1/m] >= 0
     std::span<const float> albedo;     ///< [1] 0..1
-    /// [cd/m2] per optical depth, >= 0. A gray body of black-body luminance B has (1 - albedo) B. Empty: no
-    /// emission.
+    /// [cd/m2] Emission per optical depth, >= 0. For a gray body it is (1 - albedo) times the black-body
+    /// luminance. Empty: no emission.
     std::span<const float> emission;
 };
 
-/// When sweeps end, and how they are accelerated.
+/// Conditions to end sweeps, and acceleration of their convergence.
 struct SweepRules
 {
     int sweeps = 1;         ///< largest number of sweeps
@@ -48,17 +48,19 @@ struct SweepRules
     double tolerance = 0.0; ///< [1] sweeps end when SweepReport::change is at most this
 };
 
-/// Result of the last sweeps. Scattered light means the power that the medium scatters, summed over all
-/// cells.
+/// Result of the last sweeps. "Scattered light" is the power that the medium scatters, summed over all cells.
 struct SweepReport
 {
-    int sweeps = 0;          ///< number of sweeps; 0: nothing has changed, and the tolerance is met
-    double change = 0.0;     ///< [1] change of the scattered light by the last sweep, as a share of it
-    double bound = 0.0;      ///< [1] upper bound of the error of the scattered light, as a share of it
-    bool isConverged = true; ///< the change is within the tolerance
+    /// Number of sweeps; 0: no sweep was needed, because nothing has changed and the tolerance is met.
+    int sweeps = 0;
+    /// [1] Change of the scattered light by the last sweep, divided by the scattered light.
+    double change = 0.0;
+    /// [1] Upper bound of the error of the scattered light, divided by the scattered light.
+    double bound = 0.0;
+    bool isConverged = true; ///< true: the change is within the tolerance
 };
 
-/// Powers, in the unit of radiance times [m2 sr]. After convergence, emitted = absorbed + escaped.
+/// Powers, in units of radiance times [m2 sr]. After convergence, emitted = absorbed + escaped.
 struct NetworkEnergy
 {
     /// Emission of the medium, first scattering of light sources, and light from outside.
@@ -109,13 +111,13 @@ struct NetworkEnergy
 class ScatteringNetwork
 {
 public:
-    /// Sets the medium, and sets unscattered light and environment to 0.
+    /// Sets the medium, and sets the unscattered light and the light from outside to 0.
     /// @return InvalidArgument for numbers outside of their ranges; the network is then not changed
     base::Status setMedium(const NetworkMedium& medium, const NetworkSettings& settings);
 
     /// Sets the light that enters from outside.
-    /// @param radiance [cd/m2] of light that travels in each of directions()
-    /// @return InvalidArgument for another count, or values that are negative or not finite
+    /// @param radiance [cd/m2] radiance of the light that travels in each of directions()
+    /// @return InvalidArgument for another number of values, or for values that are negative or not finite
     base::Status setEnvironment(std::span<const float> radiance);
 
     /// Adds unscattered light in a cell.
@@ -127,17 +129,18 @@ public:
     /// the result.
     SweepReport sweep(const SweepRules& rules, NetworkState& io, base::TaskRunner& tasks);
 
-    /// Energy of the light after one more sweep. The result of this sweep is not stored.
+    /// Computes the energy of the light after one more sweep. The result of this sweep is not stored.
     NetworkEnergy energy(const NetworkState& state, base::TaskRunner& tasks);
 
-    /// [1] Optical depth, without the forward peak, along a line through the grid. @param length [m]
+    /// [1] Optical depth, without the forward peak, along a line through the grid. @param length [m] length
+    /// of the line
     double opticalDepth(const glm::dvec3& from, const glm::dvec3& direction, double length) const;
 
     const NetworkGrid& grid() const { return grid_; }
     const NetworkPhase& phase() const { return phase_; }
     const std::vector<NeighborDirection>& directions() const { return directions_; }
     int moments() const { return moments_; }
-    /// [1/m] k' of a cell.
+    /// [1/m] Symbol k' of formula network-sweep in a cell.
     float extinction(size_t cell) const { return extinction_[cell]; }
     double contraction() const { return contraction_; } ///< [1] q
 
@@ -158,7 +161,7 @@ private:
     void followAlongX(size_t d);
     void countEnds(size_t d, const glm::ivec3& row, const float* out);
 
-    /// One sweep from `light` to next_.
+    /// Runs one sweep from the moments `light`; the result is next_.
     void sweepOnce(const std::vector<float>& light, base::TaskRunner& tasks);
     void findSources(const std::vector<float>& light, base::TaskRunner& tasks);
     void sumMoments(base::TaskRunner& tasks);
@@ -170,20 +173,22 @@ private:
     NetworkPhase phase_;
     int moments_ = 4;
     double contraction_ = 0.0;
-    bool isNew_ = true; ///< medium or light has changed since the last sweep
+    bool isNew_ = true; ///< true: medium or light has changed since the last sweep
     std::vector<NeighborDirection> directions_;
     std::vector<std::array<float, kMaxNetworkMoments>> harmonics_; ///< by direction
     std::vector<float> extinction_;                                ///< [1/m] k'
     std::vector<float> scattering_;                                ///< [1] albedo'
-    std::vector<float> emission_;                                  ///< [cd/m2] E / (1 - albedo f)
-    std::vector<float> direct_;                                    ///< [lx] Q_k
-    std::vector<float> environment_;                               ///< [cd/m2] by direction
-    std::array<std::vector<float>, 3> taken_, mean_; ///< [1] a and u for squared lengths 1, 2, 3
-    std::vector<float> source_;                      ///< [cd/m2] moments of S
-    std::vector<float> radiance_;                    ///< [cd/m2] M by direction
+    std::vector<float> emission_;    ///< [cd/m2] symbols E / (1 - albedo f) of formula network-sweep
+    std::vector<float> direct_;      ///< [lx] Q_k
+    std::vector<float> environment_; ///< [cd/m2] by direction
+    /// [1] Symbols a and u of formula network-sweep for steps of squared length 1, 2, 3.
+    std::array<std::vector<float>, 3> taken_, mean_;
+    std::vector<float> source_;   ///< [cd/m2] moments of S
+    std::vector<float> radiance_; ///< [cd/m2] M by direction
     std::vector<float> next_;
-    std::vector<std::vector<float>> planes_; ///< [cd/m2] by direction: I' of two slices
-    std::vector<Ends> ends_;                 ///< by direction
+    /// [cd/m2] By direction: symbol I' of formula network-sweep in two slices of cells.
+    std::vector<std::vector<float>> planes_;
+    std::vector<Ends> ends_; ///< by direction
     NetworkMixing mixing_;
     SweepReport last_;
 };

@@ -1,5 +1,5 @@
 /// @file phase.h
-/// Phase functions: the directions into which a medium scatters light.
+/// Phase functions, which give the distribution of directions into which a medium scatters light.
 #pragma once
 
 #include "shaders/formulas/formula.h"
@@ -7,7 +7,7 @@
 namespace fx::render {
 
 /// Share of scattered light that leaves per solid angle [1/sr], see shaders/formulas/henyey_greenstein.fx.h.
-/// @param cosine cosine between old and new direction, -1..1; 1 is no change of direction
+/// @param cosine cosine of the angle between old and new direction, -1..1; 1 is no change of direction
 /// @param g mean cosine, (-1, 1); 0 is isotropic
 inline float henyeyGreenstein(float cosine, float g)
 {

@@ -21,9 +21,10 @@ std::span<const ProgramDesc* const> outputPrograms();
 /// Data of the nearest opaque particle in each pixel.
 struct SolidMarks
 {
-    /// RGBA32F, xyz [m/s], w 1; w 0: no particle. Invalid: no particles in the picture
+    /// RGBA32F xyz velocity [m/s], w 1; if w is 0, the pixel has no particle. Invalid: there are no particles
+    /// in the picture
     ResourceId velocity;
-    ResourceId instance; ///< RG32UI id of its instance, low word first
+    ResourceId instance; ///< RG32UI id of the particle's instance, low word first
 };
 
 /// Draws opaque particles again, to write their SolidMarks.
@@ -69,7 +70,7 @@ private:
     bool hasFrame_ = false;
 };
 
-/// One picture for each bit of view_output, in the order of bits; invalid if not requested.
+/// The picture of each bit of view_output, in the order of the bits; invalid if it was not requested.
 using OutputTextures = std::array<ResourceId, view_output::kCount>;
 
 /// Computes the outputs of each pixel from the balls, cards and opaque particles on its ray. Outputs have the

@@ -7,8 +7,8 @@
 
 namespace fx::render {
 
-/// Exists while the settings of a view request outputs. It gathers after all techniques and before the
-/// composition, and leaves all streams in the frame.
+/// Exists while the settings of a view request outputs. Its gather() is called after that of all techniques
+/// and before that of the composition. It removes no streams from the frame.
 class OutputView final : public TechniqueView
 {
 public:
@@ -23,7 +23,7 @@ public:
     void readBack(const GlBackend& backend, FrameStatistics& statistics) override;
 
     /// Adds the passes of a frame. PassFrame::distance must include opaque particles.
-    /// @param hostDistance [m] along the ray to the host's opaque geometry, without particles
+    /// @param hostDistance [m] distance along the ray to the host's opaque geometry, without particles
     [[nodiscard]] OutputTextures addTo(FrameGraph& graph, const PassFrame& frame, ResourceId hostDistance,
                                        std::span<const MediaSource* const> solids, const PastFrame& past);
 

@@ -31,48 +31,49 @@ public:
     static constexpr uint32_t kMaxMergedRows = 4096;
     static constexpr double kFarthestMerged = 2000.0; ///< [m]
 
-    /// @param techniques must stay valid
+    /// @param techniques techniques whose groups are merged; they must stay valid
     GroupMerger(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema* schema,
                 std::pmr::memory_resource* memory);
 
-    /// @param of revisions of the snapshots; if they equal the previous ones, the previous result is reused
-    /// @param newerRows, olderRows  revisions of rows by group; without parts, they are unknown
+    /// Merges the groups of two snapshots.
+    /// @param of revisions of the snapshots; if they equal those of the last call, its result is reused
+    /// @param newerRows, olderRows revisions of rows by group; empty: they are unknown
     void build(const base::SnapshotPair& snapshots, const RevisionPair& of,
                const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
-    /// Snapshots with the merged groups of build(). They may be without groups.
+    /// The snapshots with the merged groups of build(). They may have no groups.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
-    RevisionPair revisions() const { return revisions_; } ///< revisions of merged()
+    RevisionPair revisions() const { return revisions_; } ///< revisions of the snapshots merged()
     /// Revisions of the rows of merged(), with one part per member of a merged group. They are 64-bit hashes
     /// of the revisions of the merged rows.
     SnapshotRowRevisions newerRows() const { return {newerRevisions_, partsBegin_, {}}; }
     SnapshotRowRevisions olderRows() const { return {olderRevisions_, partsBegin_, {}}; }
-    /// For a group of merged(): the source group of each range of rows.
+    /// For a group of merged(): its ranges of rows, with the effect to which each belongs.
     std::span<const RowPart> partsOf(size_t group) const
     {
         return {parts_.data() + partsBegin_[group], partsBegin_[group + 1] - partsBegin_[group]};
     }
-    /// By group of the newer snapshot: 1 if it is part of a merged group.
+    /// By group of the newer snapshot: 1 if the group is part of a merged group.
     std::span<const uint8_t> taken() const { return taken_; }
 
 private:
     struct Member
     {
         MergeSource newer;
-        MergeSource older;             ///< without rows if there is no older group, and for strips
-        size_t newerIndex, olderIndex; ///< group indices in the two snapshots
+        MergeSource older;             ///< empty if there is no older group, and for strips
+        size_t newerIndex, olderIndex; ///< indices of the group in the two snapshots
         uint32_t firstRow;
         uint32_t rows;
-        uint32_t next; ///< next member of the same set, or kNone
+        uint32_t next; ///< index of the next member of the same set, or kNone
     };
     struct Set
     {
         const RowTechnique* technique;
-        uint32_t first, last; ///< members
+        uint32_t first, last; ///< first and last member, as indices in members_
         uint32_t count;
         uint32_t rows;
-        size_t group; ///< group of the first member in the newer snapshot
+        size_t group; ///< index of the first member's group in the newer snapshot
     };
-    /// Source of a range of rows of a merged group.
+    /// The source of a range of rows of a merged group.
     struct Layout
     {
         base::GroupName name;
@@ -91,7 +92,7 @@ private:
                            const SnapshotRowRevisions& rows) const;
     void listRevisions(bool isOlder, const SnapshotRowRevisions& rows);
     void listParts();
-    /// Calls f(set) for each set that becomes a group.
+    /// Calls f(set) for each set that becomes a merged group.
     template <class F>
     void forEachSet(F&& f)
     {
@@ -108,15 +109,16 @@ private:
 
     std::span<const RowTechnique* const> techniques_;
     const base::SnapshotSchema* schema_;
-    RevisionPair built_; ///< inputs of merged()
+    RevisionPair built_; ///< revisions of the snapshots from which merged() was built
     RevisionPair revisions_;
     std::pmr::vector<Member> members_;
     std::pmr::vector<Set> sets_;
     std::pmr::vector<uint8_t> taken_;
     std::pmr::vector<RowPart> parts_;
-    std::pmr::vector<size_t> partsBegin_;                           ///< by group of newer_, and the end
-    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by part of parts_
-    std::pmr::vector<Layout> layout_, layoutBefore_;                ///< present and previous layout of newer_
+    /// By group of newer_: index of its first part; then the number of parts.
+    std::pmr::vector<size_t> partsBegin_;
+    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by index of a part in parts_
+    std::pmr::vector<Layout> layout_, layoutBefore_; ///< the present and the previous layout of newer_
     /// Placements of the first members of merged groups.
     std::pmr::vector<base::Placement> anchors_, anchorsBefore_;
     MergedRows rows_;

@@ -21,9 +21,10 @@ namespace fx::render {
 /// A group of a snapshot whose rows are merged. Its rows may be pooled.
 struct MergeSource
 {
-    const base::SnapshotGroup* rows = nullptr; ///< columns and constants; null: no group
-    const base::PooledRows* pool = nullptr;    ///< pool that contains the rows; null: not pooled
-    /// Roster entry of a pooled group; null: not pooled.
+    /// Columns and constants of the group; null: there is no group.
+    const base::SnapshotGroup* rows = nullptr;
+    const base::PooledRows* pool = nullptr; ///< pool that contains the rows; null: the group is not pooled
+    /// Roster entry of a pooled group; null: the group is not pooled.
     const base::GroupRoster::Entry* entry = nullptr;
     uint32_t count = 0;
 
@@ -40,16 +41,17 @@ public:
 
     void begin(const base::FrameSnapshot& from, base::FrameSnapshot& to);
     /// Adds a merged group of `rows` rows, with the columns, constants and position of `like`.
-    /// @param technique must have a RowMerge and stay valid
+    /// @param technique technique with a RowMerge, which must stay valid
     void addGroup(const RowTechnique& technique, const MergeSource& like, uint32_t rows);
     /// Fills `rows` rows of the last added group, from `firstRow` on, with the rows of `from`. If `from` has
     /// fewer, the remaining rows are empty.
-    /// @param number of the member, >= 1; makes the strip numbers of members different
+    /// @param number number of the member, >= 1; strip numbers depend on it, so that those of different
+    ///         members differ
     void addRows(const MergeSource& from, uint32_t firstRow, uint32_t rows, uint32_t number);
     /// Writes all merged groups. A merged group gets bounds if all its members have bounds.
     void write();
-    /// Bounds of the group passed to addRows() call number `index`, in the local space of that group. Call
-    /// after write().
+    /// Bounds of the group that was passed to call number `index` of addRows(), in the local space of that
+    /// group. Valid after write().
     const base::Bounds& bounds(size_t index) const { return members_[index].bounds; }
 
 private:
@@ -69,8 +71,8 @@ private:
     base::FrameSnapshot* to_ = nullptr;
     PoolScatter scatter_;
     std::pmr::vector<Member> members_;
-    std::pmr::vector<size_t> begin_;                   ///< by group: index of its first member
-    std::pmr::vector<const RowTechnique*> techniques_; ///< by group
+    std::pmr::vector<size_t> begin_;                   ///< by merged group: index of its first member
+    std::pmr::vector<const RowTechnique*> techniques_; ///< by merged group
     std::pmr::vector<base::SnapshotGroup*> groups_;
     std::pmr::vector<PlacedRows> placed_; ///< rows of one merged group
     bool anyPooled_ = false;

@@ -44,7 +44,7 @@ enum : size_t
 };
 }
 
-/// Offsets of columns in words from the begin of a group; -1: absent.
+/// Offsets of the columns, in words from the begin of the group; -1: the group does not have this column.
 using RowPlaces = std::array<int32_t, 16>;
 
 /// A moment between two snapshots.
@@ -55,18 +55,18 @@ struct RowMoment
 };
 
 /// Computes the column offsets of the packed rows of a group of the kind "particle".
-/// @param room capacity in rows
+/// @param room number of rows for which space is reserved
 /// @return size in words
 uint64_t layOutPacked(const base::SnapshotGroup& group, uint64_t room, RowPlaces& out);
 /// [byte] Size of a row.
 uint32_t packedRowBytes(const RowPlaces& places);
 
-/// Writes rows of a group.
-/// @param out begin of the group
+/// Writes packed rows of a group.
+/// @param out begin of the group's memory
 void packRows(const base::SnapshotGroup& group, uint32_t first, uint32_t count, const RowPlaces& places,
               std::byte* out);
-/// Writes rows interpolated between two snapshots, as fetchParticle() in the shader computes them. Rows of
-/// particles that are not born at the moment become empty.
+/// Writes packed rows that are interpolated between two snapshots, with the formulas of fetchParticle() in
+/// the shader. Rows of particles that are born after the moment become empty.
 /// @param older the same group in the older snapshot
 void packRowsBetween(const base::SnapshotGroup& newer, const base::SnapshotGroup& older,
                      const RowMoment& moment, uint32_t first, uint32_t count, const RowPlaces& places,

@@ -15,8 +15,8 @@ struct PackedTile
     float red[kRows], green[kRows], blue[kRows], opacity[kRows];
     float velocityX[kRows], velocityY[kRows], velocityZ[kRows], angle[kRows], frame[kRows];
     float qx[kRows], qy[kRows], qz[kRows], qw[kRows];
-    float flip[kRows];    ///< -1 or 1: sign of the orientation quaternion
-    uint32_t turn[kRows]; ///< 12 bits, see packed_rows.h
+    float flip[kRows];    ///< sign of the orientation quaternion, -1 or 1
+    uint32_t turn[kRows]; ///< "turn" in 12 bits, see packed_rows.h
 
     /// Sets rows to 0, which makes them empty.
     void fillFrom(uint32_t first, uint32_t count)

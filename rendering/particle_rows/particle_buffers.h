@@ -36,17 +36,17 @@
 
 namespace fx::render {
 
-/// Revisions by which rows on the GPU are identified.
+/// Revisions that identify rows on the GPU.
 struct UploadRevisions
 {
-    RevisionPair snapshots; ///< snapshots with equal revisions share a Place
+    RevisionPair snapshots; ///< revisions of the snapshots; snapshots with equal revisions share a Place
     SnapshotRowRevisions newerRows, olderRows;
 };
 
 class ParticleBuffers
 {
 public:
-    /// @param techniques techniques whose groups are written; must stay valid
+    /// @param techniques techniques whose groups are written; they must stay valid
     ParticleBuffers(GlDevice& device, std::span<const RowTechnique* const> techniques,
                     std::pmr::memory_resource* memory);
 
@@ -54,25 +54,26 @@ public:
     /// @return OutOfMemory, GlFailed, TooLarge (a group exceeds the limit of storage buffers)
     base::Status prepare(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                          ParticleFrame& frame, const base::AssetTable* assets);
-    /// Called instead of prepare(): the frame draws the rows of the last frame.
+    /// Must be called instead of prepare() if the frame draws the rows of the last frame.
     void keep(const ParticleFrame& frame);
-    /// Called instead of prepare() for a frame without particles. After many such frames, all buffers are
-    /// deleted until the next prepare().
+    /// Must be called instead of prepare() for a frame without particles. After many such frames, all buffers
+    /// are deleted until the next prepare().
     void idle();
-    /// Must be called after all draws of the frame have been issued.
+    /// Inserts fences, so that buffers are not overwritten while the GPU reads them. Must be called after all
+    /// draws of the frame have been issued.
     void fence();
-    /// Rows to compute on the GPU before the frame's batches are drawn.
+    /// The rows that must be computed on the GPU before the frame's batches are drawn.
     std::span<const GpuRowsJob> jobs() const { return jobs_; }
-    /// True after computing particles has failed in this context.
+    /// True if computing particles on the GPU has failed in this context.
     bool refusesGpu() const { return refusesGpu_; }
     void warmUp(const base::GpuParticleProgram& emitter);
-    /// Call this if the last frame failed: invalidates the rows that it should have computed.
+    /// Must be called if the last frame failed. The rows that it should have computed become invalid.
     void forgetComputed();
 
-    uint64_t uploadedBytes() const { return uploadedBytes_; } ///< [byte] in the last prepare()
-    /// [byte] in the last prepare(): rows reused from an earlier snapshot.
+    uint64_t uploadedBytes() const { return uploadedBytes_; } ///< [byte] uploaded by the last prepare()
+    /// [byte] size of the rows that the last prepare() reused from an earlier snapshot.
     uint64_t keptBytes() const { return keptBytes_; }
-    /// [byte] in the last prepare(): rows shared with an earlier group of the snapshot.
+    /// [byte] size of the rows that the last prepare() shared with an earlier group of the same snapshot.
     uint64_t sharedBytes() const { return sharedBytes_; }
     uint64_t bytes() const; ///< [byte] size of all buffers
 
@@ -81,16 +82,17 @@ private:
     struct GroupPlace
     {
         uint64_t offset = 0, bytes = 0;
-        RowPlaces columns{}; ///< in words from the offset; -1: absent
+        /// Offsets of the columns in words, relative to `offset`; -1: the column does not exist.
+        RowPlaces columns{};
         // Only for rows that the GPU computes. Then the members above refer to the buffer Place::computed.
-        uint64_t wordsOffset = 0, wordsBytes = 0; ///< range of the input data
+        uint64_t wordsOffset = 0, wordsBytes = 0; ///< range of the input data of the computation
         bool isComputed = false;
-        bool isThere = false;  ///< rows are valid after the jobs of this frame have run
-        bool isPacked = false; ///< in the layout of packed_rows.h
-        /// Rows of the CPU have been written; false for groups that are not drawn.
+        bool isThere = false;  ///< true: the rows are valid after the jobs of this frame have run
+        bool isPacked = false; ///< true: the rows have the layout of packed_rows.h
+        /// True: the CPU has written the rows. False for groups that are not drawn.
         bool isWritten = false;
-        bool isShared = false;             ///< shares the rows of an earlier group
-        size_t rowsBegin = 0, rowsEnd = 0; ///< range of the group in Place::rows
+        bool isShared = false;             ///< true: the group shares the rows of an earlier group
+        size_t rowsBegin = 0, rowsEnd = 0; ///< range of the group's revisions in Place::rows
     };
     struct Place
     {
@@ -98,10 +100,10 @@ private:
         GlBuffer computed;     ///< rows that the GPU writes
         uint64_t revision = 0; ///< revision of the content; 0: none
         uint64_t usedFrame = 0;
-        bool hasPools = false; ///< includes pooled groups
+        bool hasPools = false; ///< true: includes pooled groups
         std::pmr::vector<GroupPlace> groups;
         std::pmr::vector<RowRevision> rows;        ///< revisions of all groups
-        std::pmr::vector<GroupPlace> groupsBefore; ///< previous content
+        std::pmr::vector<GroupPlace> groupsBefore; ///< location of groups in the previous content
         std::pmr::vector<RowRevision> rowsBefore;
 
         explicit Place(std::pmr::memory_resource* memory)
@@ -118,10 +120,10 @@ private:
     struct Source
     {
         const base::FrameSnapshot* snapshot;
-        uint64_t revision; ///< 0: interpolated
+        uint64_t revision; ///< revision of the snapshot; 0: rows are interpolated
         SnapshotRowRevisions rows;
-        bool withPools; ///< also pooled groups
-        bool isOlder;   ///< true: the older snapshot of the frame
+        bool withPools; ///< true: also write pooled groups
+        bool isOlder;   ///< true: the snapshot is the older one of the frame
         // Only for interpolated rows:
         const base::FrameSnapshot* older = nullptr;
         SnapshotRowRevisions olderRows = {};
@@ -134,7 +136,7 @@ private:
                                  ParticleFrame& frame, Place*& older, Place*& newer);
     bool mixes(const base::SnapshotPair& snapshots, const UploadRevisions& revisions, ParticleFrame& frame);
     size_t olderOf(size_t group) const;
-    /// Whether a group has the same rows as an earlier group.
+    /// True if a group has the same rows as an earlier group.
     bool isAlike(const Source& source, size_t group) const;
     base::Status makeRoom(const Sizes& sizes, Place& place);
     Sizes layOut(const Source& source, std::pmr::vector<GroupPlace>& out) const;
@@ -144,9 +146,11 @@ private:
     base::Status takeRows(Place& place, const base::SnapshotGroup& group, size_t index, uint32_t batch,
                           bool isNewer, BufferPart& outPart);
     void write(const Source& source, Place& place);
-    /// @param before location of the previous content with the same columns; null: none
+    /// Writes the rows of a group.
+    /// @param before location of the previous content with the same columns; null: there is none
     void writeRows(const Source& source, size_t group, const GroupPlace* before, Place& place);
-    /// @param stands the rows equal the present content of the buffer
+    /// Writes a range of the rows of a group.
+    /// @param stands true: the rows equal the present content of the buffer
     void writePart(const Source& source, size_t group, const RowRevision& part, bool stands, Place& place);
     base::Status writeOrders(ParticleFrame& frame);
     base::Status findAssets(ParticleFrame& frame, const base::AssetTable* assets);
@@ -165,9 +169,9 @@ private:
     GpuStates states_;
     std::pmr::vector<GpuRowsJob> jobs_;
     std::pmr::vector<uint8_t> wanted_; ///< by group of the snapshot that is being written: 1 if it is drawn
-    /// by group of the newer snapshot: the older group; only for interpolated rows
+    /// by group of the newer snapshot: index of the older group; used only for interpolated rows
     std::pmr::vector<size_t> older_;
-    RevisionPair mixed_; ///< snapshots between which the last frame was interpolated
+    RevisionPair mixed_; ///< revisions of the snapshots between which the last frame was interpolated
     bool refusesGpu_ = false;
     uint64_t frame_ = 0;
     uint32_t idleFrames_ = 0; ///< number of successive calls of idle()

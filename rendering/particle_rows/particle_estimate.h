@@ -10,10 +10,11 @@
 namespace fx::render {
 
 /// Estimated number of fragments of all rows, for each of kLayerDivisors. A row counts at most as large as
-/// the window. Every 61st row is a sample for the others. Clipping and occlusion are ignored.
+/// the window. Every 61st row is evaluated, and represents the rows after it. Clipping and occlusion are
+/// ignored.
 /// @param group   group of the technique's kind
-/// @param place placement relative to the eye
-/// @param width, height of the picture [pixel]
+/// @param place placement of the group relative to the eye
+/// @param width, height [pixel] size of the picture
 FragmentCounts estimateRows(const base::SnapshotGroup& group, const RowTechnique& technique,
                             const base::Placement& place, const CameraGeometry& camera, int width,
                             int height);

@@ -21,27 +21,28 @@
 
 namespace fx::render {
 
-/// How the list of drawn rows is stored; shaders use the same values.
+/// Storage of the list of drawn rows; shaders use the same values.
 enum class OrderForm : uint8_t
 {
-    All,            ///< no list: all rows, in the order of rows
-    Rows,           ///< one word per drawn row: its index
-    FactorsBeside,  ///< two words per drawn row: its index and its factors
-    RowFactorsOnly, ///< one word per row, in the order of rows: its factors
+    All,            ///< no list: all rows are drawn, in the order of rows
+    Rows,           ///< one word for each drawn row: its index
+    FactorsBeside,  ///< two words for each drawn row: its index, and the factors of size and opacity
+    RowFactorsOnly, ///< one word for each row, in the order of rows: the factors of size and opacity
 };
 
-/// A drawn group. The batch with the same index belongs to it.
+/// A group that is drawn. The batch with the same index belongs to it.
 struct ParticleGroup
 {
     const RowTechnique* technique;
     const base::SnapshotGroup* newer;
-    const base::SnapshotGroup* older; ///< null if there is none, and for strips
-    size_t newerIndex, olderIndex;    ///< group indices in the two snapshots
-    /// Rows in the order of drawing; empty: all rows, in the order of rows.
+    const base::SnapshotGroup* older; ///< null for strips, and if there is no older group
+    size_t newerIndex, olderIndex;    ///< indices of the group in the two snapshots
+    /// Indices of rows in the order of drawing; empty: all rows are drawn, in the order of rows.
     std::span<const uint32_t> order;
-    std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: all rows are drawn unchanged
-    uint32_t texture, motion, mesh;    ///< ids in the asset table
-    int columns, rows;                 ///< frames of the texture
+    /// By row: factors of size and opacity, see simplifyRows(); empty: all rows are drawn unchanged.
+    std::span<const uint32_t> factors;
+    uint32_t texture, motion, mesh; ///< ids in the asset table
+    int columns, rows;              ///< number of frames of the texture along x and y
     OrderForm orderForm = OrderForm::All;
 };
 
@@ -52,9 +53,11 @@ struct ParticleFrameInputs
     const FrameRequest* request;
     const ViewSettings* settings;
     const CameraGeometry* camera;
-    std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 if it is omitted
-    LevelOfDetail* lod = nullptr;        ///< begin() must have been called; null: all rows are drawn
-    const GroupMerger* merger = nullptr; ///< merger that made the snapshots; null: snapshots of the scene
+    std::span<const uint8_t> left = {}; ///< by group of the newer snapshot: 1 if the group is omitted
+    /// Level of detail, whose begin() must have been called; null: all rows are drawn.
+    LevelOfDetail* lod = nullptr;
+    /// Merger that has made the snapshots; null: they are the snapshots of the scene.
+    const GroupMerger* merger = nullptr;
     std::span<const RowTechnique* const> techniques = {};
 };
 
@@ -63,7 +66,7 @@ struct DrawnCounts
 {
     uint64_t sprites = 0;
     uint64_t meshes = 0;
-    uint64_t ribbonPieces = 0; ///< pieces between two points of a strip
+    uint64_t ribbonPieces = 0; ///< number of pieces of strips; each piece lies between two points
 };
 
 /// Owns the orders of rows of one view. Orders and memory are kept from frame to frame.
@@ -82,13 +85,15 @@ public:
     std::span<ParticleBatch> batches() { return batches_; }
     /// Sort order of the rows of computed batches.
     std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
-    /// Streams of batches that are not opaque, for DrawBatcher.
+    /// The streams of those batches that are not opaque, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
-    /// True if outputs contain motion. Then rows of both snapshots are required, and groups are not merged.
+    /// True if outputs contain motion. Then the rows of both snapshots are required, and groups are not
+    /// merged.
     bool keepsSnapshots() const { return keepsSnapshots_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< number of sorted rows
-    uint64_t thinnedRows() const { return thinnedRows_; } ///< not drawn due to the level of detail
+    /// Number of rows that were omitted by the level of detail.
+    uint64_t thinnedRows() const { return thinnedRows_; }
     /// Estimated number of fragments of transparent rows.
     const FragmentCounts& fragments() const { return fragments_; }
 
@@ -116,7 +121,7 @@ private:
     std::pmr::vector<DrawStream> streams_;
     std::pmr::vector<GpuOrderJob> gpuOrders_;
     std::pmr::vector<std::unique_ptr<Orderer>> orderers_;
-    size_t lastOrderer_ = 0; ///< index of the last result of ordererOf()
+    size_t lastOrderer_ = 0; ///< index in orderers_ of the last result of ordererOf()
     uint64_t frame_ = 0;
     bool keepsSnapshots_ = false;
     DrawnCounts drawn_;

@@ -19,17 +19,20 @@ class PoolScatter
 public:
     explicit PoolScatter(std::pmr::memory_resource* memory);
 
-    /// Begins with a snapshot whose roster entries are copied.
+    /// Begins a new copy.
+    /// @param snapshot snapshot to whose roster the entries belong
     /// @param groups number of merged groups
     void begin(const base::FrameSnapshot& snapshot, size_t groups);
-    /// Requests that run() copies the rows of `entry` to `rows` rows of a merged group, from `firstRow` on.
+    /// Requests that run() copies the rows of `entry` to the merged group number `group`. `rows` rows are
+    /// reserved there, from `firstRow` on.
     void send(const base::GroupRoster::Entry& entry, uint32_t group, uint32_t firstRow, uint32_t rows)
     {
         targets_[first_[entry.pool] + entry.member] = {&entry, group, firstRow, rows};
         isSentTo_[group] = 1;
     }
-    /// Writes all columns of non-empty rows, with rotated orientations. Rows without a source become zero.
-    /// @param groups the merged groups, each with count() rows; groups without a source do not change
+    /// Writes all columns of non-empty rows, with rotated orientations. Reserved rows without a source become
+    /// zero.
+    /// @param groups the merged groups, each with count() rows; groups without a source are not changed
     void run(const base::FrameSnapshot& snapshot, std::span<base::SnapshotGroup* const> groups);
     /// Extent of the rows of an entry. Its pool must have velocities.
     const base::RowExtent& extentOf(const base::GroupRoster::Entry& entry) const
@@ -40,12 +43,12 @@ public:
 private:
     struct Target
     {
-        const base::GroupRoster::Entry* entry = nullptr; ///< null: not copied
+        const base::GroupRoster::Entry* entry = nullptr; ///< null: the entry is not copied
         uint32_t group = 0, firstRow = 0, rows = 0;
     };
     struct Move
     {
-        uint32_t from, to; ///< rows
+        uint32_t from, to; ///< rows in the pool and in the merged group
     };
     void list(const base::PooledRows& pool, std::span<const Target> targets,
               std::span<base::RowExtent> extents);
@@ -58,13 +61,14 @@ private:
         return {moves_.data() + begin_[group], ends_[group] - begin_[group]};
     }
 
-    std::pmr::vector<size_t> first_;            ///< by pool: index of its first member in targets_
-    std::pmr::vector<Target> targets_;          ///< by member, pool after pool
-    std::pmr::vector<base::RowExtent> extents_; ///< extents of rows; empty without velocities
-    std::pmr::vector<Move> moves_;              ///< moves of one pool, group after group
-    std::pmr::vector<uint32_t> begin_;          ///< by group: begin of its range in moves_
-    std::pmr::vector<uint32_t> ends_;           ///< by group: end of its range in moves_
-    std::pmr::vector<uint8_t> isSentTo_;        ///< by group: 1 if send() was called for it
+    std::pmr::vector<size_t> first_;   ///< by pool: index of its first member in targets_
+    std::pmr::vector<Target> targets_; ///< by member number, pool after pool
+    /// By member number: extent of its rows; empty if there are no velocities.
+    std::pmr::vector<base::RowExtent> extents_;
+    std::pmr::vector<Move> moves_;       ///< rows of one pool to copy, group after group
+    std::pmr::vector<uint32_t> begin_;   ///< by group: begin of its range in moves_
+    std::pmr::vector<uint32_t> ends_;    ///< by group: end of its range in moves_
+    std::pmr::vector<uint8_t> isSentTo_; ///< by group: 1 if send() was called for it
 };
 
 } // namespace fx::render

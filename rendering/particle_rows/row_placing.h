@@ -12,24 +12,25 @@
 
 namespace fx::render {
 
-/// The rows of one group. They may be transformed in place. Up to kRowsBehind rows after the end are read.
+/// The rows of one group, and the transform for them. They may be transformed in place. Up to kRowsBehind
+/// rows after the end are read.
 struct PlacedRows
 {
     const float* from[3]; ///< columns of the x, y and z components
-    const float* radius;  ///< [m]; > 0 if a row contains a visible particle
+    const float* radius;  ///< [m] column of radii; > 0 if the row contains a visible particle
     float* to[3];
     float* toRadius;
     uint32_t count;
     glm::quat rotation;
     float scale;
     glm::vec3 offset;       ///< [m]
-    base::RowExtent extent; ///< extent of non-empty rows, with their radii
+    base::RowExtent extent; ///< result: extent of non-empty rows, with their radii
 };
 
 constexpr uint32_t kRowsBehind = 16;
 
-/// Transforms positions and radii: offset + rotation * (scale * position), scale * radius. Sets `extent` to
-/// the extent before the transformation.
+/// Transforms positions and radii: offset + rotation * (scale * position), scale * radius. Also sets
+/// `extent`, to the extent before the transformation.
 void placeRows(std::span<PlacedRows> groups);
 
 /// Transforms directions: rotation * (scale * direction). Radii do not change.

@@ -15,14 +15,14 @@ namespace fx::render {
 /// A row approximated by a rectangle that faces the camera.
 struct RowCard
 {
-    glm::vec3 center; ///< [m] in the space of the group
-    float area;       ///< [m2]; 0: nothing is drawn
+    glm::vec3 center; ///< [m] position in the space of the group
+    float area;       ///< [m2] area of the rectangle; 0: nothing is drawn
 };
 
 /// One ball of medium that represents several rows, in the space of the group.
 struct RowBall
 {
-    uint32_t row = 0;          ///< the row at whose position the ball is
+    uint32_t row = 0;          ///< index of the row at whose position the ball is
     glm::vec3 center{0.0f};    ///< [m] center of that row
     float radius = 0.0f;       ///< [m] radius of that row
     float ownSection = 0.0f;   ///< [m2] extinction cross section of that row; 0: it casts no shadow
@@ -34,45 +34,49 @@ struct RowMerge
 {
     static constexpr size_t kNone = ~size_t(0);
 
-    size_t radius;              ///< column of the radius [m], 0 in empty rows
-    size_t velocity = kNone;    ///< first of three columns, which are rotated with the group
-    size_t orientation = kNone; ///< first of four columns of the orientation
-    /// Column of strip numbers, which are changed so that groups have different ones.
+    size_t radius;           ///< column of the radius [m], 0 in empty rows
+    size_t velocity = kNone; ///< first of the three columns of the velocity, which is rotated with the group
+    size_t orientation = kNone; ///< first of the four columns of the orientation
+    /// Column of the strip number. Strip numbers are changed so that different groups have different ones.
     size_t strip = kNone;
-    base::ColumnSet copied; ///< columns that are copied unchanged, and the strip numbers
+    base::ColumnSet copied; ///< columns that are copied without transformation, including the strip number
 };
 
 struct RowTechnique
 {
     const base::KindDesc* kind;
-    /// Rows are points of strips, drawn as pieces between two points; not matched with older rows.
+    /// True: rows are points of strips. Pieces between two points are drawn, and rows are not matched with
+    /// older rows.
     bool isStrip;
-    bool isComputed;                           ///< the GPU computes the rows from the data of the group
+    bool isComputed;                           ///< true: the GPU computes the rows from the data of the group
     std::span<const base::ColumnDesc> columns; ///< columns of the rows
     base::ColumnSet drawnColumns;              ///< columns that shaders read
 
-    bool (*isThere)(const base::SnapshotGroup& group); ///< whether a group has something to draw
+    bool (*isThere)(const base::SnapshotGroup& group); ///< returns true if the group has something to draw
     BatchShape (*shape)(const base::SnapshotGroup& group);
     uint32_t (*rows)(const base::SnapshotGroup& group);
-    /// Card of a row, to estimate fragments. For strips, the row must not be the last of the group.
+    /// Returns the card of a row, which is used to estimate fragments. For strips, the row must not be the
+    /// last of the group.
     RowCard (*card)(const base::SnapshotGroup& group, size_t row);
-    base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< computes bounds of a group that has none
-    /// How groups are merged; their first three columns are positions. Null: groups are not merged.
+    base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< returns the bounds of a group that has none
+    /// The columns to transform when groups are merged; the first three columns are positions. Null: groups
+    /// are not merged.
     const RowMerge* merge = nullptr;
-    /// A ball that casts the shadow of `count` instances from `first` on. Null: groups cast no shadow.
+    /// Returns a ball that casts the shadow of `count` drawn elements from number `first` on. Null: groups
+    /// cast no shadow.
     RowBall (*ball)(const base::SnapshotGroup& group, uint32_t first, uint32_t count) = nullptr;
 
-    /// Number of drawn elements of a group: rows, or pieces between them.
+    /// Number of drawn elements of a group: rows, or pieces of strips between two rows.
     uint32_t instances(const base::SnapshotGroup& group) const { return rows(group) - (isStrip ? 1u : 0u); }
 };
 
-/// Techniques by the kinds of one schema.
+/// Finds the technique that draws a kind of snapshot data.
 class RowTechniques
 {
 public:
     static constexpr size_t kMax = 8;
 
-    /// @param techniques at most kMax are used; must stay valid
+    /// @param techniques techniques, which must stay valid; at most kMax are used
     RowTechniques(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema& schema)
         : techniques_(techniques.first(techniques.size() < kMax ? techniques.size() : kMax))
     {

@@ -12,14 +12,14 @@ namespace fx::render {
 
 struct BlobInstance
 {
-    glm::vec4 centerRadius; ///< xyz [m] relative to the eye, world axes; w radius [m]
+    glm::vec4 centerRadius; ///< xyz [m] position relative to the eye, along world axes; w radius [m]
     glm::vec4 medium;  ///< x cross section [m2]; y heat [K]; z detail amount [1]; w seed of the detail [0, 1)
     glm::vec4 scatter; ///< rgb albedo; w mean cosine of the phase function
-    glm::vec4 layer;   ///< x layer * 2 + share of fire
-    /// rgb emitted light, exposed; w exponent: detail scales emission by (temperature factor)^w
+    glm::vec4 layer;   ///< x number of the layer times 2, plus the share of fire
+    /// rgb emitted light, exposed; w exponent of the factor of detail (temperature factor)^w for the emission
     glm::vec4 emission;
-    /// xyz [m] center of the ball for lighting, relative to the eye; w periods of noise per radius. For a
-    /// ball in an impostor, w is -1 minus this value: such a ball is lit at its center only.
+    /// xyz [m] point at which the ball is lit, relative to the eye; w periods of noise per radius. For a ball
+    /// in an impostor, w is -1 minus this value: such a ball is lit at its center only.
     glm::vec4 lit;
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
@@ -27,8 +27,8 @@ static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 /// Noise coordinates of a ball, for the detail of its field.
 struct BlobMaterial
 {
-    /// xyz [cell] coordinates of both generations. carried[0].w: number of the detail of the ball's effect +
-    /// 1, or 0 without detail.
+    /// xyz [cell] coordinates of both generations. carried[0].w is the index of the detail of the ball's
+    /// effect + 1, or 0 without detail.
     glm::vec4 carried[2];
 };
 static_assert(sizeof(BlobMaterial) == 32);
@@ -36,11 +36,12 @@ static_assert(sizeof(BlobMaterial) == 32);
 /// Consecutive balls of one instance in a list.
 struct BlobEffect
 {
-    uint32_t begin, end; ///< range in the list of balls
-    glm::vec3 low, high; ///< [m] bounds of all of its balls, visible or not, relative to the eye, world axes
-    /// [m] quantile of all radii: smaller balls have a quarter of the total cross section
+    uint32_t begin, end; ///< range of the balls in the list
+    /// [m] Bounds of all balls of the instance, visible or not, relative to the eye, along world axes.
+    glm::vec3 low, high;
+    /// [m] quantile of the radii: balls with smaller radii have a quarter of the total cross section
     float radius;
-    int detail = -1; ///< index of the detail of their field; -1: none
+    int detail = -1; ///< index of the detail of the balls' field; -1: none
 };
 
 } // namespace fx::render

@@ -9,7 +9,7 @@
 namespace fx::render {
 
 extern const ProgramDesc kBlobLightProgram;
-constexpr size_t kBlobLightBytes = 3 * 16; ///< [byte] per blob
+constexpr size_t kBlobLightBytes = 3 * 16; ///< [byte] size of the data of a blob
 
 /// Computes, at four points of each blob, the light of sky, ground and point lights, and the multiply
 /// scattered light of the sun.

@@ -7,8 +7,9 @@
 namespace fx::render {
 
 /// The program of one permutation.
-/// @param detail with procedural detail  @param layers with layer targets  @param isSmall targets are smaller
-///         than the picture
+/// @param detail true: the program draws procedural detail
+/// @param layers true: the program writes layer targets
+/// @param isSmall true: the targets are smaller than the picture
 const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bool isSmall);
 constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
 const ProgramDesc& mediaProgramAt(size_t index);
@@ -22,10 +23,11 @@ public:
     void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override;
     const BallList* balls() const override { return &list; }
 
-    ResourceId blobs;      ///< buffer of BlobInstance
-    ResourceId blobLights; ///< buffer written by BlobLightPass; invalid without planes for the sky
+    ResourceId blobs; ///< buffer of BlobInstance
+    /// Buffer written by BlobLightPass; invalid if the sky has no planes of light slices.
+    ResourceId blobLights;
     BillboardForm form = BillboardForm::Kernel;
-    bool detail = false; ///< some blobs have procedural detail, and it is drawn
+    bool detail = false; ///< true: some blobs have procedural detail, and it is drawn
     BallList list;       ///< the same blobs, for compositions that sum them
 };
 

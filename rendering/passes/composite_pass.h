@@ -24,7 +24,7 @@ public:
         ResourceId media;
         ResourceId picture;
         int width, height;
-        bool inPlace; ///< blend into `picture` instead of creating a new color
+        bool inPlace; ///< true: blend into `picture`; false: create a new color
     };
     struct Outputs
     {

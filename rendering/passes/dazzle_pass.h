@@ -20,10 +20,12 @@ inline constexpr ProgramDesc kDazzleDealProgram{"dazzle deal", nullptr, nullptr,
 /// first frame.
 struct DazzleHistory
 {
-    double adapted[3];   ///< [1] adapted mean overflow per pixel, in units of white; red, green, blue
+    double adapted[3];   ///< [1] adapted mean overflow per pixel, in units of white, for red, green and blue
     double frameMean[3]; ///< [1] mean overflow per pixel of the last frame, in units of white
-    uint32_t valid;      ///< 1 after the first frame
-    uint32_t replaced;   ///< channel values of the last frame that were not finite, negative or too large
+    uint32_t valid;      ///< 1 after the first frame, 0 before it
+    /// Number of channel values of the last frame that were replaced because they were not finite, negative
+    /// or too large.
+    uint32_t replaced;
 };
 static_assert(sizeof(DazzleHistory) == 56);
 
@@ -39,9 +41,9 @@ DazzleScale dazzleScale(float white);
 /// [1] Values are clamped to this factor times `white`, so that integer sums of a tile stay below 2^63.
 inline constexpr float kDazzleLargest = 0x1p30f;
 
-/// Share of the old adaptation that remains after `deltaTime` dt [s]: exp(-dt / tau), so that the division of
-/// time into frames does not matter. If dt is zero, negative or NaN, the history is kept completely; if tau
-/// is 0, it is discarded. @param timeConstant tau [s]
+/// Share of the previous adaptation that is kept after the time dt [s] = `deltaTime`: exp(-dt / tau). So the
+/// result does not depend on the division of time into frames. If dt is zero, negative or NaN, the share is
+/// 1. If tau is 0, it is 0. @param timeConstant time constant tau [s]
 double dazzleKeep(double deltaTime, double timeConstant);
 
 /// Checks the settings: white in [1e-6, 1e9], times not negative, and a sensor law by which more light never
@@ -66,10 +68,10 @@ public:
     {
         ResourceId color;
         ResourceId history; ///< imported buffer of sizeof(DazzleHistory)
-        int width, height;  ///< [pixel], at most 16384 each
+        int width, height;  ///< [pixel] size of the picture; each at most 16384
         DazzleSettings settings;
-        double deltaTime;  ///< [s] since the last frame
-        bool resetHistory; ///< adaptation starts from this frame
+        double deltaTime;  ///< [s] time since the last frame
+        bool resetHistory; ///< true: adaptation starts from this frame
     };
     struct Outputs
     {

@@ -12,8 +12,8 @@ inline constexpr ProgramDesc kHeatOffsetProgram{"heat offset", "shimmer/heat_shi
 /// [s] Period of the motion of eddies in hot gas.
 inline constexpr double kHeatPeriod = 8.0;
 
-/// Position of `time` [s] in the period, [0, 1): equal at t and t + kHeatPeriod for every t. A time that is
-/// not finite gives 0.
+/// Phase of `time` [s] in the period kHeatPeriod, [0, 1): equal at t and at t + kHeatPeriod for every t. A
+/// time that is not finite gives 0.
 float heatPhase(double time);
 
 /// Refraction by hot gas: draws, for blobs with heat, the displacement of a distant background in pixels.
@@ -22,8 +22,8 @@ float heatPhase(double time);
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry
 /// writes  heat      RGBA32F, summed: xy displacement [pixel]; z weight [1]; w weight * distance [m]
-/// Adds nothing, and `heat` is invalid, if no blob is hot or the settings allow no displacement. Keeps no
-/// state: the motion of eddies is a function of time.
+/// If no blob is hot or the settings allow no displacement, no pass is added and `heat` is invalid. Keeps no
+/// state, because the motion of eddies is a function of time.
 class HeatOffsetPass
 {
 public:
@@ -31,8 +31,8 @@ public:
     {
         ResourceId blobs;
         ResourceId distance;
-        uint32_t count; ///< number of blobs, hot and cold
-        bool anyHeat;   ///< a blob has heat > 0
+        uint32_t count; ///< number of blobs, both hot and cold
+        bool anyHeat;   ///< true: a blob has heat > 0
         int width, height;
         ViewBlock view;
         ShimmerSettings settings;

@@ -17,8 +17,8 @@ inline constexpr ProgramDesc kHeatShimmerBackProgram{"heat shimmer back", "shimm
 /// A rectangle of the picture that hot gas may cover. heat_shimmer.vert.glsl reads this layout.
 struct HotArea
 {
-    uint32_t left, low;   ///< [pixel] the first column and row
-    uint32_t right, high; ///< [pixel] one past the last column and row
+    uint32_t left, low;   ///< [pixel] first column and first row
+    uint32_t right, high; ///< [pixel] last column + 1 and last row + 1
 };
 static_assert(sizeof(HotArea) == 16);
 
@@ -40,8 +40,8 @@ public:
     {
         ResourceId color;
         ResourceId distance;
-        ResourceId heat; ///< invalid: nothing is hot
-        /// Cover every pixel with heat; must stay valid until the graph has executed.
+        ResourceId heat; ///< invalid if nothing is hot
+        /// Areas that together cover every pixel with heat; must stay valid until the graph has executed.
         std::span<const HotArea> areas;
         int width, height;
         bool upperLeftOrigin; ///< see CameraView

@@ -1,5 +1,6 @@
 /// @file impostor_pass.h
-/// Impostors of far effects: rendered to tiles of one texture, and drawn as squares that face the eye.
+/// Impostors of far effects. They are rendered to tiles of one texture, and drawn as squares that face the
+/// eye.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -12,29 +13,29 @@
 namespace fx::render {
 
 constexpr int kImpostorTile = 32;    ///< [texel] width and height of an impostor
-constexpr int kImpostorColumns = 64; ///< number of tiles side by side
-constexpr int kImpostorRows = 32;    ///< number of tiles above each other
+constexpr int kImpostorColumns = 64; ///< number of tiles along x in the texture of impostors
+constexpr int kImpostorRows = 32;    ///< number of tiles along y in the texture of impostors
 constexpr uint32_t kImpostorTiles = uint32_t(kImpostorColumns * kImpostorRows);
-constexpr int kTakingColumns = 12; ///< impostors side by side that a frame can render
+constexpr int kTakingColumns = 12; ///< number of impostors along x (and y) that one frame can render
 constexpr uint32_t kImpostorTakings = uint32_t(kTakingColumns * kTakingColumns);
 
 /// One impostor that is rendered in this frame.
 struct ImpostorTaking
 {
-    glm::vec3 center; ///< [m] relative to the eye
+    glm::vec3 center; ///< [m] center relative to the eye
     float extent;     ///< [m] half the side of the square
     glm::vec3 right, up, forward;
-    uint32_t tile; ///< tile in the texture of impostors
+    uint32_t tile; ///< index of the tile in the texture of impostors
 };
 
 /// One drawn impostor; layout of shaders/blobs/impostor.vert.glsl.
 struct ImpostorInstance
 {
-    glm::vec4 center; ///< xyz [m] relative to the eye; w half the side of the square [m]
-    glm::vec4 right;  ///< xyz unit axis of the impostor; w tile of the newer impostor
-    glm::vec4 up;     ///< xyz unit; w tile of the older one
+    glm::vec4 center; ///< xyz [m] center relative to the eye; w half the side of the square [m]
+    glm::vec4 right;  ///< xyz unit axis to the right; w index of the tile of the newer impostor
+    glm::vec4 up;     ///< xyz unit axis upwards; w index of the tile of the older impostor
     /// x weight of the newer impostor; y share of the effect that is drawn as an impostor; z radius [m]; w
-    /// side of the square over that of the older impostor.
+    /// side of the newer impostor's square divided by that of the older.
     glm::vec4 appearance;
 };
 static_assert(sizeof(ImpostorInstance) == 64);
@@ -49,8 +50,8 @@ inline constexpr ProgramDesc kImpostorKeepProgram{"impostor keep", "blobs/impost
 /// The camera of all impostors that are rendered in one frame: orthographic, with the axes of the view, one
 /// unit per texel.
 CameraView takingCamera(const CameraGeometry& view);
-/// Position of a blob in the space of takingCamera(). @param blob [m] relative to the eye
-/// @param outScale factor of lengths
+/// Position of a blob in the space of takingCamera(). @param blob [m] position relative to the eye
+/// @param outScale receives the factor by which lengths change
 glm::vec3 placeInTaking(const ImpostorTaking& taking, uint32_t slot, const CameraGeometry& view,
                         const glm::vec3& blob, float& outScale);
 
@@ -65,7 +66,7 @@ public:
     {
         ResourceId taken;
         ResourceId atlas;
-        ResourceId tiles; ///< buffer with the tile of each rendered impostor, as uint
+        ResourceId tiles; ///< buffer with the tile index of each rendered impostor, as uint
         uint32_t count;
     };
     struct Outputs

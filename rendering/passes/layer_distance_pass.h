@@ -11,10 +11,10 @@ inline constexpr ProgramDesc kLayerDistanceProgram{"layer distance", "shared/ful
 inline constexpr ProgramDesc kLayerSpreadProgram{"layer spread", "shared/fullscreen.vert.glsl",
                                                  "frame/layer_spread.frag.glsl", nullptr, nullptr};
 
-/// [1] Relative range of 1 / distance up to which a block of pixels counts as one surface.
+/// [1] Largest relative range of 1 / distance in a block of pixels that counts as one surface.
 inline constexpr float kFlatBlock = 0.02f;
 
-/// [1] Relative difference of distance above which a neighboring block counts as another surface.
+/// [1] If the relative difference of distance exceeds this, a neighboring block counts as another surface.
 inline constexpr float kOtherSurface = 0.05f;
 
 /// Reduces the scene distance to the texels of layers that are smaller than the picture. A texel covers a
@@ -25,16 +25,16 @@ inline constexpr float kOtherSurface = 0.05f;
 ///         near      R32F [m] smallest distance of the block; 0, so that nothing is drawn, if one surface
 ///                   suffices. Invalid without depth
 /// Media in front of a thin pillar and media behind it are both drawn, because both ends of the range are
-/// kept. A block of one surface next to another surface has the distance of that surface as its other end.
-/// Keeps no state.
+/// kept. If a block of one surface is next to another surface, the distance of the other surface is the other
+/// end of its range. Keeps no state.
 class LayerDistancePass
 {
 public:
     struct Inputs
     {
         ResourceId distance;
-        bool hasDepth;     ///< false: distance is +inf everywhere
-        int width, height; ///< [texel] of the layers
+        bool hasDepth;     ///< false: there is no depth, so that distance is +inf everywhere
+        int width, height; ///< [texel] size of the layers
         int divisor;
     };
     struct Outputs

@@ -21,7 +21,7 @@ class LayerOverPass
 {
 public:
     using Layers = std::array<ResourceId, MediaPass::LayerTargets>;
-    /// @return new versions of `under`
+    /// Adds the pass. @return new versions of `under`
     [[nodiscard]] static Layers addTo(FrameGraph& graph, const Layers& over, const Layers& under);
 };
 

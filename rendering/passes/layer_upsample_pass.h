@@ -30,10 +30,10 @@ public:
         ResourceId sceneDistance;
         ResourceId far, near;
         ResourceId farLight, nearLight;
-        int width, height; ///< [pixel] of the picture
+        int width, height; ///< [pixel] size of the picture
         int divisor;
         Format format;
-        std::string_view name; ///< name of the result
+        std::string_view name; ///< name of the resulting texture
     };
     struct Outputs
     {

@@ -23,7 +23,8 @@ struct SliceLightBlock
 };
 static_assert(sizeof(SliceLightBlock) == 7 * 16);
 
-constexpr size_t kMaxLightEntries = 21; ///< lights, axes of the sky and finer planes of the sun
+/// Largest number of entries: lights, axes of the sky and finer planes of the sun.
+constexpr size_t kMaxLightEntries = 21;
 
 /// Entry i + kFadingEntries describes the previous planes of light i during a cross-fade: right, up, along
 /// and tiles. Its color.r is the weight [1] of the previous planes; 0: no cross-fade.
@@ -42,18 +43,18 @@ struct LightListBlock
 static_assert(sizeof(LightListBlock) == (7 + (kMaxLightEntries + kFadingEntries) * 7) * 16);
 
 constexpr uint32_t kLightBlockBinding = 1; ///< uniform binding of LightListBlock
-constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes
+constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes of light slices
 constexpr uint32_t kHostShadowUnit = 6;    ///< texture unit of the host's shadow map of the sun
 
 struct LightBindings
 {
-    ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
-    ResourceId planes = {}; ///< RG32F optical depths; invalid: media cast no shadow
-    /// Depth texture; invalid: surfaces of the host cast no shadow on media.
+    ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: media are not lit
+    ResourceId planes = {}; ///< RG32F optical depths in light slices; invalid: media cast no shadow
+    /// Depth texture of the host's shadow map; invalid: surfaces of the host cast no shadow on media.
     ResourceId hostShadow = {};
     std::span<const std::byte> stacks = {}; ///< SliceStackBlocks of the planes
     int mostTexels = 0;                     ///< [texel] side of the largest plane
-    /// Number of the content of the planes; changes when they are filled again.
+    /// A number that changes when the planes are filled again.
     uint64_t filled = 0;
 
     void read(FrameGraph::Builder& builder) const

@@ -22,16 +22,17 @@ class MediaPass
 public:
     struct Inputs
     {
-        /// Must stay valid until the graph has executed, like their sources.
+        /// Batches in the order of drawing. Batches and their sources must stay valid until the graph has
+        /// executed.
         std::span<const DrawBatch> batches;
         ResourceId distance;
         int width, height;
         ViewBlock view;
         bool layers;
-        bool isSmall = false; ///< the targets have fewer texels than the picture has pixels
+        bool isSmall = false; ///< true: the targets have fewer texels than the picture has pixels
         LightBindings lights{};
     };
-    /// Outputs with `layers`, in the order of media.frag.glsl.
+    /// Indices of the outputs with `layers`, in the order of media.frag.glsl.
     enum LayerTarget : size_t
     {
         Fire,
@@ -44,25 +45,26 @@ public:
     };
     struct Outputs
     {
-        ResourceId media;                            ///< invalid with layers, or if nothing is drawn
+        ResourceId media;                            ///< invalid with `layers`, or if nothing is drawn
         std::array<ResourceId, LayerTargets> layers; ///< invalid without layers
     };
-    /// @param under the targets to draw over; invalid members: nothing is drawn over
+    /// Adds the pass.
+    /// @param under targets that are drawn over; if a member is invalid, a new target is created
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in, const Outputs& under);
 };
 
-/// Description of target number `target` of the media pass.
+/// Description of the media pass's target number `target`.
 TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 
-/// The targets of a pass that draws media over others. The execute function of a pass captures this object by
-/// value.
+/// The targets of a pass that draws media over existing targets. The execute function of a pass captures this
+/// object by value.
 class MediaTargets
 {
 public:
     /// Declares that the pass writes the targets of `under`, and creates those that are invalid.
     MediaTargets(FrameGraph::Builder& builder, const MediaPass::Inputs& in, const MediaPass::Outputs& under);
 
-    /// Clears the targets that the pass has created. Call this before drawing.
+    /// Clears the targets that the pass has created. Must be called before drawing.
     void clear(Backend& backend) const;
     std::span<const ResourceId> all() const { return {targets_.data(), layers_ ? targets_.size() : 1}; }
     MediaPass::Outputs outputs() const;

@@ -29,7 +29,7 @@ struct CardLists
 {
     ResourceId heads = {}; ///< buffer of list heads; invalid: fragments are blended
     ResourceId nodes = {}; ///< buffer of list nodes
-    ResourceId marks = {}; ///< buffer of CardMark, one for each node; invalid: not requested
+    ResourceId marks = {}; ///< buffer of CardMark, one for each node; invalid: no marks are written
 
     bool valid() const { return heads.valid(); }
 };
@@ -44,37 +44,37 @@ struct BallList
     ResourceId lights = {}; ///< buffer written by BlobLightPass, one entry for each ball
     /// The same balls; must stay valid until the graph has executed.
     std::span<const BlobInstance> instances{};
-    bool detail = false; ///< some balls have procedural detail, and it is drawn
+    bool detail = false; ///< true: some balls have procedural detail, and it is drawn
 };
 
 /// Targets and options of a draw.
 struct MediaTarget
 {
     const ViewBlock* view;
-    ResourceId distance;                 ///< [m] along the ray to opaque geometry
-    std::span<const ResourceId> targets; ///< as in MediaPass, or in SolidPass
+    ResourceId distance;                 ///< [m] distance along the ray to opaque geometry
+    std::span<const ResourceId> targets; ///< targets of MediaPass, or of SolidPass
     bool layers;                         ///< as in MediaPass
-    bool isSmall;                        ///< texels are larger than pixels
+    bool isSmall;                        ///< true: texels are larger than pixels
     LightBindings lights{};              ///< lights of the view
-    CardLists cards{};                   ///< if valid, cards write to these lists instead of `targets`
-    bool isMarked = false;               ///< opaque elements write marks instead of light, see output_marks.h
+    CardLists cards{};     ///< if valid, cards write their fragments to these lists instead of `targets`
+    bool isMarked = false; ///< true: opaque elements write marks instead of light, see output_marks.h
 };
 
-/// A source of drawable elements, divided into batches. It must not change from the addition of a pass that
-/// draws it until the graph has executed.
+/// A source of drawable elements, divided into batches. After a pass that draws it has been added, it must
+/// not change until the graph has executed.
 class MediaSource
 {
 public:
     /// Declares all resources that the draws read.
     virtual void read(FrameGraph::Builder& builder) const = 0;
-    /// Blends the elements of a batch premultiplied "over" the target. With target.cards, fragments of cards
-    /// are written to lists instead.
+    /// Blends the elements of a batch over the target, with premultiplied colors. If target.cards is valid,
+    /// fragments of cards are written to these lists instead.
     virtual void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const = 0;
 
     /// The balls of medium of this source; null if it draws cards.
     virtual const BallList* balls() const { return nullptr; }
 
-    /// Whether the source has opaque elements, which are not part of batches.
+    /// True if the source has opaque elements. They are not part of batches.
     virtual bool hasSolids() const { return false; }
     /// Draws the opaque elements to the targets of SolidPass, with depth test.
     virtual void drawSolids(Backend&, const MediaTarget&, ResourceId /*depth*/) const {}
@@ -83,19 +83,20 @@ protected:
     ~MediaSource() = default;
 };
 
-/// Inputs of quads besides the ViewBlock and the target's distance.
+/// Inputs of drawQuads(), besides the ViewBlock and the target's distance.
 struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
-    TextureBinding picture{}; ///< bound if valid
+    TextureBinding picture{}; ///< texture that is bound if it is valid
     const LightBindings* lights = nullptr;
-    ResourceId blobLights{}; ///< buffer at kBlobLightBinding, if valid
+    ResourceId blobLights{}; ///< buffer that is bound at kBlobLightBinding, if valid
 };
 
 constexpr uint32_t kBlobLightBinding = 6;
 
-/// Draws the instances of a batch as quads of 6 vertices, blended premultiplied "over" the target. The
-/// program gets the ViewBlock, with batch.first in pass.y, and the target's distance at texture unit 0.
+/// Draws the instances of a batch as quads of 6 vertices. They are blended over the target, with
+/// premultiplied colors. The program gets the ViewBlock, with batch.first in pass.y, and the target's
+/// distance at texture unit 0.
 void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& inputs, const DrawBatch& batch,
                const MediaTarget& target);
 

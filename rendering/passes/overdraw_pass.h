@@ -11,12 +11,12 @@ inline constexpr ProgramDesc kOverdrawProgram{"overdraw", "blobs/media.vert.glsl
 inline constexpr ProgramDesc kOverdrawSmallProgram{
     "overdraw (small)", "blobs/media.vert.glsl", "blobs/overdraw.frag.glsl", nullptr, "FX_FORM=2 FX_SMALL=1"};
 
-/// Counts how many blobs of the kernel form contribute to each pixel, for tuning.
+/// Counts how many blobs of the form BillboardForm::Kernel contribute to each pixel, for tuning.
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry
 /// writes  count     R32F [1] contributing fragments per pixel
-/// Added only if statistics require it. Keeps no state.
+/// The pass is added only if statistics require it. Keeps no state.
 class OverdrawPass
 {
 public:
@@ -27,7 +27,7 @@ public:
         uint32_t count;
         int width, height;
         ViewBlock view;
-        bool isSmall = false; ///< the target has fewer texels than the picture has pixels
+        bool isSmall = false; ///< true: the target has fewer texels than the picture has pixels
     };
     struct Outputs
     {

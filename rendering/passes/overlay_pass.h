@@ -11,18 +11,18 @@ namespace fx::render {
 inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "frame/overlay.vert.glsl",
                                              "frame/overlay.frag.glsl", nullptr, nullptr};
 
-/// Debug lines over the picture: the edges of boxes, each box in its color.
+/// Draws debug lines over the picture: the edges of boxes, each box in its color.
 ///
 /// reads   boxes    relative to the origin of the camera
 /// writes  picture  the finished picture, by blending; lines are not occluded
-/// Added only if the overlay of the view is enabled and has boxes. Keeps no state.
+/// The pass is added only if the overlay of the view is enabled and has boxes. Keeps no state.
 class OverlayPass
 {
 public:
     struct Inputs
     {
         ResourceId picture;
-        std::span<const OverlayBox> boxes; ///< must stay valid until the graph has executed
+        std::span<const OverlayBox> boxes; ///< boxes, which must stay valid until the graph has executed
         const CameraView* camera;
         int width, height; ///< [pixel]
     };

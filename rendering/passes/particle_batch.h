@@ -14,8 +14,8 @@
 
 namespace fx::render {
 
-/// Layout of the uniform block with FX_VIEW_EXTRA; each member is explained in
-/// shaders/shared/particle_block.glsl.
+/// Layout of the uniform block of programs that define FX_VIEW_EXTRA. shaders/shared/particle_block.glsl
+/// explains each member.
 struct ParticleBlock
 {
     ViewBlock view;
@@ -33,7 +33,7 @@ struct ParticleBlock
 };
 static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 8 * 16 + 9 * 16);
 
-/// ParticleBlock for programs that write marks, see output_marks.h.
+/// ParticleBlock with additional members, for programs that write marks, see output_marks.h.
 struct MarkedParticleBlock
 {
     ParticleBlock particles;
@@ -54,40 +54,45 @@ enum class BatchShape : uint8_t
 /// Part of a buffer.
 struct BufferPart
 {
-    uint32_t name = 0; ///< GL buffer
-    ResourceId id;     ///< the buffer in this frame's graph
+    uint32_t name = 0; ///< name of the GL buffer
+    ResourceId id;     ///< id of the buffer in this frame's graph
     uint64_t offset = 0;
-    uint64_t bytes = 0; ///< 0: absent
+    uint64_t bytes = 0; ///< size; 0: there is no data
 };
 
 struct ParticleBatch
 {
     ParticleBlock block;
     BatchShape shape = BatchShape::Sprite;
-    bool isSolid = false;   ///< opaque: writes depth and is drawn before all media
-    bool repeats = false;   ///< the texture repeats
-    uint32_t vertices = 6;  ///< per instance
-    uint32_t instances = 0; ///< rows, or pieces of ribbons
+    bool isSolid = false;   ///< true: particles are opaque, write depth, and are drawn before all media
+    bool repeats = false;   ///< true: the texture repeats
+    uint32_t vertices = 6;  ///< number of vertices per instance
+    uint32_t instances = 0; ///< number of drawn rows, or of drawn pieces of ribbons
     BufferPart newer, older, order, mesh;
-    uint32_t texture = 0; ///< GL texture array
+    uint32_t texture = 0; ///< name of the GL texture array
     uint32_t motion = 0;
     ResourceId textureId, motionId;
-    bool isComputed = false;          ///< rows are written on the GPU
-    ResourceId arguments;             ///< draw arguments that the GPU writes; invalid: `instances` are drawn
-    std::array<glm::vec4, 3> drift{}; ///< as in MarkedParticleBlock; this and `instance` only with outputs
+    bool isComputed = false; ///< true: the GPU computes the rows
+    /// Buffer with draw arguments that the GPU writes; invalid: the member `instances` is the number of drawn
+    /// elements.
+    ResourceId arguments;
+    /// See MarkedParticleBlock; `drift` and `instance` are used only with outputs.
+    std::array<glm::vec4, 3> drift{};
     glm::uvec4 instance{};
 };
 
-/// The program of one permutation. With `isSolid` it writes depth and distance; `layers` is as in MediaPass.
+/// The program of one permutation.
+/// @param isSolid true: the program writes depth and distance
+/// @param layers as in MediaPass
 const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers);
 constexpr size_t kParticlePrograms = 3 * 2 * 2;
 const ProgramDesc& particleProgramAt(size_t index);
 
-/// The program that writes fragments to lists, see CardLists.
+/// The program by which cards write their fragments to lists, see CardLists.
 const ProgramDesc& cardProgram(BatchShape shape);
 
-/// The program that writes fragments with marks to lists, and the program that writes marks of opaque
-/// particles, see output_marks.h.
+/// The first program writes fragments of cards and their marks to lists; the second writes marks of opaque
+/// particles. See output_marks.h.
 const ProgramDesc& markedCardProgram(BatchShape shape);
 const ProgramDesc& markedSolidProgram(BatchShape shape);
 

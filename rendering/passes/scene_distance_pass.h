@@ -20,7 +20,7 @@ class SceneDistancePass
 public:
     struct Inputs
     {
-        ResourceId depth; ///< invalid: nothing occludes
+        ResourceId depth; ///< the host's depth buffer; invalid: nothing occludes
         int width, height;
         ViewBlock view;
     };

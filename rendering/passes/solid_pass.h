@@ -5,8 +5,8 @@
 
 namespace fx::render {
 
-/// Draws opaque particles with depth test before any media. The media pass blends over them, and its rays end
-/// at them. The host's depth is read, not written.
+/// Draws opaque particles, with depth test, before any media are drawn. The media pass blends over them, and
+/// its rays end at them. The host's depth is read, not written.
 ///
 /// reads   distance  [m] along the ray to the host's opaque geometry
 /// writes  under     media or layer targets, as written by MediaPass: exposed radiance with opacity 1, or 0
@@ -27,8 +27,8 @@ public:
     };
     struct Outputs
     {
-        MediaPass::Outputs under; ///< invalid if nothing is drawn
-        ResourceId distance;      ///< Inputs::distance if nothing is drawn
+        MediaPass::Outputs under; ///< media or layer targets; invalid if nothing is drawn
+        ResourceId distance;      ///< distance to the nearest surface; Inputs::distance if nothing is drawn
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };

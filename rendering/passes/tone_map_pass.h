@@ -24,9 +24,9 @@ public:
     {
         ResourceId color;
         int width, height;
-        /// [1] radiance that is displayed as 1; less than 1, or NaN, counts as 1
+        /// [1] exposed radiance that is displayed as 1; values less than 1, and NaN, are replaced by 1
         float white;
-        Format format = Format::RGBA32F; ///< or RGBA8, with dithering
+        Format format = Format::RGBA32F; ///< RGBA32F; or RGBA8, with dithering
     };
     struct Outputs
     {

@@ -15,11 +15,11 @@ namespace fx::render {
 
 struct GlContextOptions
 {
-    bool debug = false;          ///< debug context: the driver reports misuse, see GlMessages
-    bool visible = false;        ///< GLFW only: the window is visible
-    int width = 64;              ///< [pixel] of the window; EGL contexts have no window
-    int height = 64;             ///< [pixel]
-    const char* title = "fxsdk"; ///< of the window
+    bool debug = false;   ///< true: create a debug context, whose driver reports misuse, see GlMessages
+    bool visible = false; ///< used by GLFW only: true: the window is visible
+    int width = 64;       ///< [pixel] width of the window; EGL contexts have no window
+    int height = 64;      ///< [pixel]
+    const char* title = "fxsdk"; ///< title of the window
 };
 
 class GlContext
@@ -31,9 +31,10 @@ public:
     virtual base::Status makeCurrent() = 0;
     /// Displays the picture in the window; does nothing without a window.
     virtual void swapBuffers() = 0;
-    /// Handles events of the window; true if the user has requested to close it.
+    /// Handles events of the window. @return true if the user has requested to close the window
     virtual bool closeRequested() { return false; }
-    virtual std::string description() const = 0; ///< kind of context, such as "EGL surfaceless (Mesa)"
+    /// Text about the kind of context, such as "EGL surfaceless (Mesa)".
+    virtual std::string description() const = 0;
 };
 
 /// Creates a context without a window, and makes it current. Tries EGL_MESA_platform_surfaceless, then an EGL

@@ -13,16 +13,18 @@ struct CameraPose
 {
     glm::dvec3 position{0.0, 2.0, 10.0}; ///< [m]
     glm::dvec3 target{0.0};              ///< [m] different from position
-    /// Must not be parallel to the view axis; need not be perpendicular to it.
+    /// Upward direction. It must not be parallel to the view axis, and need not be perpendicular to it.
     glm::vec3 up{0.0f, 1.0f, 0.0f};
 };
 
-/// A view whose matrices are relative to the eye, with an infinite far plane.
-/// @param fovY [rad] vertical  @param aspect width / height  @param nearDistance [m] > 0
+/// A camera whose matrices are relative to its position, with an infinite far plane.
+/// @param fovY [rad] vertical angle of view
+/// @param aspect width / height
+/// @param nearDistance [m] > 0
 CameraView perspectiveView(const CameraPose& pose, float fovY, float aspect, float nearDistance,
                            DepthConvention depth = DepthConvention::Standard);
 
-/// Parallel projection of `height` [m] from nearDistance to farDistance [m].
+/// A camera with parallel projection of a region of `height` [m], from nearDistance to farDistance [m].
 CameraView orthographicView(const CameraPose& pose, float height, float aspect, float nearDistance,
                             float farDistance);
 

@@ -1,6 +1,6 @@
 /// @file stage_renderer.h
-/// A small host for tools and tests. It draws an opaque triangle mesh and a background to color and depth, as
-/// a game does before it calls fxView_Render.
+/// A small host for tools and tests. It draws an opaque triangle mesh and a background to a color and a depth
+/// texture, as a game does before it calls fxView_Render.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -28,29 +28,31 @@ class GlDevice;
 struct StageMesh
 {
     glm::dvec3 origin{0.0};           ///< [m] world position to which the vertices are relative
-    std::vector<glm::vec3> positions; ///< [m] relative to `origin`
-    std::vector<glm::vec3> normals;   ///< unit
+    std::vector<glm::vec3> positions; ///< [m] positions relative to `origin`
+    std::vector<glm::vec3> normals;   ///< unit vectors
     std::vector<glm::vec3> colors;    ///< [0, 1] linear albedo
 };
 
 /// Background behind the mesh.
 struct StageBackground
 {
-    glm::vec3 luminance{0.0f}; ///< [cd/m2] at the zenith, used if `image` is empty
-    glm::vec3 horizon{0.0f};   ///< [cd/m2] at and below the horizon; equal to `luminance` for a uniform color
-    int width = 0, height = 0; ///< [pixel] of `image`
+    glm::vec3 luminance{0.0f}; ///< [cd/m2] luminance at the zenith, used if `image` is empty
+    /// [cd/m2] Luminance at and below the horizon; equal to `luminance` for a uniform color.
+    glm::vec3 horizon{0.0f};
+    int width = 0, height = 0;    ///< [pixel] size of `image`
     std::vector<glm::vec3> image; ///< [cd/m2] top row first
-    bool panorama = false;        ///< true: equirectangular around the eye; false: fills the picture
+    bool panorama = false; ///< true: `image` is equirectangular around the eye; false: it fills the picture
 };
 
 /// A light besides sun and sky.
 struct StageLight
 {
     HostLight light;
-    /// [1] 0..1 How far diffuse light extends beyond the terminator ("wrap lighting"), for large lights such
-    /// as fireballs.
+    /// [1] Distance by which diffuse light extends beyond the terminator, 0..1 ("wrap lighting"), for large
+    /// lights such as fireballs.
     float wrap = 0.0f;
-    std::optional<MediaShadowBlock> shadow = {}; ///< media shadow in this light; none: no shadow
+    /// Media shadow in this light; without a value, media cast no shadow.
+    std::optional<MediaShadowBlock> shadow = {};
 };
 
 StageLight effectStageLight(const EffectLight& light);
@@ -59,10 +61,11 @@ StageLight effectStageLight(const EffectLight& light);
 struct StageLighting
 {
     Lighting lighting;
-    std::span<const StageLight> lights{}; ///< at most kMaxStageLights are used
-    /// Media shadow in the light of the sun; without planes there is no shadow.
+    std::span<const StageLight> lights{}; ///< lights, of which at most kMaxStageLights are used
+    /// Media shadow in the light of the sun. If it has no planes, media cast no shadow.
     MediaShadowBlock sunShadow;
-    uint32_t shadowTexture = 0; ///< GL name of the light slices of all media shadows; linear filter; 0: none
+    /// GL name of the texture of light slices for all media shadows, with linear filter; 0: none.
+    uint32_t shadowTexture = 0;
 };
 
 constexpr size_t kMaxStageLights = 16;
@@ -75,14 +78,16 @@ public:
     explicit StageRenderer(GlDevice* device);
     ~StageRenderer();
 
+    /// Sets the mesh.
     /// @return InvalidArgument if positions, normals and colors differ in number; errors of GL
     base::Status setMesh(const StageMesh& mesh);
+    /// Sets the background.
     /// @return InvalidArgument if `image` does not have width * height pixels; errors of GL
     base::Status setBackground(const StageBackground& background);
 
     /// Draws to textures of the stage, which are valid until the next call: RGBA32F color [cd/m2 times
     /// exposure] and a 32-bit float depth texture.
-    /// @param width, height [pixel]
+    /// @param width, height [pixel] size of the textures
     base::Status render(const CameraView& camera, const Lighting& lighting,
                         std::span<const EffectLight> lights, float exposureEv100, int width, int height);
     base::Status render(const CameraView& camera, const StageLighting& lighting, float exposureEv100,

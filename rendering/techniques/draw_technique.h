@@ -45,7 +45,8 @@ constexpr uint32_t kIdleFrames = 300;
 /// Inputs to gather a frame.
 struct GatherInputs
 {
-    const base::SnapshotPair* snapshots; ///< `older` is null if both snapshots are equal
+    /// Snapshots of the frame; `older` is null if both have equal content.
+    const base::SnapshotPair* snapshots;
     RevisionPair revisions;
     SnapshotRowRevisions newerRows, olderRows;
     const FrameRequest* request;
@@ -53,38 +54,41 @@ struct GatherInputs
     const CameraGeometry* camera;
     const base::AssetTable* assets;
     std::span<const EffectLight> lights; ///< the brightest lights of all effects, brightest first
-    LevelOfDetail* lod;                  ///< begin() has been called for this frame
-    uint64_t content;                    ///< revision of the shown content
-    bool castsShadows = true;            ///< there are lights, and media cast shadows
-    bool needsOrder = true;              ///< balls are blended one over the other, farthest first
+    LevelOfDetail* lod;                  ///< level of detail, whose begin() has been called for this frame
+    uint64_t content;                    ///< revision of the content of the snapshots
+    bool castsShadows = true;            ///< true: there are lights, and media cast shadows
+    /// True: balls are blended one over the other, so that they must be sorted, farthest first.
+    bool needsOrder = true;
 };
 
-/// Data gathered so far. Techniques gather in the order of their list.
+/// Data that techniques have gathered for a frame. gather() of the techniques is called in the order of their
+/// list.
 struct GatheredFrame
 {
     std::pmr::vector<DrawStream>* streams;             ///< streams of the media pass, each with its source
     std::pmr::vector<MediumCaster>* casters = nullptr; ///< all media that cast shadows, relative to the eye
-    FragmentCounts fragments{};                        ///< estimated fragments of the media pass
+    FragmentCounts fragments{};                        ///< estimated number of fragments of the media pass
     std::span<const BlobInstance> blobs{};             ///< balls of medium
-    /// Ranges of blobs by instance, if blobs are in the order of instances.
+    /// Ranges of blobs by instance; empty if blobs are not in the order of instances.
     std::span<const BlobEffect> effects{};
-    /// Marks of blobs, if they are in the order of instances; only with ViewSettings::outputs.
+    /// Marks of blobs; empty if blobs are not in the order of instances, or without ViewSettings::outputs.
     std::span<const BlobMark> marks{};
-    /// Noise coordinates of blobs, if they are in the order of instances.
+    /// Noise coordinates of blobs; empty if blobs are not in the order of instances.
     std::span<const BlobMaterial> materials{};
-    /// Detail of effects, if blobs are in the order of instances.
+    /// Detail of effects; empty if blobs are not in the order of instances.
     std::span<const GroupDetail> details{};
-    bool anyHeat = false; ///< a blob causes heat shimmer
+    bool anyHeat = false; ///< true: a blob causes heat shimmer
 };
 
-/// Stages of a frame at which techniques add passes. buildViewGraph() defines the order of all passes.
+/// Stages of a frame in which techniques add passes. buildViewGraph() defines the order of all passes.
 enum class PassStage : uint8_t
 {
-    Pictures, ///< before all other passes: renders impostors that the frame draws later
-    Upload,   ///< the distance to the host's surfaces is available: data are uploaded or computed
-    Measure,  ///< after the media: measurements
-    Refract,  ///< the picture has all media: refraction
-    Sensor,   ///< the picture is complete: effects of the eye or the sensor
+    Pictures, ///< stage before all other passes, in which impostors are rendered that the frame draws later
+    /// Stage in which data are uploaded or computed; the distance to the host's surfaces is available.
+    Upload,
+    Measure, ///< stage after the media have been drawn, in which measurements are made
+    Refract, ///< stage of refraction; the picture has all media
+    Sensor,  ///< stage of effects of the eye or the sensor; the picture is complete
 };
 
 /// State of a frame while its graph is built, with the results of its passes so far.
@@ -93,18 +97,18 @@ struct PassFrame
     const FrameRequest* request;
     const ViewSettings* settings;
     int width, height;           ///< [pixel]
-    ViewBlock view;              ///< view block of the picture
-    ViewBlock layerView;         ///< view block of the layers
+    ViewBlock view;              ///< view block for passes with the size of the picture
+    ViewBlock layerView;         ///< view block for passes with the size of layers
     int layerWidth, layerHeight; ///< [texel]
     LightBindings lights = {};   ///< lights of the view
-    bool hasSmallLayers = false; ///< layers are smaller than the picture
-    bool hasMedia = false;       ///< there are media, transparent particles or opaque particles
-    /// [m] distance to the host's surfaces; from Measure on, also to opaque particles
+    bool hasSmallLayers = false; ///< true: layers are smaller than the picture
+    bool hasMedia = false;       ///< true: there are media, transparent particles or opaque particles
+    /// [m] distance to the host's surfaces; from the stage Measure on, also to opaque particles
     ResourceId distance = {};
-    ResourceId layerDistance = {}; ///< [m] the same in the size of layers
-    ResourceId picture = {};       ///< the picture, from Refract on
-    ResourceId blobs = {};         ///< buffer of GatheredFrame::blobs, from Upload on
-    bool anyPass = false;          ///< a technique sets it if its passes are needed without media too
+    ResourceId layerDistance = {}; ///< [m] the same distance, in the size of layers
+    ResourceId picture = {};       ///< the picture; valid from the stage Refract on
+    ResourceId blobs = {};         ///< buffer of GatheredFrame::blobs; valid from the stage Upload on
+    bool anyPass = false;          ///< true: the technique's passes are needed even if there are no media
 };
 
 /// State of a technique in one view: lists and GPU memory. A frame calls begin(), then gather() or keep(),
@@ -117,40 +121,40 @@ public:
     /// Creates resources in advance, so that no frame waits for them.
     virtual base::Status prepare() { return {}; }
 
-    /// Begins a frame; creates resources that are independent of the visible data.
+    /// Begins a frame, and creates resources that are independent of the visible data.
     virtual base::Status begin(const ViewSettings&) { return {}; }
-    /// Gathers the visible data of a frame, and adds streams and shadow casters to the GatheredFrame.
+    /// Gathers the visible data of a frame, and adds its streams and shadow casters to the GatheredFrame.
     virtual base::Status gather(const GatherInputs&, GatheredFrame&) { return {}; }
-    /// Called instead of gather(): the frame reuses the data of the last frame.
+    /// Called instead of gather() if the frame reuses the data of the last frame.
     virtual void keep() {}
-    /// True if a next frame with the same inputs would give the same picture.
+    /// True if a frame with the same inputs would give the same picture as the last frame.
     virtual bool isSettled() const { return true; }
 
-    /// Source of opaque elements; null if there are none.
+    /// Source of the technique's opaque elements; null if there are none.
     virtual const MediaSource* solids() const { return nullptr; }
-    /// Whether the technique adds passes that change the picture after the media.
+    /// True if the technique adds passes that change the picture after the media have been drawn.
     virtual bool altersPicture(const PassFrame&) const { return false; }
     virtual void addPasses(PassStage, FrameGraph&, PassFrame&) {}
 
-    virtual void fence() {} ///< called after all draws of the frame have been issued
-    /// Invalidates data of this frame, because gathering or drawing has failed.
+    virtual void fence() {} ///< Called after all draws of the frame have been issued.
+    /// Invalidates the data of this frame. Called if gathering or drawing has failed.
     virtual void forget() {}
     virtual void endFrame(bool /*succeeded*/) {}
-    /// Called instead of a frame without visible data.
+    /// Called instead of the other functions if a frame has no visible data.
     virtual void rest() {}
 
-    /// Adds counts of the last frame.
+    /// Adds the counts of the last frame to the statistics.
     virtual void count(FrameStatistics&) const {}
-    /// Adds counters of the GPU; waits for the GPU.
+    /// Adds counters that are read back from the GPU to the statistics. Waits for the GPU.
     virtual void readBack(const GlBackend&, FrameStatistics&) {}
-    /// Adds the share of the picture that the last frame has covered.
+    /// Adds the share of the picture that the technique has covered in the last frame.
     virtual void cover(const CameraGeometry&, ScreenShare&) const {}
-    virtual uint64_t bytes() const { return 0; } ///< [byte] size of GPU memory
+    virtual uint64_t bytes() const { return 0; } ///< [byte] size of the technique's GPU memory
 
-    /// Whether groups of the kind "gpuParticle" are drawn. False after computing particles has failed in this
+    /// True if groups of the kind "gpuParticle" can be drawn. False if computing particles has failed in this
     /// context.
     virtual bool canComputeParticles() const { return true; }
-    /// Compiles the compute program of an emitter, if supported.
+    /// Compiles the compute program of an emitter, if the technique computes particles on the GPU.
     virtual void warmUp(const base::GpuParticleProgram&) {}
 };
 
@@ -163,36 +167,40 @@ struct TechniqueSetup
     std::span<const DrawTechnique* const> techniques; ///< all techniques of the view
 };
 
-/// The published data of an effect on which techniques depend.
+/// The kinds of data that an effect publishes, from which techniques decide whether the effect uses them.
 struct EffectContent
 {
-    std::span<const base::KindDesc* const> kinds; ///< kinds of its groups
-    bool isDrawn = false;                         ///< a technique draws one of the kinds
-    bool bendsLight = false;                      ///< its media cause heat shimmer
+    std::span<const base::KindDesc* const> kinds; ///< kinds of the effect's groups
+    bool isDrawn = false;                         ///< true: a technique draws one of the kinds
+    bool bendsLight = false;                      ///< true: media of the effect cause heat shimmer
 };
 
-/// One technique. Has static storage.
+/// Description of one technique. Objects of this type have static storage.
 struct DrawTechnique
 {
     std::string_view name;
-    const base::KindDesc* kind = nullptr; ///< kind of its snapshot data; null: it has no kind of its own
-    /// Conversion of groups of the kind to rows of particles, for techniques that draw rows; otherwise null.
+    /// Kind of the technique's snapshot data; null: it has no kind of its own.
+    const base::KindDesc* kind = nullptr;
+    /// Conversion of groups of the kind to rows of particles; null for techniques that draw no rows.
     const RowTechnique* rows = nullptr;
-    /// Creates the state in a view; null: no state. Techniques with the same function share one state.
+    /// Creates the technique's state in a view; null: it has no state. Techniques with the same function
+    /// share one state.
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
-    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all programs that it may use; null: none
-    /// The passes that the technique adds to a frame, with their timer groups. Techniques that are drawn by
-    /// the media pass include the media pass.
+    /// Returns all programs that the technique may use; null: none.
+    std::span<const ProgramDesc* const> (*programs)() = nullptr;
+    /// The passes that the technique adds to a frame, with their timer groups. If the media pass draws the
+    /// technique's elements, it is one of them.
     std::span<const TimedPass> passes = {};
-    /// Whether an effect with this content uses the technique; null: an effect that publishes `kind` does.
+    /// Returns whether an effect with this content uses the technique; null: an effect uses it if it
+    /// publishes `kind`.
     bool (*isUsedBy)(const EffectContent& content) = nullptr;
-    /// How groups of `kind` emit light; null: they emit none.
+    /// Describes how groups of `kind` emit light; null: they emit none.
     const LightSource* lights = nullptr;
-    /// Checks settings, and refuses those that cannot be drawn; null: all settings are accepted.
+    /// Checks whether settings can be drawn; null: all settings are accepted.
     base::Status (*check)(const ViewSettings& settings) = nullptr;
-    /// Whether the technique changes the picture without visible effects; null: it does not.
+    /// Returns whether the technique changes the picture when no effect is visible; null: it does not.
     bool (*actsAlone)(const ViewSettings& settings) = nullptr;
-    const ScalabilitySettings* levels = nullptr; ///< its scalability levels; null: none
+    const ScalabilitySettings* levels = nullptr; ///< scalability levels of the technique; null: none
 };
 
 } // namespace fx::render

@@ -10,7 +10,8 @@ namespace fx::render {
 /// Spherical billboards: fire, smoke and dust as balls of medium, with impostors for distant effects.
 extern const DrawTechnique kBlobTechnique;
 
-/// Noise coordinates of balls, so that detail moves with the balls. The state of kBlobTechnique draws them.
+/// Noise coordinates of balls, which make detail move with the balls. The state of kBlobTechnique uses them
+/// for drawing.
 extern const DrawTechnique kFieldDetailTechnique;
 
 /// Shadows of media: timer group and scalability levels of light slices. The passes are in
@@ -26,7 +27,7 @@ extern const DrawTechnique kRibbonTechnique;
 /// Particles that are simulated on the GPU.
 extern const DrawTechnique kGpuParticleTechnique;
 
-/// Lights of particles, from snapshot data of the kind "light". They are not drawn themselves.
+/// Lights of particles, from snapshot data of the kind "light". The lights themselves are not drawn.
 extern const DrawTechnique kParticleLightTechnique;
 
 /// Heat shimmer: refraction in hot gas.
@@ -39,16 +40,17 @@ using DrawTechniques = std::span<const DrawTechnique* const>;
 
 DrawTechniques drawTechniques();
 
-/// Calls effectLights() with the light sources of `techniques`.
+/// Calls effectLights() of rendering/lights/effect_lights.h with the light sources of `techniques`.
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out,
                     DrawTechniques techniques = drawTechniques());
 
-/// The value of EffectContent::isDrawn for an effect that publishes `kinds`.
+/// True if one of `techniques` draws one of the kinds `kinds`. This is EffectContent::isDrawn of an effect
+/// that publishes these kinds.
 bool isDrawn(std::span<const base::KindDesc* const> kinds, DrawTechniques techniques = drawTechniques());
-/// Whether a frame with an effect of this content has passes of `technique`.
+/// True if a frame with an effect of this content has passes of `technique`.
 bool isUsed(const DrawTechnique& technique, const EffectContent& content);
 
-/// Timer groups of the frame's own passes and of those of `techniques`.
+/// Timer groups of the passes of `techniques`, and of the frame's own passes.
 PassGroups passGroups(DrawTechniques techniques);
 
 } // namespace fx::render

@@ -11,8 +11,8 @@
 
 namespace fx::render {
 
-/// A setting of a technique that quality control may lower. Its value is a number. The value of a switch is 0
-/// or 1, that of a choice is the index of the name.
+/// A setting of a technique that quality control may lower. Its value is a number: 0 or 1 for a switch, the
+/// index of the name for a choice.
 struct QualityKnob
 {
     enum class Type : uint8_t
@@ -22,23 +22,26 @@ struct QualityKnob
         Switch,
     };
 
-    std::string_view name;  ///< name in calibrations
-    std::string_view label; ///< text before a displayed value; for a choice, only the name is displayed
+    std::string_view name; ///< name in calibrations
+    /// Text that is displayed before the value; for a choice, only the name of the value is displayed.
+    std::string_view label;
     Type type;
-    std::span<const std::string_view> choices; ///< names of a choice, cheapest first; otherwise empty
-    std::string_view schema;                   ///< JSON Schema of the value in calibrations
+    /// Names of the values of a choice, cheapest first; empty for other types.
+    std::span<const std::string_view> choices;
+    std::string_view schema; ///< JSON Schema of the setting's value in calibrations
 
-    /// Lowers the setting to `value`; never raises it.
+    /// Sets the setting to `value` if this lowers it; otherwise does nothing.
     void (*lower)(float value, ViewSettings& ioSettings);
 };
 
-/// Adjustable settings of a technique. Calibrations measure cost and error of their levels.
+/// Adjustable settings of a technique. Calibrations measure the cost and the error of their values.
 struct ScalabilitySettings
 {
-    std::string_view name;    ///< name in calibrations, and name of the timer group; empty: none
-    std::string_view meaning; ///< description in the schema of calibrations
+    std::string_view name; ///< name in calibrations, which is also the name of the timer group; empty: none
+    std::string_view meaning; ///< description of the technique in the schema of calibrations
 
-    /// [1] Weight of an error of this technique in a picture.
+    /// [1] Returns the weight of an error of this technique in a picture, from the shares that techniques
+    /// cover.
     double (*weight)(const ScreenShare& covered);
 
     std::span<const QualityKnob> knobs;

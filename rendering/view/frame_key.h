@@ -15,7 +15,8 @@ namespace fx::render {
 struct FrameKey
 {
     RevisionPair revisions;
-    double interpolation = 0; ///< 0 if both snapshots have equal content, because all moments are then equal
+    /// Moment between the snapshots; 0 if both have equal content, because all moments are then equal.
+    double interpolation = 0;
     CameraView camera;
     int width = 0, height = 0; ///< [pixel]
     float exposureEv100 = 0;
@@ -28,7 +29,7 @@ struct FrameKey
     int voxels = 0;
     bool layerOutputs = false;
     uint32_t outputs = 0;
-    const base::AssetTable* assets = nullptr; ///< only compared, not dereferenced
+    const base::AssetTable* assets = nullptr; ///< the address only; it is compared and never dereferenced
 
     bool operator==(const FrameKey&) const = default;
 };

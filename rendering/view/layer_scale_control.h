@@ -15,13 +15,14 @@ class LayerScaleControl
 {
 public:
     static constexpr uint32_t kCalmFrames = 30;
-    static constexpr double kRoom = 0.8; ///< [1] share of the budget that a larger size may take
+    static constexpr double kRoom = 0.8; ///< [1] largest share of the budget for which layers become larger
 
-    /// @param estimates fragments of this frame at each of kLayerDivisors
+    /// Chooses the divisor of layers for a frame.
+    /// @param estimates estimated fragments of this frame for each of kLayerDivisors
     /// @param askedDivisor one of kLayerDivisors; the result is never less
-    /// @param budget [fragment]; 0: no budget, the result is askedDivisor
-    /// @param reset camera cut: earlier frames are ignored
-    /// @return the divisor of this frame
+    /// @param budget [fragment] 0: no budget, so that the result is askedDivisor
+    /// @param reset true: the camera has jumped, so that earlier frames are ignored
+    /// @return the divisor of layers in this frame
     int choose(const std::array<uint64_t, 3>& estimates, int askedDivisor, uint64_t budget, bool reset);
 
 private:

@@ -24,11 +24,11 @@ struct ViewGraphInputs
     std::span<const std::unique_ptr<TechniqueView>> techniques;
     std::span<const DrawBatch> batches;         ///< batches of media and transparent particles
     std::span<const MediaSource* const> solids; ///< sources of opaque particles
-    ViewLights* lights = nullptr;               ///< must be gathered; null: no lighting
-    CompositionView* composition = nullptr;     ///< draws media before `batches`; null: no composition
-    int layerDivisor = 1;                       ///< divisor of this frame, >= ViewSettings::layerDivisor
-    OutputView* outputs = nullptr;              ///< null if the settings request no outputs
-    const PastFrame* past = nullptr;            ///< previous frame, for `outputs`
+    ViewLights* lights = nullptr;               ///< lights, which must be gathered; null: no lighting
+    CompositionView* composition = nullptr; ///< composition, which draws media before `batches`; null: none
+    int layerDivisor = 1;            ///< divisor of layers in this frame, >= ViewSettings::layerDivisor
+    OutputView* outputs = nullptr;   ///< outputs of the view; null if the settings request none
+    const PastFrame* past = nullptr; ///< previous frame, used for `outputs`
 };
 
 /// Resources that exist after the frame, besides the host's picture. Those that were not requested are
@@ -37,11 +37,11 @@ struct ViewGraphOutputs
 {
     ResourceId fire, smoke, dust, media, depth, opticalDepth;
     OutputTextures outputs;
-    bool anyPass = false; ///< false: the host's picture does not change
+    bool anyPass = false; ///< true: there are passes; false: the host's picture does not change
 };
 
 /// Adds all passes of a frame to `graph`, after FrameGraph::begin(). Passes that are not needed are not
-/// added: without blobs no media passes, without heat no shimmer, and so on.
+/// added: without blobs there are no media passes, without heat no shimmer, and so on.
 ViewGraphOutputs buildViewGraph(FrameGraph& graph, const ViewGraphInputs& in);
 
 } // namespace fx::render

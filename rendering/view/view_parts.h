@@ -25,7 +25,7 @@ struct PreparedFrame
 {
     FrameKey key;
     bool resetHistory;
-    bool isSettled; ///< later frames with the same key may reuse the lists
+    bool isSettled; ///< true: later frames with the same key may reuse the lists
     uint64_t glCalls;
     uint32_t programsCompiled;
 };
@@ -43,11 +43,11 @@ struct ViewRenderer::Impl
     base::Status gatherAnew(const base::SnapshotPair& snapshots, const RevisionPair& revisions,
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status begin(const base::SnapshotPair& snapshots, const FrameRequest& request,
-                       const ViewSettings& settings); ///< begins all parts, then calls gather()
-    /// Creates the parts that the settings request, and deletes others.
+                       const ViewSettings& settings); ///< begins a frame of all parts, then calls gather()
+    /// Creates the states that the settings request, and deletes the others.
     void compose(const ViewSettings& settings);
     base::Status fillLights(const ViewSettings& settings);
-    void dropPrepared(); ///< discards lists that were gathered and not drawn
+    void dropPrepared(); ///< discards lists that prepareLights() has gathered and that were not drawn
     /// If prepareLights() has built the lists of this frame, reuses them and returns true.
     bool takePrepared(const base::SnapshotPair& snapshots, const FrameRequest& request,
                       const ViewSettings& settings);
@@ -55,11 +55,11 @@ struct ViewRenderer::Impl
     void noteFilling(const GroupTimes& times);
     SnapshotRowRevisions rowsOf(const base::FrameSnapshot* snapshot) const;
     base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
-    void forget(); ///< invalidates data of this frame
+    void forget(); ///< invalidates the data of this frame
     void askWhetherParticlesAreComputed();
     uint64_t bytes() const;
     FrameStatistics rest();
-    bool holdsNothing() const; ///< true if there is no memory that rest() would release
+    bool holdsNothing() const; ///< true if rest() would release no memory
     FrameStatistics count(int divisor);
 
     GlDevice* device;
@@ -67,15 +67,16 @@ struct ViewRenderer::Impl
     std::pmr::memory_resource* memory;
     FrameGraph graph;
     GlBackend backend;
-    FrameGraph lightGraph; ///< graph of prepareLights(), because `graph` belongs to the last frame
+    /// Graph of prepareLights(), which is separate because `graph` belongs to the last frame.
+    FrameGraph lightGraph;
     GlBackend lightBackend;
     DrawTechniques techniques;
     /// States of the techniques in their order, then `outputView`, then `composition`.
     std::pmr::vector<std::unique_ptr<TechniqueView>> parts;
     const MediaComposition* composing;      ///< composition of the last frame
-    CompositionView* composition = nullptr; ///< one of `parts`; null: the composition has no state
-    OutputView* outputView = nullptr;       ///< one of `parts`; null: no outputs
-    FrameHistory history;                   ///< used with outputs
+    CompositionView* composition = nullptr; ///< the composition in `parts`; null: it has no state
+    OutputView* outputView = nullptr;       ///< the outputs in `parts`; null: none are requested
+    FrameHistory history;                   ///< used only with outputs
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;
@@ -86,22 +87,25 @@ struct ViewRenderer::Impl
     std::span<const DrawBatch> mediaBatches;
     std::pmr::vector<const MediaSource*> solids;
     SnapshotRevisions revisions;
-    std::optional<FrameKey> key; ///< key of the lists above and of the data on the GPU; empty: invalid
-    bool keptLists = false;      ///< the lists were reused in this frame
+    /// Key of the lists above and of the data on the GPU; without a value, they are invalid.
+    std::optional<FrameKey> key;
+    bool keptLists = false; ///< true: this frame has reused the lists
     std::optional<PreparedFrame> prepared;
-    bool hasLights = false;                       ///< `lights` are valid for the last frame
+    bool hasLights = false;                       ///< true: `lights` are valid for the last frame
     std::pmr::vector<std::string_view> passNames; ///< passes that the last frame executed
     const base::AssetTable* assets = nullptr;
-    FragmentCounts fragments{}; ///< estimated fragments of this frame
+    FragmentCounts fragments{}; ///< estimated number of fragments of this frame
     LayerScaleControl layerScale;
     HostTargetCheck targetCheck;
     GlPassTimer timer;
-    GlPassTimer lightTimer;        ///< timer of prepareLights()
-    double fillMilliseconds = 0.0; ///< time of filling in the last timed frame that filled light slices
+    GlPassTimer lightTimer; ///< timer of prepareLights()
+    /// [ms] Time to fill light slices in the last timed frame that filled them.
+    double fillMilliseconds = 0.0;
     TimingClock clock = TimingClock::Off;
     uint64_t tag = 0;
-    bool computesParticles = true; ///< result of the last check, which follows drawing and compiling
-    uint32_t idleFrames = 0;       ///< consecutive frames without visible data
+    /// Result of TechniqueView::canComputeParticles() after the last drawing or compiling.
+    bool computesParticles = true;
+    uint32_t idleFrames = 0; ///< number of consecutive frames without visible data
     ViewGraphOutputs outputs;
 };
 

@@ -1,5 +1,6 @@
 /// @file view_renderer.h
-/// Draws snapshots into a host's image. Each view has one object, which owns its targets and its history.
+/// Draws snapshots into a host's image. Each view has one ViewRenderer, which owns the view's targets and its
+/// data from earlier frames.
 ///
 /// Threads: [GL thread], the thread on which the GL context is current.
 #pragma once
@@ -25,13 +26,14 @@ namespace fx::render {
 
 class GlDevice; ///< see rendering/gl/gl_device.h
 
-/// GL names of textures that stay valid until the next render() of the view; 0 if not requested.
+/// GL names of textures that stay valid until the next render() of the view; 0 if a texture was not
+/// requested.
 struct LayerTextures
 {
     /// RGBA32F premultiplied radiance of the fire layer that reaches the eye; A: visible opacity of the layer
     uint32_t fire = 0;
-    uint32_t smoke = 0;        ///< the same for smoke
-    uint32_t dust = 0;         ///< the same for dust
+    uint32_t smoke = 0;        ///< the same as `fire`, for the layer smoke
+    uint32_t dust = 0;         ///< the same as `fire`, for the layer dust
     uint32_t depth = 0;        ///< R32F [m] transmittance-weighted distance of the media; +inf without media
     uint32_t opticalDepth = 0; ///< R32F [1] optical depth of the media
     uint32_t media = 0;        ///< RGBA32F sum of the layers
@@ -40,7 +42,7 @@ struct LayerTextures
 class ViewRenderer
 {
 public:
-    /// @param techniques list of techniques; must outlive the view
+    /// @param techniques list of techniques, which must outlive the view
     ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                  DrawTechniques techniques = drawTechniques());
     ~ViewRenderer();
@@ -59,12 +61,13 @@ public:
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
     /// Gathers a frame and fills its light slices, so that the host can draw surfaces with media shadows
-    /// before it calls render(). render() reuses the result if its frame differs only in targets and times.
-    /// `snapshots` must stay valid until render() or the next call of this function. Targets may be absent.
-    /// On failure the GL state does not change.
+    /// before it calls render(). render() reuses the result if its request differs only in targets and times.
+    /// `snapshots` must stay valid until render() or prepareLights() is called next. The request needs no
+    /// targets. On failure the GL state does not change.
     base::Status prepareLights(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
-    /// Media shadow in a light of the last prepared or drawn frame. Without a shadow, the transmittance is 1.
+    /// Media shadow in a light of the last prepared or drawn frame. If media cast no shadow in this light,
+    /// the transmittance is 1.
     /// @param origin [m] world position to which sampled positions are relative
     MediaShadowBlock mediaShadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
     /// GL name of the light slices for mediaShadow(), with linear filter; 0 without light slices. Valid until
@@ -77,36 +80,36 @@ public:
 
     /// Sets the clock by which the next frames are timed; Off, the default, has no cost. With Gpu, frames are
     /// not timed if GL has no clock.
-    /// @param tag returned with the times of a frame
+    /// @param tag number that takeTimes() returns with the times of a frame
     void setTiming(TimingClock clock, uint64_t tag);
     bool hasGpuClock();
     void setHostClock(HostClock clock);   ///< clock for TimingClock::Host
     bool takeTimes(GroupTimes& out);      ///< see GlPassTimer::take
-    const PassGroups& passGroups() const; ///< groups of takeTimes()
+    const PassGroups& passGroups() const; ///< groups to which takeTimes() refers
     /// [ms] Time to fill light slices in the last timed frame that filled them; 0 if there is no such frame.
     double fillMilliseconds() const;
-    /// Share of the last frame's pixels that techniques cover; valid only if frames are timed.
+    /// Shares of the last frame's picture that techniques cover; valid only if frames are timed.
     const ScreenShare& covered() const { return covered_; }
     /// Sets the images and meshes of particles. `assets` must stay valid until the next call or the end of
     /// the view. Null: particles have neither textures nor meshes.
     void setAssets(const base::AssetTable* assets);
 
-    /// Whether groups of the kind "gpuParticle" are drawn. False after computing particles has failed in this
+    /// True if groups of the kind "gpuParticle" can be drawn. False if computing particles has failed in this
     /// context.
     bool canComputeParticles() const;
     /// Compiles the compute program of an emitter, if supported.
     void warmUp(const base::GpuParticleProgram& emitter);
 
-    /// True if the last frame did not change the picture and no memory is left to release. Then, without
-    /// visible data, further calls of render() do nothing.
+    /// True if the last frame did not change the picture and there is no memory to release. While there is no
+    /// visible data, further calls of render() then do nothing.
     bool isAsleep() const { return asleep_; }
-    /// Checks a request like render(). While the view is asleep, a frame does only this.
+    /// Checks a request as render() does. While the view is asleep, render() does only this.
     static base::Status check(const FrameRequest& request);
 
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;
-    /// GL name of the texture of bit number `number` of view_output, valid as long as layers(); 0 if it was
-    /// not requested or nothing is visible.
+    /// GL name of the texture for bit number `number` of view_output; 0 if it was not requested or nothing is
+    /// visible. It is valid as long as the textures of layers().
     uint32_t output(size_t number) const;
     /// Names of the passes that the last frame executed, in order.
     std::span<const std::string_view> executedPasses() const;

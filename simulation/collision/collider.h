@@ -61,12 +61,12 @@ namespace fx::sim {
 /// Response of a surface to contacts.
 struct SurfaceResponse
 {
-    float clearance = 0.0f;   ///< [m] local, distance of particle centers from the surface
+    float clearance = 0.0f;   ///< [m] local distance that particle centers keep from the surface
     float restitution = 0.0f; ///< [1] 0..1
     float friction = 0.0f;    ///< [1] 0..1
 };
 
-/// A distance field in the space of an instance. [any thread]; allocates nothing.
+/// A signed distance field in the local space of an instance. [any thread]; allocates nothing.
 class Collider
 {
 public:
@@ -79,10 +79,10 @@ public:
     struct Hit
     {
         bool found;
-        float share;      ///< [1] free share of the path, 1 without a contact
+        float share;      ///< [1] share of the path before the contact; 1 without a contact
         glm::vec3 normal; ///< normal of the surface at the contact
     };
-    /// Finds the free part of the path of a center from `from` to `to`.
+    /// Finds the first contact of a particle center on the path from `from` to `to`.
     Hit sweep(const glm::vec3& from, const glm::vec3& to) const;
 
     /// Corrects the end of a path from `from`: the path slides along surfaces, the velocity is reflected, and

@@ -58,7 +58,7 @@ constexpr float kFieldErrorCells = 0.8660255f;
 /// Version of the values of build(). They differ between versions for equal meshes and cells.
 constexpr uint32_t kFieldVersion = 1;
 
-/// Immutable. Sampling allocates nothing. [any thread]
+/// A signed distance field of a mesh, sampled on a grid. Immutable. Sampling allocates nothing. [any thread]
 class DistanceField
 {
 public:
@@ -80,7 +80,7 @@ public:
                                                         std::span<const float> values,
                                                         std::pmr::memory_resource* memory);
 
-    /// For build() and restore() only.
+    /// Creates a field without values, for build() and restore() only.
     DistanceField(const glm::dvec3& origin, const DistanceGrid& grid, std::pmr::memory_resource* memory);
 
     struct Sample
@@ -95,13 +95,14 @@ public:
 
     const glm::dvec3& origin() const { return origin_; } ///< [m] world
     const DistanceGrid& grid() const { return grid_; }
-    std::span<const float> values() const { return {values_.data(), grid_.count()}; } ///< [m] at the nodes
+    /// [m] signed distances at the nodes
+    std::span<const float> values() const { return {values_.data(), grid_.count()}; }
     float cell() const { return grid_.cell; }
-    /// Hash of nodes and distances, on which steps depend. Never 0.
+    /// Hash of nodes and distances, on which simulation steps depend. Never 0.
     uint64_t hash() const { return hash_; }
 
 private:
-    /// The cell that contains a position.
+    /// The grid cell that contains a position, with the distances at its corners.
     struct Corners
     {
         float d[8]; ///< x fastest, z slowest

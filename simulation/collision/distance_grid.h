@@ -12,16 +12,17 @@
 
 namespace fx::sim {
 
-constexpr size_t kMaxFieldNodes = size_t(1) << 24;       ///< maximum; 4 bytes per node
-constexpr size_t kAutomaticFieldNodes = size_t(1) << 22; ///< maximum for an automatic cell size
-constexpr float kFieldMargin = 4.0f;                     ///< [cell] minimum margin around the mesh
+constexpr size_t kMaxFieldNodes = size_t(1) << 24; ///< maximum number of nodes; each takes 4 bytes
+/// maximum number of nodes for an automatic cell size
+constexpr size_t kAutomaticFieldNodes = size_t(1) << 22;
+constexpr float kFieldMargin = 4.0f; ///< [cell] minimum margin around the mesh
 
 /// Grid of cubic cells around a mesh.
 struct DistanceGrid
 {
     glm::vec3 low{0.0f};   ///< [m] position of the first node, relative to the mesh's origin
     float cell = 1.0f;     ///< [m] edge of a cell
-    glm::uvec3 nodes{0u};  ///< number along each axis
+    glm::uvec3 nodes{0u};  ///< number of nodes along each axis
     base::Bounds bounds{}; ///< bounds of the mesh
 
     size_t count() const { return size_t(nodes.x) * nodes.y * nodes.z; }
@@ -35,8 +36,9 @@ struct DistanceGrid
     }
 };
 
-/// @param cell [m] edge; 0: the smallest that needs at most kAutomaticFieldNodes, but at least a thousandth
-///             of the size of the mesh
+/// Plans the grid of a mesh with the given bounds.
+/// @param cell [m] edge of a cell; 0: the smallest edge that needs at most kAutomaticFieldNodes, but at least
+///          a thousandth of the size of the mesh
 /// @return Capacity if more than kMaxFieldNodes are needed
 base::Result<DistanceGrid> planGrid(const base::Bounds& bounds, float cell);
 

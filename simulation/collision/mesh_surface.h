@@ -11,7 +11,7 @@
 
 namespace fx::sim {
 
-using Triangle = std::array<glm::vec3, 3>; ///< [m] relative to the mesh's origin
+using Triangle = std::array<glm::vec3, 3>; ///< [m] corners relative to the mesh's origin
 
 /// @formula angle-weighted-pseudonormal
 /// Side of a sheet on which a point lies, also if a corner or edge of a triangle is nearest.
@@ -43,10 +43,12 @@ struct MeshSurface
     {}
     std::pmr::vector<Triangle> solids;
     std::pmr::vector<Triangle> sheets;
-    std::pmr::vector<std::array<glm::vec3, kFeatures>> normals; ///< pseudonormals of each triangle of sheets
+    /// pseudonormals of each triangle in `sheets`
+    std::pmr::vector<std::array<glm::vec3, kFeatures>> normals;
 };
 
-/// Divides the triangles. Triangles without an area are left out. Throws std::bad_alloc.
+/// Divides the triangles of a mesh into solids and sheets. Triangles without an area are left out. Throws
+/// std::bad_alloc.
 MeshSurface sortTriangles(const TriangleMesh& mesh, std::pmr::memory_resource* memory);
 
 } // namespace fx::sim

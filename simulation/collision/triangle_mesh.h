@@ -11,20 +11,23 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kMaxMeshTriangles = 1u << 22; ///< about 300 bytes each while a field is built
-constexpr float kFarthestVertex = 1e5f;          ///< [m] of each coordinate from the mesh's origin
+/// maximum; each triangle takes about 300 bytes while a field is built
+constexpr uint32_t kMaxMeshTriangles = 1u << 22;
+/// [m] largest absolute value of a coordinate, relative to the mesh's origin
+constexpr float kFarthestVertex = 1e5f;
 
-/// Triangles are counter-clockwise seen from outside.
+/// A view of triangles, which are counter-clockwise seen from outside.
 struct TriangleMesh
 {
     glm::dvec3 origin{0.0};               ///< [m] world position that the vertices are relative to
     std::span<const glm::vec3> positions; ///< [m] relative to `origin`
-    /// three per triangle; empty: three consecutive positions per triangle
+    /// three indices per triangle; empty: three consecutive positions per triangle
     std::span<const uint32_t> indices;
     uint32_t triangles() const { return uint32_t((indices.empty() ? positions.size() : indices.size()) / 3); }
     uint32_t vertex(size_t corner) const { return indices.empty() ? uint32_t(corner) : indices[corner]; }
 };
 
+/// Checks a mesh.
 /// @return InvalidArgument (a position out of range or not finite, an index too large, an incomplete
 ///         triangle), TooLarge (more than kMaxMeshTriangles)
 base::Status checkMesh(const TriangleMesh& mesh);

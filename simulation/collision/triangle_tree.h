@@ -28,10 +28,11 @@ struct PacketNearest
     static constexpr uint32_t kMaxEqualTriangles = 8;
 
     alignas(64) double squared[kPacketPoints]; ///< [m2] distance
-    uint32_t triangle[kPacketPoints];          ///< position in the tree of one of the nearest triangles
-    /// Number of other triangles at exactly the same distance.
+    /// for each point: position in the tree of one of the nearest triangles
+    uint32_t triangle[kPacketPoints];
+    /// For each point: number of other triangles at exactly the same distance.
     uint32_t equals[kPacketPoints];
-    /// positions in the tree of the first of them, by point
+    /// For each point: positions in the tree of up to kMaxEqualTriangles of these other triangles.
     uint32_t equal[kPacketPoints * kMaxEqualTriangles];
 };
 
@@ -45,22 +46,23 @@ public:
     struct Nearest
     {
         double distance;   ///< [m]
-        uint32_t triangle; ///< kNone when no triangle is nearer than the limit
+        uint32_t triangle; ///< position in the tree; kNone when no triangle is nearer than the limit
         Feature feature;
-        glm::dvec3 point; ///< [m] of the triangle
+        glm::dvec3 point; ///< [m] nearest point of the triangle
     };
     static constexpr uint32_t kNone = ~0u;
 
-    /// The triangle nearest to `p`. If none is nearer than `within` [m], gives `within` and kNone. [any
-    /// thread]
+    /// Finds the triangle nearest to `p`. If none is nearer than `within` [m], returns the distance `within`
+    /// and kNone. [any thread]
     Nearest nearest(const glm::dvec3& p, double within) const;
 
-    /// Distances of eight points, with the bits of the function above, without a limit. The tree must not be
-    /// empty. [any thread]
-    /// @param guess position in the tree of a triangle that may be near; a better guess is faster
+    /// Finds the nearest triangles of eight points, with the bits of the function above, without a limit. The
+    /// tree must not be empty. [any thread]
+    /// @param guess position in the tree of a triangle that is probably near; the nearer it is, the faster
+    ///          the search
     void nearest(const PointPacket& points, uint32_t guess, PacketNearest& out) const;
 
-    /// Result of nearest() for a given triangle, by position in the tree.
+    /// Result of nearest() for one triangle, given by its position in the tree.
     Nearest at(uint32_t place, const glm::dvec3& p) const;
 
     struct Box
@@ -69,8 +71,9 @@ public:
     };
     struct Node : Box
     {
-        uint32_t first; ///< position of its triangles when `count` > 0, otherwise its second child
-        uint32_t count; ///< triangles of a leaf; 0: children are the next node and `first`
+        uint32_t first; ///< leaf: position of its first triangle; inner node: index of its second child
+        /// leaf: number of its triangles; inner node: 0. The first child of an inner node is the next node.
+        uint32_t count;
     };
     static constexpr size_t kDeepest = 64; ///< maximum depth; halving 2^22 triangles takes 21 levels
 
@@ -78,7 +81,7 @@ private:
     uint32_t build(std::span<const Triangle> triangles, uint32_t begin, uint32_t end);
     static double squaredDistance(const Box& box, const glm::dvec3& p);
 
-    std::pmr::vector<uint32_t> order_;     ///< index of the triangle at each position in the tree
+    std::pmr::vector<uint32_t> order_;     ///< index in the mesh of the triangle at each position in the tree
     std::pmr::vector<Triangle> triangles_; ///< in tree order
     std::pmr::vector<Box> boxes_;          ///< boxes of triangles, in tree order
     std::pmr::vector<Node> nodes_;

@@ -19,7 +19,7 @@ public:
     WindingRows(std::span<const Triangle> solids, const DistanceGrid& grid,
                 std::pmr::memory_resource* memory);
 
-    /// True when the node at `x` [m] of row (y, z) is inside. Any thread.
+    /// Whether the node at `x` [m] of the row (y, z) is inside. Any thread.
     bool isInside(double x, uint32_t y, uint32_t z) const;
 
 private:
@@ -28,7 +28,8 @@ private:
         double x;     ///< [m]
         int32_t sign; ///< +1, -1
     };
-    std::pmr::vector<size_t> first_; ///< index of each row's first crossing, then the total number
+    /// index of the first crossing of each row; the last element is the number of all crossings
+    std::pmr::vector<size_t> first_;
     std::pmr::vector<Crossing> crossings_;
     uint32_t rowsInY_;
 };

@@ -44,22 +44,24 @@ struct AmbientAir
 
 struct ChargePlan
 {
-    double mass = 0;             ///< [kg] of the material
-    double radius = 0;           ///< [m] of the ball of gas at the start
-    double temperature = 0;      ///< [K]
-    double pressure = 0;         ///< [Pa]
-    double density = 0;          ///< [kg/m3]
-    double gamma = 0;            ///< [1]
-    double rimSpeed = 0;         ///< [m/s] at the surface, proportional to the distance from the center
+    double mass = 0;        ///< [kg] mass of the material
+    double radius = 0;      ///< [m] initial radius of the ball of gas
+    double temperature = 0; ///< [K]
+    double pressure = 0;    ///< [Pa]
+    double density = 0;     ///< [kg/m3]
+    double gamma = 0;       ///< [1]
+    /// [m/s] initial speed of the surface; inside, the speed is proportional to the distance from the center
+    double rimSpeed = 0;
     double heat = 0;             ///< [J] initial heat above that of air
     double fuel = 0;             ///< [J] heat that combustion will release
     double fireballDiameter = 0; ///< [m] expected
     double fireballDuration = 0; ///< [s] expected
 };
 
+/// Computes the initial state of a charge.
 /// @param energy [J]
-/// @param pressureRatio [1] pressure of the ball over the air's, clamped to 1..1e4; ignored without heat at
-/// the start
+/// @param pressureRatio [1] pressure of the ball over that of the air, clamped to 1..1e4; ignored without
+///          heat at the start
 ChargePlan planCharge(const Material& material, double energy, double pressureRatio = 40.0,
                       const AmbientAir& air = {});
 

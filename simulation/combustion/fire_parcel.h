@@ -67,7 +67,7 @@ struct FireParcel
     double unburnt = 0;              ///< [1]
     double burning = 0;              ///< [1]
     double burnt = 1;                ///< [1]
-    double mixing = 1;               ///< [1] >= 1, mass including air over ownMass
+    double mixing = 1;               ///< [1] mass of the parcel including air, over ownMass; >= 1
     double temperature = kAirKelvin; ///< [K]
 };
 
@@ -75,7 +75,9 @@ struct FireParcel
 struct FireSurroundings
 {
     double airTemperature = kAirKelvin; ///< [K]
-    double hottest = 0; ///< [K] flames that touch the parcel; ignition uses the higher of both temperatures
+    /// [K] temperature of flames that touch the parcel; ignition uses the higher of this and the parcel's own
+    /// temperature
+    double hottest = 0;
     double entrainment = 0; ///< [1/s] q
     double radius = 1;      ///< [m]
     double exposure = 1;    ///< [1] X
@@ -84,12 +86,12 @@ struct FireSurroundings
 /// Energy balance, summed over calls.
 struct FireLedger
 {
-    double released = 0;   ///< [J] by combustion
+    double released = 0;   ///< [J] heat released by combustion
     double radiated = 0;   ///< [J]
     double givenToAir = 0; ///< [J] lost with air beyond the largest mixing
 };
 
-constexpr double kMaxMixing = 1e6; ///< [1] a parcel of higher mixing is treated as air
+constexpr double kMaxMixing = 1e6; ///< [1] largest mixing; above it, a parcel is treated as air
 
 /// Initial parcel of `mass` kilograms of material.
 FireParcel startParcel(const Material& material, double mass);

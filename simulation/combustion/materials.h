@@ -13,42 +13,45 @@ namespace fx::sim {
 /// detonation.
 struct JwlConstants
 {
-    double a = 0;       ///< [Pa]
-    double b = 0;       ///< [Pa]
-    double r1 = 0;      ///< [1]
-    double r2 = 0;      ///< [1]
-    double omega = 0;   ///< [1] Grueneisen coefficient; gamma of the far expansion is 1 + omega
-    double energy = 0;  ///< [J/m3] of the unreacted volume
-    double density = 0; ///< [kg/m3] of the unreacted material
-    double speed = 0;   ///< [m/s] of the detonation
+    double a = 0;  ///< [Pa]
+    double b = 0;  ///< [Pa]
+    double r1 = 0; ///< [1]
+    double r2 = 0; ///< [1]
+    /// [1] Grueneisen coefficient; the ratio of specific heats at large expansion is 1 + omega
+    double omega = 0;
+    double energy = 0;  ///< [J/m3] energy per volume of the unreacted material
+    double density = 0; ///< [kg/m3] density of the unreacted material
+    double speed = 0;   ///< [m/s] speed of the detonation
 };
 
 /// Extinction by one kind of particles, per kilogram of particles.
 struct ParticleOptics
 {
     double extinction; ///< [m2/kg] in the visible
-    double albedo;     ///< [1] share that scatters
+    double albedo;     ///< [1] single scattering albedo
 };
 
 struct Material
 {
     std::string_view name; ///< name in presets
 
-    double nominalEnergy;    ///< [J/kg] converts `energy` of a preset to a mass
-    double heatAtStart;      ///< [J/kg] heat that exists at the start: a detonation, a bursting casing
-    double heatOfCombustion; ///< [J/kg] released as the gas burns
-    double airNeeded;        ///< [kg/kg] air that complete combustion takes in
-    double ownOxygen;        ///< [1] share that burns without air, 0..1
-    double burningAtStart;   ///< [1] share that burns at the start, 0..1
+    /// [J/kg] energy per mass by which the member `energy` of a preset is converted to a mass
+    double nominalEnergy;
+    double heatAtStart;      ///< [J/kg] heat at the start, of a detonation or a bursting vessel
+    double heatOfCombustion; ///< [J/kg] heat released by combustion
+    double airNeeded;        ///< [kg/kg] mass of air for complete combustion
+    double ownOxygen;        ///< [1] share of the material that burns without air, 0..1
+    double burningAtStart;   ///< [1] share of the material that is burning at the start, 0..1
 
-    double gasConstant;      ///< [J/(kg K)] of the gas at the start, per kilogram of material
-    double startTemperature; ///< [K] of the gas at the start
-    double heatCapacity;     ///< [J/(kg K)] of gas and air at constant pressure, mean over 300..2300 K
-    double startSpeed;       ///< [m/s] speed of the content of a bursting vessel at its surface
+    double gasConstant;      ///< [J/(kg K)] gas constant at the start, per kilogram of material
+    double startTemperature; ///< [K] temperature of the gas at the start
+    /// [J/(kg K)] heat capacity of gas and air at constant pressure, mean over 300..2300 K
+    double heatCapacity;
+    double startSpeed; ///< [m/s] surface speed of the content of a bursting vessel
 
     double ignitionTemperature; ///< [K]
-    double ignitionDelay;       ///< [s] mean time to ignite when well above it
-    double burnTime;            ///< [s] mean time to burn with all the air it needs
+    double ignitionDelay;       ///< [s] mean time to ignite, well above ignitionTemperature
+    double burnTime;            ///< [s] mean time to burn with sufficient air
 
     double flameSoot; ///< [1] mass of soot in the burning gas, per own mass
     double smokeSoot; ///< [1] mass of soot left by the burnt gas, per own mass
@@ -63,13 +66,13 @@ struct Material
     JwlConstants jwl;
 };
 
-/// Soot from flames, and pale smoke of salts.
+/// Optical properties of soot from flames, and of pale smoke from salts.
 extern const ParticleOptics kSootOptics;
 extern const ParticleOptics kSaltOptics;
 
 /// All materials that presets can name.
 std::span<const Material> materials();
-/// The material of that name, or null.
+/// Finds a material by name; null if there is none.
 const Material* findMaterial(std::string_view name);
 
 constexpr double kTntEquivalent = 4.184e6; ///< [J/kg] by definition

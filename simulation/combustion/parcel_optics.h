@@ -35,9 +35,9 @@ namespace fx::sim {
 
 struct ParcelOptics
 {
-    double extinction = 0; ///< [m2] S, of the whole parcel
-    double absorption = 0; ///< [m2] (1 - w) S
-    double albedo = 0;     ///< [1] w; 0 for a parcel without particles
+    double extinction = 0; ///< [m2] extinction cross section S of the whole parcel
+    double absorption = 0; ///< [m2] absorption cross section (1 - w) S
+    double albedo = 0;     ///< [1] single scattering albedo w; 0 for a parcel without particles
 };
 
 ParcelOptics opticsOf(const Material& material, const FireParcel& parcel);

@@ -21,26 +21,27 @@ enum class DetailMaterial : uint8_t
 
 struct FieldDetail
 {
-    bool given = false; ///< false: no detail of the field; smooth balls, or separate noise for each ball
+    bool given = false; ///< true: the field has detail; false: smooth balls, or separate noise for each ball
     DetailMaterial material = DetailMaterial::Smoke;
     float billowSize = 1.0f; ///< [1] size of the largest lumps over 1.1 median radii, 0.1 .. 10
     float crispness = 0.5f;  ///< [1] 0 .. 1, sharpness of the edges of lumps
     float raggedness = 0.5f; ///< [1] 0 .. 1, strength of small lumps on large ones
-    float softening = 1.5f;  ///< [1] 0 .. 4, how early lumps blur as the medium becomes thin
+    float softening = 1.5f;  ///< [1] 0 .. 4, how soon the detail fades as the medium becomes thin
     float liveliness = 1.0f; ///< [1] 0.1 .. 10, rate of renewal of the pattern over the rate of the flow
 };
 
 /// Two generations of coordinates, common to all balls of a group.
 struct DetailGenerations
 {
-    uint64_t younger = 1;     ///< number of the younger generation
-    double fade = 0;          ///< [1] weight of the younger generation
-    float radius[2] = {1, 1}; ///< [m] median radius of the balls at the birth of the generation of parity i
-    float radiusNow[2] = {1, 1}; ///< [m] present median radius of the same balls
+    uint64_t younger = 1; ///< number of the younger generation
+    double fade = 0;      ///< [1] weight of the younger generation
+    /// [m] median radius of the balls when a generation began; index: number of the generation modulo 2
+    float radius[2] = {1, 1};
+    float radiusNow[2] = {1, 1}; ///< [m] present median radius of the balls that radius[] refers to
 };
 
-/// Adds a group of the kind "material" for the group of blobs that was added last, with its constants and
-/// ids. The caller then writes the columns.
+/// Adds a group of the kind "material", which belongs to the group of blobs added last, and writes its
+/// constants and ids. The caller then writes the columns.
 /// @param capacity maximum number of elements of the solver
 base::SnapshotGroup& addMaterial(const FieldDetail& detail, const DetailGenerations& generations,
                                  base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot);

@@ -48,12 +48,13 @@ namespace fx::sim {
 constexpr double kShearOfGeneration = 0.5; ///< [1] shear between two births of generations
 constexpr double kMaxGenerationRate = 8.0; ///< [1/s] maximum birth rate of generations
 
-/// The clock of generations, (2).
+/// Clock by which generations of coordinates begin: (2).
 class GenerationClock
 {
 public:
-    /// @param shear [1] S times the time
-    /// @return number of generations that were born
+    /// Advances the clock by a step.
+    /// @param shear [1] shear during the step: the rate S times the duration
+    /// @return number of generations that began
     uint64_t advance(double shear, double seconds);
     uint64_t younger() const { return younger_; }
     double fade() const { return fade_; } ///< [1] weight of the younger generation, [0, 1)
@@ -68,7 +69,7 @@ private:
     double fade_ = 0;
 };
 
-/// The coordinates m_n of two generations for a fixed number of balls, by row.
+/// The coordinates m_n of two generations for a fixed number of balls, one row per ball.
 class MaterialCoordinates
 {
 public:

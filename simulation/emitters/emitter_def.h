@@ -31,7 +31,7 @@ private:
     mutable std::weak_ptr<const ParticleProgram> program_;
 };
 
-/// Immutable while solvers of it exist.
+/// Definition of an emitter. Immutable while solvers of it exist.
 struct EmitterDef final : SolverDef, EmitterSettings
 {
     SharedProgram program;
@@ -51,8 +51,8 @@ struct EmitterDef final : SolverDef, EmitterSettings
     bool collides() const override;
     bool dependsOnPlacement() const override { return inWorld; }
     bool followsThermals() const override { return forces.updraft > 0.0f; }
-    /// Analytic when the state is a pure function of time: closed-form motion, no events, no trails, no
-    /// motion of the instance.
+    /// Policy of hidden instances. It is Analytic when the state is a pure function of time: closed-form
+    /// motion, no events, no trails, no motion of the instance; otherwise Replay.
     CatchUp catchUp() const override
     {
         const bool isAlone = !fed && events.empty() && !inWorld && !(trail.lifetime > 0.0f);
@@ -68,8 +68,8 @@ struct EmitterDef final : SolverDef, EmitterSettings
 
 struct EffectDef;
 
-/// The definitions of an effect's emitters by solver index, null for its other solvers. For code that
-/// inspects emitters; other code uses SolverDef.
+/// Returns the definitions of the emitters of an effect, indexed by solver; null for solvers that are not
+/// emitters. It is for code that inspects emitters; other code uses SolverDef.
 std::vector<const EmitterDef*> emittersOf(const EffectDef& effect);
 
 } // namespace fx::sim

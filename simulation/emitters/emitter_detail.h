@@ -9,8 +9,9 @@
 
 namespace fx::sim {
 
-/// Rows are those of the particle store. The particles of an emitter do not interact, so no velocity gradient
-/// is measured. Generations begin at fixed local times, at a rate derived from the turbulence.
+/// Material coordinates of the particles of an emitter, in the rows of their particle store. The particles do
+/// not interact, so no velocity gradient is measured. Generations begin at fixed local times, at a rate
+/// derived from the turbulence.
 class EmitterDetail
 {
 public:
@@ -20,11 +21,12 @@ public:
     /// U / L, which is the rms strain of an isotropic flow of one wave length.
     static base::Ticks periodOf(const EmitterDef& def);
 
-    /// Starts at `now`: all particles with an index below `next` already have coordinates, or are dead.
+    /// Starts at `now`. All particles with an index below `next` already have coordinates, or are dead.
     void begin(uint64_t next, base::Ticks now);
     /// Updates the coordinates after a step that ended at job.now.
     void follow(const AppearanceJob& job, const StepContext& context);
-    /// Adds the group for the group of blobs that was added last, without writing its rows.
+    /// Adds the group of coordinates that belongs to the group of blobs added last. The rows are written
+    /// later.
     void open(base::Ticks now, base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;
     /// Copies row `row` of the store to element `to` of the group.
     void write(uint32_t row, uint32_t to, base::SnapshotGroup& group) const
@@ -47,8 +49,8 @@ private:
     const EmitterDef& def_;
     base::Ticks period_;
     DetailGenerations shared_;
-    uint64_t younger_ = 0; ///< youngest generation for which coordinates exist
-    uint64_t next_ = 0;    ///< particles with smaller indices have coordinates
+    uint64_t younger_ = 0; ///< number of the youngest generation for which coordinates exist
+    uint64_t next_ = 0;    ///< birth index below which particles have coordinates
     MaterialCoordinates coordinates_;
 };
 

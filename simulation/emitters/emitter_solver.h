@@ -41,7 +41,8 @@ class EmitterSolver final : public Solver,
                             public PooledEmitter
 {
 public:
-    /// @param def outlives the solver
+    /// Creates a solver.
+    /// @param def definition; must outlive the solver
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds, std::pmr::memory_resource* memory);
     ~EmitterSolver() override
     {
@@ -54,7 +55,7 @@ public:
         base::WorkBudget unlimited;
         goOn(context, unlimited);
     }
-    /// Steps of small emitters are not divided.
+    /// Takes or continues a step within the work budget. Steps of small emitters are not divided.
     bool proceed(const StepContext& context, base::WorkBudget& work) override
     {
         const bool isKept = context.board || !isLinked(); // its data in scratch memory
@@ -82,7 +83,8 @@ public:
         now_ = tick;
         endStep(counters);
     }
-    /// Runs on the threads of the last step; before the first step on the calling thread.
+    /// Publishes the particles, on the threads of the last step; before the first step, on the calling
+    /// thread.
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
         PublicationPlace whole;
@@ -94,19 +96,21 @@ public:
     bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                          SpawnBatch& spawnBatch) const override;
     bool finished(base::Ticks tick) const override;
-    /// Exact, except that it is an upper bound while the GPU computes the particles.
+    /// Number of living particles; an upper bound while the GPU computes them.
     uint32_t elementCount() const override;
     bool hasElements() const override;
-    /// Seeks forwards are possible if motion has a closed form. Seeks backwards also require that the host
-    /// has changed no input since local time 0. Without particles and births, every emitter can seek.
+    /// Whether seek() can reach `tick`. Seeks forwards are possible if motion has a closed form. Seeks
+    /// backwards also require that the host has changed no input since local time 0. Without particles and
+    /// births, every emitter can seek.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
-    /// If there are no particles: the time of the next birth. Births caused by particles of another emitter
-    /// happen no earlier than the end of the rest of that emitter.
+    /// End of the time without visible changes: if there are no particles, the time of the next birth. Births
+    /// caused by particles of another emitter happen no earlier than the end of the rest of that emitter.
     base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
-    /// Finite if particles depend neither on each other nor on earlier ones, and no birth is dropped.
+    /// Time after which no present particle is alive. It is known if particles depend neither on each other
+    /// nor on earlier ones, and no birth is dropped.
     base::Ticks influenceHorizon(const InstanceParameters& parameters) const override;
     void saveWithoutElements(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
@@ -116,7 +120,8 @@ public:
     FiniteMemorySolver* finiteMemory() override { return this; }
     PooledEmitter* pooledEmitter() override { return this; }
 
-    static constexpr uint32_t kFewRows = 8192; ///< emitters with at most so many rows are not divided
+    /// steps of emitters with at most this number of rows are not divided
+    static constexpr uint32_t kFewRows = 8192;
 
     const EmitterPool* pool() const override { return pool_; }
     uint32_t member() const override { return member_; }
@@ -142,7 +147,7 @@ public:
     static uint64_t bytesOf(const EmitterDef& def, const ParticleProgram& program);
 
 private:
-    /// [unit] of base::WorkBudget for a step that is not divided.
+    /// [unit of base::WorkBudget] Work of a step that is not divided.
     uint64_t workOf(const StepCounters& done) const
     {
         return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
@@ -158,22 +163,22 @@ private:
         Births,
         Young,  ///< moves the new particles
         Move,   ///< moves all particles, without events
-        Answer, ///< events that cause births in other emitters
+        Answer, ///< processes events that cause births in other emitters
         Follow, ///< update of trails
     };
     struct Linked;
     struct OpenStep
     {
-        base::Ticks tick = -1;   ///< begin of the open step; -1: none
+        base::Ticks tick = -1;   ///< local time at which the open step begins; -1: none is open
         base::Ticks reached = 0; ///< local time before which all births are done
         StepPart part = StepPart::Old;
-        bool isWanted = false; ///< the GPU computes the particles, see StepContext::gpuParticles
-        uint32_t row = 0;      ///< next row of the stage
-        uint64_t left = 0;     ///< births that may still be stored
+        bool isWanted = false; ///< whether the GPU computes the particles, see StepContext::gpuParticles
+        uint32_t row = 0;      ///< next row to be processed by the stage
+        uint64_t left = 0;     ///< number of births that may still be stored
         uint64_t asked = 0;    ///< attempted births
-        uint64_t refused = 0;  ///< births whose row was occupied
+        uint64_t refused = 0;  ///< number of births whose row was occupied
         uint64_t droppedBefore = 0;
-        Linked* linked = nullptr; ///< in scratch memory, for emitters with events
+        Linked* linked = nullptr; ///< data of emitters with events, in scratch memory
         uint64_t board = 0;       ///< number of the EventBoard of the step that allocated `linked`
     };
     bool isOpen(const StepContext& context) const;
@@ -185,7 +190,7 @@ private:
     bool stepAlone(const StepContext& context, base::WorkBudget& work);
     bool joins(const StepContext& context) const;
     bool isPoolable() const;
-    /// Copies its state from the pool, which may be ahead, before a query.
+    /// Copies the state from the pool, which may be ahead of the copy in this object.
     void catchUpWithPool() const
     {
         if (pool_)
@@ -227,10 +232,10 @@ private:
     // for emitters with events
     struct Origin
     {
-        glm::vec3 position{0.0f}; ///< [m] added to the position from the shape of the birth
-        glm::vec3 velocity{0.0f}; ///< [m/s] of the origin
-        glm::vec3 tint{1.0f};     ///< [1] multiplies its color
-        bool fed = false;         ///< the birth was caused by an event of a particle
+        glm::vec3 position{0.0f}; ///< [m] added to the position that the birth shape gives
+        glm::vec3 velocity{0.0f}; ///< [m/s] velocity of the origin
+        glm::vec3 tint{1.0f};     ///< [1] factor on the color
+        bool fed = false;         ///< true: an event of a particle caused the birth
         bool byClock = true;
     };
     // for particles that stay in world space
@@ -303,11 +308,11 @@ private:
     // Members that every step and publication of a small emitter uses, adjacent for the cache.
     const EmitterDef& def_;
     const ParticleProgram& program_;
-    base::Ticks now_ = 0;         ///< end of the last step
+    base::Ticks now_ = 0;         ///< local time at which the last step ended
     base::Ticks motionBegin_ = 0; ///< see AppearanceJob
     Conditions conditions_;       ///< conditions of the last step
     uint32_t highWater_ = 0;
-    bool varied_ = false; ///< conditions have changed since the start
+    bool varied_ = false; ///< whether conditions have changed since the start
     bool started_ = false;
     bool bornWithMany_;      ///< see SpawnBatch
     bool publishesWithMany_; ///< see SpawnBatch
@@ -320,9 +325,10 @@ private:
     std::shared_ptr<const ParticleProgram> shared_;
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
-    std::optional<EmitterDetail> detail_;    ///< if its medium has detail of the field
-    std::optional<MovedSpace> space_;        ///< if particles stay where they are when the instance moves
-    std::optional<GpuEmitter> gpu_;          ///< if the GPU may compute the particles
+    std::optional<EmitterDetail> detail_; ///< present if the medium has detail of the field
+    /// present if particles keep their world position when the instance moves
+    std::optional<MovedSpace> space_;
+    std::optional<GpuEmitter> gpu_;          ///< present if the GPU can compute the particles
     BirthKey key_{};                         ///< random key of the last step
     mutable std::pmr::vector<Light> lights_; ///< scratch for the published lights
     uint64_t hostEvents_ = 0;                ///< number of host events processed
@@ -333,7 +339,7 @@ private:
     bool isDivided_;            ///< whether steps are divided, see proceed()
     uint64_t refusedInRow_ = 0; ///< number of consecutive births whose row was occupied
     base::Ticks fullUntil_ = 0; ///< local time up to which all rows are certainly occupied
-    double stepWork_;           ///< [unit] of base::WorkBudget, of a particle in a sub-step
+    double stepWork_;           ///< [unit of base::WorkBudget] work of a particle in a sub-step
 };
 
 } // namespace fx::sim

@@ -52,12 +52,14 @@
 
 namespace fx::sim {
 
-constexpr float kAirDensity = 1.204f; ///< [kg/m3] at 20 degrees C
+constexpr float kAirDensity = 1.204f; ///< [kg/m3] density of air at 20 degrees C
 
 /// [1/m] b of (1).
 float dragPerMeter(const FragmentMatter& matter, float size);
 
-/// A step of flight without ground contact. `perMeter` is b, `air` the velocity of the air [m/s].
+/// A step of flight without ground contact.
+/// @param air [m/s] velocity of the air
+/// @param perMeter [1/m] drag coefficient b
 MotionState flyStep(const MotionState& from, const glm::vec3& acceleration, const glm::vec3& air,
                     float perMeter, float seconds);
 

@@ -29,7 +29,8 @@
 
 namespace fx::sim {
 
-/// Diameter [m] for u in [0, 1): u = 0 gives the smallest.
+/// [m] Diameter of a fragment, drawn by a uniform random number u in [0, 1). The diameter increases with u,
+/// from the smallest at u = 0.
 float fragmentSize(const FragmentsDef& def, float u);
 
 } // namespace fx::sim

@@ -25,15 +25,15 @@ enum : size_t
     Size,        ///< [m] diameter
     Temperature, ///< [K]
     Hottest,     ///< [K] temperature at the start
-    Due,         ///< [m] distance to the next blob of smoke
+    Due,         ///< [m] distance to fly before the next blob of smoke
     Count
 };
 }
 
-/// Rows are in the order of fragment numbers.
+/// The fragments of one instance. Rows are in the order of fragment numbers.
 struct FragmentStore
 {
-    /// [byte] of a row.
+    /// [byte] Memory of a row.
     static constexpr uint64_t kRowBytes =
         2 * sizeof(uint32_t) + sizeof(base::Ticks) + fragment_column::Count * sizeof(float);
 
@@ -51,8 +51,8 @@ struct FragmentStore
 
     uint32_t count = 0;
     base::Column<uint32_t> number;  ///< index of the fragment in the burst
-    base::Column<uint32_t> trailed; ///< blobs of smoke left so far
-    base::Column<base::Ticks> dies; ///< local time
+    base::Column<uint32_t> trailed; ///< number of blobs of smoke emitted so far
+    base::Column<base::Ticks> dies; ///< local time at which the fragment is removed
     std::array<base::Column<float>, fragment_column::Count> attributes;
 };
 

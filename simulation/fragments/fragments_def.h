@@ -32,28 +32,29 @@ struct FragmentMatter
 {
     float density = 7850.0f;      ///< [kg/m3] > 0; steel
     float specificHeat = 490.0f;  ///< [J/(kg K)] > 0
-    float emissivity = 0.85f;     ///< [1] 0 .. 1; oxidized steel
-    float dragCoefficient = 1.0f; ///< [1] >= 0; tumbling, a smooth ball has 0.47
+    float emissivity = 0.85f;     ///< [1] 0 .. 1; default: oxidized steel
+    float dragCoefficient = 1.0f; ///< [1] >= 0; default: a tumbling fragment; a smooth ball has 0.47
     float gravity = 1.0f;         ///< [1] multiple of the world's gravity
     float bounce = 0.35f;         ///< [1] restitution at the ground, 0 .. 1
-    float friction = 0.4f;        ///< [1] tangential velocity lost at a bounce, 0 .. 1
+    float friction = 0.4f;        ///< [1] share of the tangential velocity that is lost at a bounce, 0 .. 1
 };
 
 /// The smoke behind a hot fragment: one blob for every `spacing` along its path.
 struct TrailDef
 {
     float spacing = 0.2f;             ///< [m] distance between blobs; 0: no smoke
-    float idle = 0.0f;                ///< [m/s] lowest speed used for the smoke rate of a fragment
+    float idle = 0.0f;                ///< [m/s] slower fragments emit smoke as if they had this speed
     uint32_t maxBlobs = 4096;         ///< maximum number of living blobs
     float coldest = 650.0f;           ///< [K] temperature below which a fragment emits no smoke
     base::Range lifetime{1.5f, 3.0f}; ///< [s] > 0
-    base::Range radius{0.06f, 0.1f};  ///< [m] at birth, behind the largest fragment
-    float opticalDepth = 0.5f;  ///< [1] along a diameter at birth, behind a fragment as hot as at the start
-    float temperature = 900.0f; ///< [K] at birth
-    float mixing = 5.0f;        ///< [1/s] rate of approach to the air's temperature
+    base::Range radius{0.06f, 0.1f};  ///< [m] radius of a blob at birth, behind the largest fragment
+    /// [1] optical depth along a diameter at birth, behind a fragment at its initial temperature
+    float opticalDepth = 0.5f;
+    float temperature = 900.0f; ///< [K] temperature of a blob at birth
+    float mixing = 5.0f;        ///< [1/s] rate at which the temperature approaches that of the air
     float spreading = 0.02f;    ///< [m2/s] growth rate of the square of the radius
-    float inherited = 0.15f;    ///< [1] share of the fragment's velocity
-    float drag = 4.0f;          ///< [1/s] rate at which the velocity approaches the air's
+    float inherited = 0.15f;    ///< [1] share of the fragment's velocity that a blob inherits
+    float drag = 4.0f;          ///< [1/s] rate at which the velocity approaches that of the air
     float buoyancy = 1.0f;      ///< [1] multiple of the buoyancy force
     float curlStrength = 0.35f; ///< [m/s] turbulence
     float curlScale = 0.7f;     ///< [m]
@@ -66,9 +67,9 @@ struct TrailDef
 
 /// Work of fragments and their smoke in units of base::WorkBudget, see docs/howto/bounded-updates.md.
 namespace fragment_work {
-constexpr double kMoved = 24.0; ///< for each fragment and each blob of smoke in a sub-step
-constexpr double kBirth = 20.0; ///< for each fragment or blob that is born
-constexpr double kShown = 11.0; ///< for each fragment or blob, once a step, for publication
+constexpr double kMoved = 24.0; ///< work for each fragment and each blob of smoke in a sub-step
+constexpr double kBirth = 20.0; ///< work for each fragment or blob that is born
+constexpr double kShown = 11.0; ///< work of publishing a fragment or blob, once a step
 } // namespace fragment_work
 
 /// A burst of fragments at one moment.
@@ -78,22 +79,23 @@ struct FragmentsDef final : SolverDef
     uint32_t count = 100;      ///< 1 .. 8192
     float start = 0.0f;        ///< [s]
     glm::vec3 position{0.0f};  ///< [m] center of the ball in which the fragments start
-    float originRadius = 0.2f; ///< [m] of that ball
+    float originRadius = 0.2f; ///< [m] radius of the ball in which the fragments start
     FragmentShape shape = FragmentShape::Sphere;
     float angle = 0.5235988f;        ///< [rad] half angle of the cone
     base::Range speed{10.0f, 30.0f}; ///< [m/s]
 
     SizeLaw sizeLaw = SizeLaw::Mott;
     base::Range size{0.004f, 0.05f}; ///< [m] smallest and largest diameter
-    float meanSize = 0.015f;         ///< [m] Mott: diameter of the fragment of mean mass
-    float exponent = 2.5f;           ///< [1] power law: N(larger than d) ~ d^-exponent, > 0
+    float meanSize = 0.015f;         ///< [m] for SizeLaw::Mott: diameter of a fragment of mean mass
+    /// [1] for the power law: the number of fragments larger than d is proportional to d^-exponent; > 0
+    float exponent = 2.5f;
 
-    base::Range temperature{1300.0f, 1700.0f}; ///< [K] at the start
-    base::Range lifetime{6.0f, 9.0f};          ///< [s] until the fragment is removed
+    base::Range temperature{1300.0f, 1700.0f}; ///< [K] temperature of fragments at the start
+    base::Range lifetime{6.0f, 9.0f};          ///< [s] time after which the fragment is removed
     FragmentMatter matter;
     TrailDef trail;
 
-    float visibleSize = 1.0f;   ///< [1] drawn radius over the fragment's radius
+    float visibleSize = 1.0f;   ///< [1] drawn radius over the radius of the fragment
     float shutter = 0.0166667f; ///< [s]
     float heat = 0.0f;          ///< see EmitterDef
 

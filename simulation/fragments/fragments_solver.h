@@ -15,7 +15,8 @@ namespace fx::sim {
 class FragmentsSolver final : public Solver, public BudgetedSolver
 {
 public:
-    /// @param def outlives the solver
+    /// Creates a solver.
+    /// @param def definition; must outlive the solver
     /// @param kind kind of its two groups: the fragments, then their smoke
     FragmentsSolver(const FragmentsDef& def, base::KindId kind, std::pmr::memory_resource* memory);
 
@@ -43,9 +44,10 @@ private:
     /// State of a step that is not finished.
     struct OpenStep
     {
-        base::Ticks tick = -1; ///< begin of the open step; -1: none
-        bool hasFlown = false; ///< the fragments are at the end of the step; smoke remains to be emitted
-        uint32_t row = 0;      ///< next row of smoke to move or to emit
+        base::Ticks tick = -1; ///< local time at which the open step begins; -1: none is open
+        /// true: the fragments are at the end of the step, and smoke remains to be emitted
+        bool hasFlown = false;
+        uint32_t row = 0; ///< next row of smoke to move or to emit
     };
     bool moveAll(const TrailStep& step, base::WorkBudget& work);
     bool leaveAll(const TrailStep& step, base::Ticks begin, base::WorkBudget& work);
@@ -64,7 +66,7 @@ private:
     TrailStore trail_;
     base::Column<FragmentWay> ways_; ///< paths of the fragments in the open step
     OpenStep open_;
-    base::Ticks now_ = 0; ///< end of the last step
+    base::Ticks now_ = 0; ///< local time at which the last step ended
     bool released_ = false;
 };
 

@@ -53,19 +53,19 @@ struct TrailStep
     CurlNoise noise;
 };
 
-/// Position of a fragment at both ends of its flight in a step.
+/// Flight of a fragment in a step, and the smoke that it emits.
 struct FragmentWay
 {
     MotionState from;
     MotionState to;
-    float length;    ///< [m] L, as counted for smoke
-    float due;       ///< [m] D before the step
+    float length;    ///< [m] length L of (2), by which smoke is emitted
+    float due;       ///< [m] distance D of (2) before the step
     uint32_t blobs;  ///< number of blobs emitted in the step
-    uint32_t stored; ///< number of these that fit into the store
-    uint32_t first;  ///< row of the first of them
+    uint32_t stored; ///< number of emitted blobs that fit into the store
+    uint32_t first;  ///< row of the first of these blobs
 };
 
-/// n of (2): number of blobs along a path.
+/// Number n of blobs along a path, by (2).
 uint32_t blobsAlong(float length, float due, float spacing);
 
 /// A range of consecutive rows.
@@ -83,7 +83,7 @@ void emitSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t r
 /// Moves the rows [begin, end) over the whole step.
 void moveSmoke(const TrailStep& step, TrailStore& trail, uint32_t begin, uint32_t end);
 
-/// Appearance of a blob at an age. @param radius [m] at birth
+/// Appearance of a blob at an age. @param radius [m] radius at birth
 struct SmokeAppearance
 {
     float radius;      ///< [m] (3)

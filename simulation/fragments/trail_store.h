@@ -27,21 +27,23 @@ enum : size_t
 };
 }
 
-/// Id of a blob of a fragment; equal for any length of the steps.
+/// Id of a blob of a fragment. It does not depend on the length of steps.
 constexpr uint64_t trailId(uint32_t fragment, uint32_t blob)
 {
     return (uint64_t(fragment) << 24) | (blob & 0xFFFFFFu);
 }
 
-/// Rows in the order of creation. Memory is reserved for a typical number of rows and grows as needed.
+/// Columns of blobs, with rows in the order of creation. Memory is reserved for a typical number of rows and
+/// grows as needed.
 class TrailStore
 {
 public:
-    /// @param most largest number of rows
+    /// Creates an empty store.
+    /// @param most maximum number of rows
     TrailStore(std::pmr::memory_resource* memory, size_t most);
 
     size_t capacity() const { return most_; }     ///< largest number of rows
-    size_t held() const { return id.capacity(); } ///< rows for which memory is reserved
+    size_t held() const { return id.capacity(); } ///< number of rows for which memory is reserved
     /// Reserves memory for `rows`, at most capacity(), at least doubling it. Strong guarantee.
     void reserve(size_t rows);
     /// [byte] Memory of this number of rows.
@@ -53,6 +55,7 @@ public:
     void removeDead(base::Ticks tick);
 
     void save(StateWriter& writer) const;
+    /// Restores the output of save().
     /// @param now local time of the state
     void restore(StateReader& reader, base::Ticks now);
 

@@ -21,8 +21,8 @@ class GasAir
 public:
     GasAir(const GasDef& def, const StepContext& step, const ThermalFlow& thermal);
 
-    /// Turbulence at the full strength of flames, evaluated at several positions at once, because a vector of
-    /// positions takes little more time than one.
+    /// Turbulence at the full strength of flames. It is evaluated at several positions at once, because a
+    /// vector of positions takes little more time than a single one.
     class Turbulence
     {
     public:

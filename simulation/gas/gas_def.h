@@ -20,37 +20,39 @@ namespace fx::sim {
 struct GasDef final : SolverDef
 {
     std::string name;
-    uint32_t particles = 400;                          ///< 8 .. 20000, at medium quality
+    uint32_t particles = 400;                          ///< number of particles at medium quality, 8 .. 20000
     glm::vec3 position{0.0f};                          ///< [m] center of the initial ball
     float start = 0.0f;                                ///< [s]
     const Material* material = findMaterial("petrol"); ///< never null
     double energy = 20e6;                              ///< [J] > 0
-    float pressureRatio =
-        12.0f; ///< [1] initial pressure over the air's, 1 .. 100, where the charge detonates
+    /// [1] for charges that detonate: initial pressure over that of the air, 1 .. 100
+    float pressureRatio = 12.0f;
     /// [m/s] limit on the speed of sound; 0: no limit, with shorter steps and a realistic blast
     float soundSpeed = 60.0f;
-    float jitter = 0.15f;    ///< [1] random displacement in particle spacings, which starts the instabilities
-    float lumpiness = 0.3f;  ///< [1] 0 .. 1, strength of the large jets of the release
-    float throwSpeed = 1.0f; ///< [1] multiple of the initial speed of the material
+    /// [1] random displacement in units of the particle spacing, from which instabilities grow
+    float jitter = 0.15f;
+    float lumpiness = 0.3f;      ///< [1] 0 .. 1, strength of the large jets of the release
+    float throwSpeed = 1.0f;     ///< [1] factor on the initial speed of the material
     glm::vec3 initialBias{0.0f}; ///< [m/s] velocity added to every particle
-    float entrainment = 1.0f;    ///< [1] multiple of the air entrained by a thermal, while the gas burns
-    float radiation = 1.0f;      ///< [1] multiple of black-body loss
+    float entrainment = 1.0f;    ///< [1] factor on the entrainment of air by a thermal, while the gas burns
+    float radiation = 1.0f;      ///< [1] factor on the heat loss by radiation
     float drag = 0.35f;          ///< [1/s] rate of momentum exchange with the air
-    float braking = 0.3f;        ///< [1] multiple of the momentum lost to displaced air
+    float braking = 0.3f;        ///< [1] factor on the momentum lost to displaced air
     float buoyancy = 1.0f;       ///< [1] multiple of the buoyancy force
     float rolling = 1.0f;        ///< [1] 0 .. 1, strength of the vortex-ring circulation of the rising cloud
-    float curlStrength = 2.5f;   ///< [m/s] turbulence below the particles' size
+    float curlStrength = 2.5f;   ///< [m/s] speed of the turbulence at lengths below the size of particles
     float curlScale = 2.0f;      ///< [m]
-    float viscosity = 1.0f;      ///< [1] largest alpha of the artificial viscosity, 0 .. 4
+    float viscosity = 1.0f;      ///< [1] largest coefficient alpha of the artificial viscosity, 0 .. 4
 
     // optics
-    float opacity = 1.0f; ///< [1] multiple of the extinction of the soot and salts that the material leaves
-    /// multiplies the albedo of soot and salts; t = burnt share
+    float opacity = 1.0f; ///< [1] factor on the extinction by soot and salts
+    /// factor on the albedo of soot and salts over the burnt share, 0..1
     base::ColorCurve smokeTint{std::array{1.0f, 1.0f, 1.0f}};
-    float sootTemperature = 1100.0f; ///< [K] below it, soot counts as smoke in the layers of the picture
-    float growth = 1.4f;             ///< [1] radius of a blob over half the kernel's support
-    float heat = 1.0f;               ///< see EmitterDef
-    float dissipation = 0.12f;       ///< [1/s] rate at which cold smoke thins out
+    /// [K] temperature below which soot counts as smoke in the layers of the picture
+    float sootTemperature = 1100.0f;
+    float growth = 1.4f;       ///< [1] radius of a blob over half the kernel's support
+    float heat = 1.0f;         ///< see EmitterDef
+    float dissipation = 0.12f; ///< [1/s] rate at which cold smoke thins out
     float detailAmount = 0.8f;
     float detailScale = 1.5f;
     float anisotropy = 0.3f;

@@ -8,10 +8,11 @@
 
 namespace fx::sim {
 
-/// Rows are indexed by particle id.
+/// Material coordinates of the particles of a gas. Rows are indexed by particle id.
 class GasDetail
 {
 public:
+    /// Creates coordinates for a number of particles.
     /// @param growth [1] radius of a drawn ball over half the support of its particle
     GasDetail(const FieldDetail& detail, float growth, uint32_t particles, std::pmr::memory_resource* memory)
         : detail_(detail), growth_(growth), coordinates_(memory, particles)
@@ -21,7 +22,7 @@ public:
     void begin(const GasView<const float>& gas, base::Arena& scratch);
     /// Advances the generations after the gas has moved for `seconds`.
     void follow(const GasView<const float>& gas, double seconds, base::Arena& scratch);
-    /// Adds the group for the group of blobs that was added last.
+    /// Adds the group of coordinates that belongs to the group of blobs added last.
     void publish(base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;
     void save(StateWriter& writer, uint32_t particles) const;
     void restore(StateReader& reader, uint32_t particles);

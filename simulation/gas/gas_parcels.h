@@ -10,18 +10,18 @@
 
 namespace fx::sim {
 
-/// Arrays indexed by the particle's id, which never changes, unlike its place in the gas.
 constexpr float kFaintest = 0.02f; ///< [1] smallest presence of drawn smoke
 
+/// Arrays that are indexed by the id of a particle. The id never changes; the slot in the gas does.
 struct GasParcels
 {
     GasParcels(std::pmr::memory_resource* memory, uint32_t capacity)
         : fire(memory, capacity), vigor(memory, capacity), presence(memory, capacity)
     {}
 
-    base::Column<FireParcel> fire; ///< the temperature is that at the air's pressure
+    base::Column<FireParcel> fire; ///< burning parcels; their temperature is that at the pressure of the air
     base::Column<float> vigor;     ///< [1] mixing rate of this parcel over the mean rate
-    base::Column<float> presence;  ///< [1] share of the smoke that has not yet dissolved, 1..0
+    base::Column<float> presence;  ///< [1] share of the smoke that has not yet dissolved, from 1 to 0
 };
 
 } // namespace fx::sim

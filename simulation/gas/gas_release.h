@@ -33,7 +33,7 @@
 
 namespace fx::sim {
 
-/// Adds `particles` particles to `gas` and sets their parcels. Fails as GasDynamics::add does.
+/// Adds `particles` particles to `gas` and sets their parcels. Fails in the same cases as GasDynamics::add().
 base::Status releaseGas(const GasDef& def, const ChargePlan& plan, const StepContext& context,
                         std::span<GasParticle> scratch, GasDynamics<float>& gas, GasParcels& parcels);
 

@@ -14,8 +14,8 @@
 
 namespace fx::sim {
 
-/// Maximum number of sub-steps between two exchanges with the air. Time beyond it is not simulated; it is
-/// reported as debt.
+/// Maximum number of sub-steps between two exchanges with the air. Time that needs more sub-steps is not
+/// simulated; it is reported as debt.
 constexpr uint32_t kMaxGasSubSteps = 400;
 constexpr double kMaxGasSlices = 64.0; ///< maximum number of exchanges with the air in a step
 constexpr double kGasCourant = 0.6;
@@ -24,7 +24,7 @@ constexpr double kGasCourant = 0.6;
 constexpr uint64_t kGasReleaseWork = 200;
 constexpr uint64_t kGasExchangeWork = 80;
 constexpr uint64_t kGasShownWork = 12;
-constexpr uint64_t kGasBytes = 1500; ///< [byte] per particle, approximate, including neighbor lists
+constexpr uint64_t kGasBytes = 1500; ///< [byte] approximate memory per particle, including neighbor lists
 
 /// [m] Support radius at which each of `particles` particles in a ball of `radius` has `neighbors` neighbors.
 double evenSupport(double radius, uint32_t particles, double neighbors);
@@ -34,7 +34,8 @@ double evenSupport(double radius, uint32_t particles, double neighbors);
 class GasSolver final : public Solver, public BudgetedSolver, public AirMover
 {
 public:
-    /// @param def outlives the solver
+    /// Creates a solver.
+    /// @param def definition; must outlive the solver
     /// @param kind kind of its groups
     /// @param material kind of the groups with coordinates for detail
     GasSolver(const GasDef& def, const Quality& quality, base::KindId kind, base::KindId material,
@@ -47,7 +48,7 @@ public:
     }
     bool proceed(const StepContext& context, base::WorkBudget& work) override;
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
-    /// Publishes everything in one call.
+    /// Publishes the whole gas in one call, whatever the budget.
     bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                             PublicationPlace& /*ioPlace*/, base::WorkBudget& work) const override
     {
@@ -67,10 +68,11 @@ private:
     /// State of a step that is computed over several calls of proceed().
     struct Open
     {
-        base::Ticks tick = -1; ///< begin of the open step; -1: none
+        base::Ticks tick = -1; ///< local time at which the open step begins; -1: none is open
         double seconds = 0;    ///< [s] length of the step
         double left = 0;       ///< [s] remaining time, from the beginning of the current slice
-        double slice = 0;      ///< [s] of gas dynamics between two exchanges; 0 between slices
+        /// [s] duration of gas dynamics between two exchanges with the air; 0 between slices
+        double slice = 0;
     };
     bool waitsForRelease(const StepContext& context, const base::WorkBudget& work) const;
     bool begin(const StepContext& context, base::WorkBudget& work);
@@ -79,13 +81,14 @@ private:
     /// [m/s]
     struct FlowSpeeds
     {
-        double flow;         ///< root mean square
-        double sound;        ///< speed of sound of the hottest gas
-        double reducedSound; ///< as simulated
+        double flow;         ///< [m/s] root mean square speed of the flow
+        double sound;        ///< [m/s] speed of sound of the hottest gas
+        double reducedSound; ///< [m/s] the same speed of sound, as reduced in the simulation
     };
     FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;
     double exchange(const StepContext& context, double longest, double shortest);
     void takeIn(double pressureScale, base::TaskRunner& tasks);
+    /// Corrects the paths of parcels that hit the geometry in a step.
     /// @param before [m] positions of parcels at the beginning of their paths, by id; empty without geometry
     void settle(const StepContext& context, float seconds, std::span<const glm::vec3> before);
     void retireWhenDissolved();
@@ -96,19 +99,20 @@ private:
     Quality quality_;
     base::KindId kind_;
     base::KindId material_;
-    ChargePlan plan_; ///< plan for the energy of the definition
+    ChargePlan plan_; ///< plan of the charge, computed from the energy of the definition
     GasThermodynamics thermodynamics_;
     uint32_t particles_;
     GasDynamics<float> gas_;
     GasParcels parcels_;
-    std::optional<GasDetail> detail_;   ///< if the preset defines detail of the field
+    std::optional<GasDetail> detail_;   ///< present if the preset defines detail of the field
     base::Column<GasParticle> scratch_; ///< scratch for the release
     std::pmr::memory_resource* memory_;
-    base::Column<glm::vec3> ways_; ///< [m] begin of the path of each parcel; allocated for collisions only
+    /// [m] position of each parcel at the beginning of its path; allocated only if the gas collides
+    base::Column<glm::vec3> ways_;
     Open open_;
-    float hottest_ = 0;    ///< [K] of all parcels at the end of the last step
+    float hottest_ = 0;    ///< [K] temperature of the hottest parcel at the end of the last step
     base::Ticks released_; ///< local time of the release
-    base::Ticks now_ = 0;  ///< end of the last step
+    base::Ticks now_ = 0;  ///< local time at which the last step ended
     bool begun_ = false;
     bool done_ = false;
 };

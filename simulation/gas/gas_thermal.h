@@ -25,6 +25,7 @@
 
 namespace fx::sim {
 
+/// Fits the flow of a thermal to the present state of a gas.
 /// @param wind [m/s] wind that carries the cloud
 ThermalFlow measureThermal(const GasView<const float>& gas, const glm::vec3& gravity, const glm::vec3& wind);
 

@@ -18,6 +18,7 @@ namespace fx::sim {
 class GpuEmitter
 {
 public:
+    /// Creates the logs of one emitter.
     /// @param program a program that the GPU can compute; must outlive this object
     GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory);
 
@@ -38,25 +39,25 @@ public:
     /// Removes entries of particles that are dead at `now`.
     void forget(base::Ticks now);
 
-    /// True if a step needs more than the GPU supports.
+    /// Whether a step needs a feature that the GPU does not support.
     bool asksTooMuch(const StepContext& context) const
     {
         constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
         return (dependsOnHost_ && (context.collider || context.contactHook)) ||
                (steps_ && context.stepTicks > kLongest);
     }
-    /// True if particles may die before the end of their lifetime.
+    /// Whether particles may die before the end of their lifetime.
     bool kills() const { return kills_; }
     bool isOn() const { return on_; }
-    /// True if the log covers all particles alive at `now` and is small enough for publication.
+    /// Whether the log covers all particles alive at `now` and is small enough for publication.
     bool mayBegin(base::Ticks now) const;
     bool mayGoOn(base::Ticks now) const;
     void begin() { on_ = true; }
     void end() { on_ = false; }
 
-    /// Upper bound of the number of living particles.
+    /// Upper bound of the number of living particles, which is also the number of logged births.
     uint32_t count() const { return uint32_t(log_.next() - log_.front()); }
-    /// True when no particle is alive at `now`. After the last birth, all births are examined once and the
+    /// Whether no particle is alive at `now`. After the last birth, all births are examined once and the
     /// result is cached.
     bool isEmpty(const BirthKey& key, base::Ticks now) const;
 
@@ -74,17 +75,19 @@ private:
 
     const ParticleProgram& program_;
     uint32_t rows_;
-    base::Ticks window_; ///< [tick] longer than any lifetime
-    bool steps_;         ///< motion has no closed form
+    /// [tick] length of the window of time that the logs cover; longer than any lifetime
+    base::Ticks window_;
+    bool steps_; ///< true if the motion has no closed form
     bool kills_;
     bool dependsOnHost_;
     bool meetsGround_ = false; ///< see ConditionsRange
     bool meetsOthers_ = false;
     BirthLog log_;
     StepLog stepLog_;
-    std::pmr::vector<MotionCondition> conditions_; ///< the first one applies to the oldest living particle
-    base::Ticks known_ = 0;                        ///< time since which all steps are recorded
-    base::Ticks dropped_ = -1;                     ///< [tick] births were dropped before then; -1: never
+    /// conditions in the order of time; the first one applies to the oldest living particle
+    std::pmr::vector<MotionCondition> conditions_;
+    base::Ticks known_ = 0;    ///< [tick] local time since which all steps are recorded
+    base::Ticks dropped_ = -1; ///< [tick] local time before which births were dropped; -1: none were
     bool on_ = false;
     mutable uint64_t deathsOf_ = ~uint64_t(0); ///< index of the next birth when lastDeath_ was computed
     mutable base::Ticks lastDeath_ = 0;

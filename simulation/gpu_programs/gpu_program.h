@@ -14,6 +14,7 @@ namespace fx::sim {
 /// Reason why an emitter must be computed on the CPU, as text; empty if the GPU can compute it.
 std::string_view gpuObstacle(const EmitterSettings& def);
 
+/// Creates the GPU program of an emitter.
 /// @param def a definition that the GPU can compute; it is copied
 std::shared_ptr<const base::GpuParticleProgram> makeGpuProgram(const EmitterSettings& def);
 

@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-/// Conditions of ballistic particles, valid from a time on.
+/// Acceleration of particles with closed-form motion, valid from a time on.
 struct MotionCondition
 {
     base::Ticks begin; ///< local time
@@ -45,12 +45,12 @@ struct ReplayInput
     BirthKey key;
     uint64_t first; ///< births [first, next)
     uint64_t next;
-    /// Gives the ticks of the births from `first` on, which never decrease.
+    /// Writes the ticks of the births from `first` on to `out`. They never decrease.
     std::function<void(uint64_t first, std::span<base::Ticks> out)> ticksOf;
     std::span<const MotionCondition> conditions; ///< ascending, at least one
     base::Ticks now;
     bool placed; ///< see ParticleStore::placed
-    /// All steps during the lives of the particles; for motion without a closed form
+    /// All steps during the lives of the particles; only for motion without a closed form.
     std::span<const ReplayStep> steps = {};
 };
 

@@ -19,7 +19,7 @@ namespace fx::sim {
 struct StepConditions
 {
     glm::vec3 gravity{0.0f}; ///< [m/s2] local
-    glm::vec3 wind{0.0f};    ///< [m/s] local, without the wind of the emitter itself
+    glm::vec3 wind{0.0f};    ///< [m/s] local wind, without the wind of the emitter itself
     float ground = 0.0f;     ///< [m] see StepContext::groundHeight
     float intensity = 1.0f;  ///< intensity of births
     bool emitting = true;

@@ -40,6 +40,7 @@ namespace fx::sim {
 class CurlNoise
 {
 public:
+    /// Creates the field at one moment.
     /// @param seed selects the field
     /// @param strength [m/s] root mean square speed; 0 switches the field off
     /// @param scale [m] length of one period, > 0
@@ -58,13 +59,13 @@ public:
     struct Parts
     {
         uint32_t seed;
-        float gain;          ///< [m/s] of the field with mean square speed of about 1
+        float gain;          ///< [m/s] factor on a field whose mean square is about 1
         float perScale;      ///< [1/m]
         const float* cosine; ///< cosines of kPhases phases
         const float* sine;
     };
     static constexpr uint32_t kPhases = 16;
-    Parts parts() const; ///< valid as long as this object
+    Parts parts() const; ///< parameters for the kernels, valid during the lifetime of this object
 
 private:
     uint32_t seed_;

@@ -37,7 +37,7 @@ namespace fx::sim {
 struct DragStep
 {
     float decay;   ///< [1] E
-    float share;   ///< [1] 1 - E, share of the air's velocity that the particle takes on
+    float share;   ///< [1] 1 - E, weight of the air's velocity in the velocity of the particle
     float gain;    ///< [s] G
     float drift;   ///< [s] t - G
     float ramp;    ///< [s2] R

@@ -81,6 +81,7 @@ HWY_INLINE Floats expMinus(Floats z)
     return sum * hn::BitCast(kFloats, exponent);
 }
 
+/// Coefficients of linear-drag-step for the drag rate k and the time t.
 /// @param perK 1 / k, where k > 0
 /// @tparam kDecay whether `decay` is required; the bits of the other two do not depend on it
 template <bool kDecay>
@@ -126,7 +127,7 @@ HWY_INLINE Floats secondsOf(const int64_t* HWY_RESTRICT born, int64_t now)
 #endif
 }
 
-/// As above, for differences below 2^32 ticks, from the low words of the times.
+/// As the function above, for differences below 2^32 ticks, from the low words of the times.
 HWY_INLINE Floats secondsOf(const uint32_t* HWY_RESTRICT born, uint32_t now)
 {
     const Words ticks = hn::Sub(hn::Set(kWords, now), hn::LoadU(kWords, born));

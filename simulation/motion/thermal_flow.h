@@ -38,10 +38,10 @@ namespace fx::sim {
 struct ThermalFlow
 {
     glm::vec3 center{0.0f}; ///< [m]
-    glm::vec3 up{0.0f};     ///< unit; zero for no flow
+    glm::vec3 up{0.0f};     ///< direction in which the thermal rises, a unit vector; zero for no flow
     float radius = 1;       ///< [m] a, > 0
     float speed = 0;        ///< [m/s] U
-    glm::vec3 mean{0.0f};   ///< [m/s] mean of u over the particles
+    glm::vec3 mean{0.0f};   ///< [m/s] mean velocity u over the particles
 
     bool active() const { return speed != 0.0f; }
     /// [m/s] Velocity of the air at `position`, without ground.

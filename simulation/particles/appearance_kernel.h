@@ -43,8 +43,8 @@ struct AppearanceJob
     const ParticleStore* store;
     RowWindow rows;
     base::Ticks now;
-    base::Ticks motionBegin;          ///< beginning of the motion of particles that were born before it
-    glm::vec3 pull;                   ///< [m/s2] a + k u; only where motion is ballistic
+    base::Ticks motionBegin; ///< local time at which the motion of particles born before it began
+    glm::vec3 pull; ///< [m/s2] acceleration a + k u of (1), by gravity and wind; only for closed-form motion
     float secondsBack = kLongestStep; ///< [s] time since the previous snapshot, for bounds
 };
 
@@ -62,7 +62,7 @@ struct AppearanceColumns
     float* frame;
     float* orientation[4];
     uint64_t* index;
-    bool stream; ///< use non-temporal stores
+    bool stream; ///< true: columns are written with non-temporal stores
 };
 
 /// Box of the centers, and the largest half height of a drawn particle.
@@ -85,8 +85,8 @@ AppearanceBounds writeAppearance(const AppearanceJob& job, const AppearanceColum
 struct AppearancePart
 {
     AppearanceJob job;
-    float* storage; ///< see base::SnapshotGroup::editStorage(); columns are those that the program publishes
-    size_t group;   ///< index in the snapshot
+    float* storage;          ///< columns that the program publishes, see base::SnapshotGroup::editStorage()
+    size_t group;            ///< index of the group in the snapshot
     AppearanceBounds bounds; ///< out
 };
 
@@ -100,7 +100,7 @@ struct alignas(64) MotionTile
     float position[3][kTileRows];
     float velocity[3][kTileRows];
     float age[kTileRows];  ///< [s]
-    float life[kTileRows]; ///< [1] age / lifetime; >= 1 or NaN: empty row
+    float life[kTileRows]; ///< [1] age over lifetime; values >= 1 and NaN mark empty rows
 };
 
 /// Fills the first `count` rows of a MotionTile from the rows of the store that begin at `row`, a multiple of

@@ -29,6 +29,7 @@ struct BoundsLanes
             high[a] = all(-kFarAway);
         }
     }
+    /// Extends the bounds by balls of radius `r`.
     /// @tparam kFull true if all particles of the vector are alive
     template <bool kFull>
     HWY_INLINE void add(Which alive, const Floats* position, Floats r)
@@ -68,7 +69,7 @@ public:
           bright_(brightness_.rows || brightness_.constant != 1.0f)
     {}
 
-    /// Continues with another job of the same program.
+    /// Switches to another job of the same program.
     HWY_INLINE void turnTo(const AppearanceJob& job)
     {
         job_ = &job;
@@ -86,10 +87,10 @@ public:
             tint_[a].turnTo(*job_->store, stored::TintRed + a);
     }
 
+    /// Writes the rows [begin, end).
     /// @tparam kPlain ParticleProgram::plain
-    /// @tparam kStream true: plain columns are written with non-temporal stores; false:
-    /// AppearanceColumns::stream
-    ///         decides
+    /// @tparam kStream true: plain columns are written with non-temporal stores; false: as
+    ///         AppearanceColumns::stream specifies
     template <bool kBallistic, bool kBrief, bool kPlain, bool kStream>
     void run(uint32_t begin, uint32_t end, AppearanceBounds& outBounds) const
     {
@@ -147,7 +148,7 @@ private:
     /// cache.
     static constexpr uint32_t kAhead = 256;
 
-    /// Pieces of the curves in which the previous particles were.
+    /// Indices of the curve pieces that the previous particles used.
     struct Pieces
     {
         uint32_t life = 0;
@@ -184,7 +185,7 @@ private:
                                    hn::Lt(rows, hn::Set(kInts, int32_t(job_->rows.count))));
         return hn::RebindMask(kFloats, hn::Or(lower, upper));
     }
-    /// End of the vectors from `row` on whose rows are all in the window.
+    /// End of the whole vectors from `row` on whose rows are all in the window.
     uint32_t insideFrom(uint32_t row) const
     {
         const RowWindow& rows = job_->rows;
@@ -210,6 +211,7 @@ private:
     }
 
     void writeNobody(uint32_t row) const;
+    /// Writes one vector of particles.
     /// @tparam kFull true if all particles of the vector are alive
     template <bool kPlain, bool kStream, bool kFull>
     HWY_INLINE void write(uint32_t row, Which alive, const MotionLanes& motion, Pieces& pieces,
@@ -313,7 +315,7 @@ HWY_INLINE void AppearanceLanes::writeMore(uint32_t row, Which alive, const Moti
             out_.index[row + i] = job_->store->index[row + i];
 }
 
-/// The rotation by an angle about the particle's axis.
+/// Writes the rotation by an angle about the particle's axis.
 HWY_INLINE void AppearanceLanes::writeOrientation(uint32_t row, Which alive, Floats angle) const
 {
     const SinCosLanes half = sinCosTurns(angle * all(0.0795774715f)); // half of it, in turns

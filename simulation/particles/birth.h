@@ -13,7 +13,8 @@ constexpr base::Ticks kForever = INT64_MAX / 4; ///< later than any event
 /// The birth of one particle.
 struct Birth
 {
-    uint64_t index;   ///< running number within the emitter, ascending with the tick
+    /// consecutive number within the emitter; births are numbered in the order of their ticks
+    uint64_t index;
     base::Ticks tick; ///< local time
 };
 

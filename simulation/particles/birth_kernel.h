@@ -29,7 +29,7 @@ struct ScatteredBirth
     uint64_t seed;
     Birth birth;
     uint32_t row;  ///< its row by ParticleStore::rowOf()
-    bool isStored; ///< out: false if its row was occupied
+    bool isStored; ///< result: false if the row was occupied
 };
 
 /// As storeBirths() for births in different emitters, with the bits of separate emitters. The births of one
@@ -39,7 +39,7 @@ void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<S
 /// A birth in one of many emitters that share the rows of one store.
 struct PooledBirth
 {
-    Birth row;      ///< index and tick in the shared store
+    Birth row;      ///< index and tick of the birth in the shared store
     uint64_t index; ///< index of the particle in its own emitter
     uint64_t seed;
 };

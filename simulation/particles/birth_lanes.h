@@ -41,7 +41,7 @@ struct alignas(64) BirthTile
 };
 
 /// Draws four uniform numbers for each birth, as base::randomUnit4.
-/// @param seed of all births, unless seeds differ
+/// @param seed seed of all births, unless tile.seedsDiffer is set
 void drawUnits(const BirthTile& tile, uint64_t seed, uint32_t solver, uint32_t purpose,
                float (*out)[kTileRows]);
 

@@ -13,7 +13,7 @@ namespace fx::sim {
 class RowsOfOne
 {
 public:
-    static constexpr bool kAreFree = false; ///< rows may be occupied and must be tested
+    static constexpr bool kAreFree = false; ///< false: rows may be occupied and must be tested
     RowsOfOne(std::span<const Birth> births, ParticleStore& store) : births_(births), store_(store) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }
@@ -35,7 +35,7 @@ public:
             row = row + 1 == store_.capacity() ? 0 : row + 1;
         }
     }
-    /// Start of a column's values if they are contiguous; otherwise null.
+    /// Pointer to the first value of a column if the rows are contiguous; otherwise null.
     float* run(size_t column) const
     {
         const uint32_t row = store_.rowOf(births_[0].index);
@@ -58,7 +58,7 @@ private:
 class RowsOfPool
 {
 public:
-    static constexpr bool kAreFree = true; ///< rows are known to be free
+    static constexpr bool kAreFree = true; ///< true: rows are known to be free
     RowsOfPool(std::span<const PooledBirth> births, ParticleStore& store) : births_(births), store_(store) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }
@@ -99,7 +99,7 @@ private:
 class RowsOfMany
 {
 public:
-    static constexpr bool kAreFree = false; ///< rows may be occupied and must be tested
+    static constexpr bool kAreFree = false; ///< false: rows may be occupied and must be tested
     explicit RowsOfMany(std::span<ScatteredBirth> births) : births_(births) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }

@@ -43,7 +43,7 @@ HWY_INLINE Floats boundedForHalf(Floats x)
 }
 
 #if HWY_TARGET > HWY_AVX3
-/// The binary16 of each lane in the low half of a word.
+/// Converts each lane to binary16, in the low half of a word.
 HWY_INLINE Words halfWords(Floats bounded)
 {
 #if HWY_TARGET <= HWY_AVX2

@@ -11,18 +11,18 @@ namespace fx::sim {
 
 enum class AppearanceKind : uint8_t
 {
-    Medium, ///< balls of participating medium: the kind "blob"
-    Sprite, ///< the kind "particle"
-    Mesh,   ///< the kind "particle" with instanced meshes
+    Medium, ///< balls of participating medium, published as the kind "blob"
+    Sprite, ///< sprites, published as the kind "particle"
+    Mesh,   ///< instanced meshes, published as the kind "particle"
     None,   ///< no particles are published: they only cause births of other particles
 };
 
 /// Selection of the frame of a flipbook texture.
 enum class FrameClock : uint8_t
 {
-    None,      ///< constant: the first frame, or a random frame in `firstFrame`
-    OverLife,  ///< all frames once between birth and death
-    PerSecond, ///< `framesPerSecond`, repeated from the first frame
+    None,      ///< constant frame: the first one, or a random one within `firstFrame`
+    OverLife,  ///< all frames in order, once between birth and death
+    PerSecond, ///< `framesPerSecond` frames per second, repeated from the first frame
 };
 
 struct EmitterAppearance
@@ -40,18 +40,19 @@ struct EmitterAppearance
     float luminance = 0.0f;           ///< [cd/m2]
     float lit = 1.0f;                 ///< [1] 0..1
     float softness = 0.0f;            ///< [m]
-    uint32_t texture = 0;             ///< id in the AssetTable, 0 none
+    uint32_t texture = 0;             ///< id of the texture in the AssetTable; 0: none
     uint32_t tileColumns = 1;
     uint32_t tileRows = 1;
     bool frameBlend = false;
-    uint32_t motion = 0;      ///< id in the AssetTable, 0 none
+    uint32_t motion = 0;      ///< id of the motion vectors in the AssetTable; 0: none
     float motionScale = 0.0f; ///< [1]
-    uint32_t mesh = 0;        ///< id in the AssetTable, 0 none
+    uint32_t mesh = 0;        ///< id of the mesh in the AssetTable; 0: none
     float meshReach = 1.0f;   ///< [1] distance of the farthest vertex from the origin, in units of the radius
 
     base::ColorCurve colorOverLife{std::array{1.0f, 1.0f, 1.0f}}; ///< linear Rec. 709
-    base::Range opacity{1.0f, 1.0f};    ///< [1] 0..1, multiplied by the emitter's opacityOverLife
-    base::Range brightness{1.0f, 1.0f}; ///< [1] multiplies the color
+    /// [1] opacity at birth, 0..1; multiplied by the emitter's opacityOverLife
+    base::Range opacity{1.0f, 1.0f};
+    base::Range brightness{1.0f, 1.0f}; ///< [1] factor on the color
 
     base::Range angle{0.0f, 0.0f}; ///< [rad] at birth
     base::Range spin{0.0f, 0.0f};  ///< [rad/s]

@@ -23,17 +23,17 @@ namespace fx::sim {
 enum class EmitterShape : uint8_t
 {
     Point,
-    Sphere, ///< uniformly in the ball of radius size.x
-    Box,    ///< uniformly in the box of half extents size
-    Cone,   ///< on the disc of radius size.x, moving within `angle` of the axis +Y
+    Sphere, ///< births are uniform in the ball of radius size.x
+    Box,    ///< births are uniform in the box with the half extents `size`
+    Cone,   ///< births are on the disc of radius size.x and move in directions within `angle` of the axis +Y
 };
 
 /// A burst: a number of births at one time, or at several times at equal intervals.
 struct Burst
 {
-    float time = 0; ///< [s] after the start, >= 0
+    float time = 0; ///< [s] time after the start of the emitter, >= 0
     uint32_t count = 0;
-    uint32_t cycles = 1;   ///< number of repetitions; 0: forever
+    uint32_t cycles = 1;   ///< number of cycles, each with `count` births; 0: cycles without end
     float interval = 0;    ///< [s] between two cycles, > 0 for several cycles
     float probability = 1; ///< [1] 0..1, probability of each cycle
 };
@@ -54,26 +54,32 @@ struct Emission
 /// Forces on each particle. Accelerations are added; drag and buoyancy are relative to the moving air.
 struct EmitterForces
 {
-    float gravity = 1.0f;      ///< [1] multiple of the world's gravity
-    float drag = 0.0f;         ///< [1/s] linear drag rate towards the wind, exact exponential
-    float buoyancy = 0.0f;     ///< [1] multiple of (T / T_air - 1) * g upwards
+    float gravity = 1.0f; ///< [1] factor on the world's gravity
+    float drag = 0.0f; ///< [1/s] rate of linear drag towards the wind, integrated exactly by an exponential
+    /// [1] buoyancy: the particle is accelerated upwards by this factor times (T / T_air - 1) g, with its
+    /// temperature T
+    float buoyancy = 0.0f;
     glm::vec3 wind{0.0f};      ///< [m/s]
-    float curlStrength = 0.0f; ///< [m/s] speed scale of the divergence-free noise that is added to the wind
+    float curlStrength = 0.0f; ///< [m/s] speed of the divergence-free noise that is added to the wind
     float curlScale = 1.0f;    ///< [m] length of one noise period
-    float curlRate = 0.0f;     ///< [1/s] noise periods per second
-    float bounce = -1.0f;      ///< [1] restitution at the ground and at the host's geometry, 0..1; negative:
-                               ///< particles pass
-    float friction = 0.0f;     ///< [1] tangential velocity lost at a bounce, 0..1
-    float updraft = 0.0f;      ///< [1] share of the air's velocity around the gases of the effect, 0..4
-    uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
+    float curlRate = 0.0f;     ///< [1/s] number of noise periods per second
+    /// [1] restitution at the ground and at the host's geometry, 0..1; negative: particles are not stopped
+    /// there
+    float bounce = -1.0f;
+    float friction = 0.0f; ///< [1] share of the tangential velocity that is lost at a bounce, 0..1
+    /// [1] share of the air flow caused by the gases of the effect that moves the particles, 0..4
+    float updraft = 0.0f;
+    /// number of octaves of the noise, 1..8; each has half the strength and scale and twice the rate of the
+    /// one before
+    uint32_t curlOctaves = 1;
 };
 
 /// Processor that computes the particles of an emitter.
 enum class ComputeOn : uint8_t
 {
     Cpu,
-    Gpu,  ///< the GPU if it can compute the emitter, see gpuObstacle()
-    Auto, ///< as Gpu for capacities of at least kManyParticles, otherwise as Cpu
+    Gpu,  ///< the GPU if it can compute the emitter, see gpuObstacle(); otherwise the CPU
+    Auto, ///< like Gpu if the capacity is at least kManyParticles, otherwise like Cpu
 };
 constexpr uint32_t kManyParticles = 10'000;
 
@@ -91,45 +97,52 @@ struct EmitterSettings
     Emission emission;
     /// True: particles keep their world position when the host moves the instance; false: they move with it.
     bool inWorld = false;
-    /// [1] 0..1 share of the instance's velocity that births inherit, if inWorld
+    /// [1] share of the instance's velocity that births inherit, 0..1; used if inWorld is set
     float inheritVelocity = 0.0f;
 
-    base::Range lifetime{1, 1};            ///< [s] > 0
-    std::shared_ptr<const ShapeOp> births; ///< position and direction of births, instead of `shape`
-    base::Range speed{0, 0}; ///< [m/s] along the shape's direction: radial for sphere and point, +Y for box
+    base::Range lifetime{1, 1}; ///< [s] > 0
+    /// shape that gives position and direction of births; null: `shape` does
+    std::shared_ptr<const ShapeOp> births;
+    /// [m/s] speed along the direction of the shape: radial for sphere and point, +Y for box
+    base::Range speed{0, 0};
     base::Range radius{0.5f, 0.5f}; ///< [m] > 0
-    base::Range crossSection{
-        1, 1}; ///< [m2] >= 0, or of optical depth through the center when opticalDepth is set
-    bool opticalDepthGiven = true; ///< true: `crossSection` is the optical depth along a diameter at birth
+    /// [m2] cross section at birth, >= 0. If opticalDepthGiven is set: [1] optical depth along a diameter at
+    /// birth.
+    base::Range crossSection{1, 1};
+    bool opticalDepthGiven = true;     ///< whether `crossSection` is an optical depth
     base::Range temperature{293, 293}; ///< [K]
     EmitterForces forces;
     /// Modules executed after the forces above, in order within their phase. Without modules, and with
     /// gravity, drag and wind alone, motion has a closed form.
     std::vector<std::shared_ptr<const TileOp>> modules;
-    bool meetsDepth = false; ///< some obstacle is ObstacleKind::Depth, which works on the GPU only
+    /// whether an obstacle is of the kind ObstacleKind::Depth, which works on the GPU only
+    bool meetsDepth = false;
 
     // Curves over life, t in [0, 1]; they multiply the values drawn at birth.
     base::ScalarCurve sizeOverLife{std::array{1.0f}};
-    base::ScalarCurve opacityOverLife{std::array{1.0f}};             ///< multiplies the cross section
-    base::ScalarCurve temperatureOverLife{std::array{1.0f}};         ///< multiplies (T - T_air)
-    base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}};   ///< [0, 1] single scattering albedo
-    base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [cd/m2] besides the black body
+    base::ScalarCurve opacityOverLife{std::array{1.0f}};           ///< multiplies the cross section
+    base::ScalarCurve temperatureOverLife{std::array{1.0f}};       ///< multiplies (T - T_air)
+    base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [0, 1] single scattering albedo
+    /// [cd/m2] emission in addition to black-body radiation
+    base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}};
 
-    std::vector<EventRule> events; ///< rules by which its particles' events cause births in other emitters
-    bool fed = false;              ///< events of other emitters' particles cause births in this emitter
-    bool tinted = false;           ///< its particles may inherit a color
+    /// rules by which events of the emitter's particles cause births in other emitters
+    std::vector<EventRule> events;
+    bool fed = false;    ///< whether events of other emitters' particles cause births in this emitter
+    bool tinted = false; ///< whether particles may inherit a color
 
     RibbonDef trail;
     LightDef light;
     EmitterAppearance appearance; ///< how particles are drawn; the members below apply to media
-    float fireShare = 0.0f;       ///< [0, 1] share of the medium that counts as fire
-    float heat = 0.0f;            ///< [1] refraction (heat shimmer) per excess temperature; 0: none
-    float detailAmount = 0.0f;    ///< see blob_constant
+    /// [1] share of the medium that counts as fire in the layers of the picture, 0..1
+    float fireShare = 0.0f;
+    float heat = 0.0f;         ///< [1] strength of refraction (heat shimmer) per excess temperature; 0: none
+    float detailAmount = 0.0f; ///< see blob_constant
     float detailScale = 1.5f;
     float anisotropy = 0.0f;
     float shutter = 0.0f; ///< [s]
 
-    /// True if motion has a closed form: gravity, linear drag and wind alone.
+    /// Whether motion has a closed form: only gravity, linear drag and wind act.
     bool isBallistic() const
     {
         return modules.empty() && forces.buoyancy == 0.0f && !(forces.curlStrength > 0.0f) &&

@@ -48,10 +48,10 @@ namespace fx::sim {
 enum class EventKind : uint8_t
 {
     Birth,
-    Age, ///< the particle reached the age that its rule states
+    Age, ///< the particle has reached the age that its rule states
     Collision,
     Death,
-    Host, ///< triggered by the host
+    Host, ///< the host has triggered the event
 };
 
 /// One event, with the values that a particle born from it inherits.
@@ -63,12 +63,12 @@ struct ParticleEvent
     EventKind kind;
     glm::vec3 position;     ///< [m]
     glm::vec3 velocity;     ///< [m/s]
-    glm::vec3 color{1.0f};  ///< [1] linear Rec. 709, if a rule needs it
-    bool scheduled = false; ///< caused by the schedule or the host, not by a particle
-    /// With EventKind::Age: index among the emitter's ages; with Collision: as TileContact
+    glm::vec3 color{1.0f};  ///< [1] color of the particle, linear Rec. 709; set only if a rule needs it
+    bool scheduled = false; ///< true: the schedule or the host caused the event, not a particle
+    /// For EventKind::Age: index among the ages of the emitter. For Collision: see TileContact.
     uint32_t number = 0;
-    float speed = 0.0f;  ///< [m/s] with Collision: see TileContact
-    bool isLast = false; ///< with Collision: see TileContact
+    float speed = 0.0f;  ///< [m/s] for EventKind::Collision: see TileContact
+    bool isLast = false; ///< for EventKind::Collision: see TileContact
 };
 
 /// The order (3).

@@ -7,7 +7,7 @@
 
 namespace fx::sim {
 
-/// Event of row `i` at a share of its part of the step, without position and velocity.
+/// Creates an event of row `i` at a share of its part of the step, without position and velocity.
 inline ParticleEvent eventAt(const TileContext& context, const Tile& tile, uint32_t i, float share,
                              EventKind kind)
 {
@@ -33,7 +33,7 @@ inline ParticleEvent collisionOf(const TileContext& context, const Tile& tile, u
     return event;
 }
 
-/// The death of row `i`, which has the flag Killed.
+/// Creates the death event of row `i`, which has the flag Killed.
 inline ParticleEvent killOf(const TileContext& context, const Tile& tile, uint32_t i)
 {
     ParticleEvent event = eventAt(context, tile, i, tile.contact[i], EventKind::Death);

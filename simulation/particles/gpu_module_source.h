@@ -19,7 +19,7 @@ public:
     virtual void writeWords(const void* /*scratch*/, uint32_t* /*out*/) const {}
 };
 
-/// Interface of a module; null if only the CPU can compute it.
+/// Returns the GPU interface of a module; null if only the CPU can compute the module.
 inline const GpuModuleSource* gpuSourceOf(const TileOp& op)
 {
     return dynamic_cast<const GpuModuleSource*>(&op);

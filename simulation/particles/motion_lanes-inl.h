@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 
-/// An attribute that is stored in rows, or constant for all particles.
+/// Values of an attribute, either stored in rows or constant for all particles.
 struct Source
 {
     const float* rows;
@@ -41,7 +41,7 @@ struct MotionLanes
     Floats life; ///< [1] age / lifetime
 };
 
-/// Reads kWidth rows at a time.
+/// Reads the motion of kWidth particles at a time.
 template <bool kBallistic, bool kBrief>
 class MotionReader
 {
@@ -54,7 +54,7 @@ public:
     {
         turnTo(job);
     }
-    /// Continues with another job of the same program.
+    /// Switches to another job of the same program.
     HWY_INLINE void turnTo(const AppearanceJob& job)
     {
         const ParticleStore& store = *job.store;
@@ -70,7 +70,9 @@ public:
         longest_ = float(base::toSeconds(job.now - job.motionBegin));
     }
 
-    /// @tparam kDeadStay positions of dead particles are arbitrary: they are not moved, which needs less data
+    /// Reads the motion of the particles in the rows from `row` on.
+    /// @tparam kDeadStay true: dead particles are not moved, so that less data is read; their positions are
+    ///         arbitrary
     template <bool kVelocity, bool kDeadStay>
     HWY_INLINE MotionLanes read(uint32_t row) const
     {
@@ -135,14 +137,15 @@ private:
     bool hasDrag_;
     float perDrag_; ///< [s]
     glm::vec3 pull_;
-    float longest_; ///< [s] upper bound of the time for which a particle has been moving
+    float longest_; ///< [s] upper bound of the time since the motion of a particle began
 };
 
 /// Evaluates ramp-curves for the channels of one RampCurves, at one parameter per particle.
 class CurveLanes
 {
 public:
-    /// @param ioPiece piece of the previous particles, usually also of these particles
+    /// Finds the pieces of the curves at the parameters `t`.
+    /// @param ioPiece index of the piece that the previous particles used; the search begins there
     HWY_INLINE CurveLanes(const RampCurves& curves, Floats t, uint32_t& ioPiece) : curves_(curves), t_(t)
     {
         if (HWY_UNLIKELY(curves_.byTable)) {
@@ -181,7 +184,7 @@ public:
     }
 
 private:
-    /// Looks up the piece of each particle in a table of pieces.
+    /// Looks up the value of each particle's piece in a table with one value per piece.
     HWY_INLINE Floats ofPlace(const float* table) const
     {
 #if HWY_TARGET != HWY_SCALAR

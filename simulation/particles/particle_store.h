@@ -49,10 +49,11 @@ private:
 class ParticleStore
 {
 public:
+    /// Creates an empty store.
     /// @param capacity number of rows; 0: the capacity of the definition
     ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory, uint32_t capacity = 0);
 
-    /// [byte] memory of a store with `capacity` rows.
+    /// [byte] Memory of a store with `capacity` rows.
     static size_t bytesOf(const ParticleProgram& program, uint32_t capacity);
 
     uint32_t capacity() const { return capacity_; }
@@ -69,7 +70,7 @@ public:
             return {end, 0, first};
         return {capacity_, end, first};
     }
-    /// Prefetches the first data that a publication reads.
+    /// Prefetches the first cache lines that a publication reads.
     void fetch() const
     {
         __builtin_prefetch(brief_ ? static_cast<const void*>(bornShort.data()) : born.data());
@@ -85,15 +86,16 @@ public:
     {
         return values[column].data() ? values[column][row] : constant[column];
     }
-    /// Tests by the same comparison as the kernels.
+    /// Whether the particle in `row` is alive. Uses the same comparison as the kernels.
     bool isAlive(uint32_t row, base::Ticks now) const;
-    /// [s] Age, with the same bits as in the kernels.
+    /// [s] Age of the particle in `row`, with the same bits as in the kernels.
     float ageOf(uint32_t row, base::Ticks now) const;
 
     /// Marks the indices [next(), next() + count) as used by births.
     void advance(uint64_t count) { next_ += count; }
     uint64_t next() const { return next_; }
-    uint64_t front() const { return front_; } ///< the oldest index that may be alive; next() if none is
+    /// birth index of the oldest particle that may be alive; next() if none is
+    uint64_t front() const { return front_; }
     /// Removes rows without living particles at the old end of the window.
     void retire(base::Ticks now)
     {
@@ -101,7 +103,7 @@ public:
             retireFront(now);
     }
     uint32_t countAlive(base::Ticks now) const;
-    /// [tick] time up to which the particles of all rows are certainly alive; valid only if particles die of
+    /// [tick] Time up to which the particles of all rows are certainly alive; valid only if particles die of
     /// age alone.
     base::Ticks allLiveUntil() const;
     bool isAnyAlive(base::Ticks now) const
@@ -110,37 +112,39 @@ public:
     }
     /// Empties all rows; the next birth has index `next`.
     void clear(uint64_t next);
-    /// Empties all rows, with the indices [front, next) already used. Particles of some of these indices are
-    /// then written to their rows; the particle `front` is one of them.
+    /// Empties all rows. The birth indices [front, next) count as used. The caller then writes the particles
+    /// with some of these indices to their rows; one of them is the particle `front`.
     void clear(uint64_t front, uint64_t next, base::Ticks now);
     /// Copies a particle from a store of the same program into `row`, with its index and birth.
     void copyRow(const ParticleStore& from, uint32_t fromRow, uint32_t row, const Birth& birth);
-    /// Kills the particle in `row`. With brief lives, the mark is valid until the row leaves the window, at
-    /// most 3 s from now.
+    /// Kills the particle in `row`. If the program is `brief`, the mark is valid until the row leaves the
+    /// window, at most 3 s from now.
     void endRow(uint32_t row, base::Ticks now);
 
     void save(StateWriter& writer, base::Ticks now) const;
-    void saveEmpty(StateWriter& writer) const; ///< as save(), after all particles of now have died
+    void saveEmpty(StateWriter& writer) const; ///< like save(), as if all particles alive now had died
+    /// Restores the output of save().
     /// @param now [tick] local time of the state: living particles are born before it and die after it
     void restore(StateReader& reader, base::Ticks now);
 
 private:
     // Members that every step and publication reads, adjacent for the cache.
-    uint64_t front_ = 0; ///< the oldest index that may be alive
+    uint64_t front_ = 0; ///< birth index of the oldest particle that may be alive
     uint64_t next_ = 0;
-    base::Ticks frontUntil_ = 0; ///< time until which the particle lives, unless an event kills it earlier
+    /// time until which the particle front_ lives, unless an event kills it earlier
+    base::Ticks frontUntil_ = 0;
     uint32_t capacity_;
     bool brief_;
     bool mortal_;
     bool alwaysPlaced_;
 
 public:
-    bool placed; ///< false: all particles began at one position, and X, Y, Z are not used yet
-    StoredColumn<uint32_t> bornShort;                      ///< low 32 bits of `born`, where lives are brief
+    bool placed; ///< false: all particles began at one position, so that the columns X, Y, Z are not used
+    StoredColumn<uint32_t> bornShort; ///< low 32 bits of `born`; only if the program is `brief`
     std::array<StoredColumn<float>, stored::Count> values; ///< empty when not stored
-    StoredColumn<uint64_t> index;   ///< index of the particle that lives or last lived in the row
+    StoredColumn<uint64_t> index;   ///< birth index of the particle that lives or last lived in the row
     StoredColumn<base::Ticks> born; ///< local time
-    StoredColumn<uint32_t> flags;   ///< tile_flag bits, if modules keep any
+    StoredColumn<uint32_t> flags;   ///< bits of tile_flag; only if a module keeps them
     std::array<float, stored::Count> constant;
 
 private:
@@ -151,8 +155,8 @@ private:
     base::Column<std::byte> memory_; ///< memory of all columns
 };
 
-/// The first tick after `from` at which the particle in `row` is dead, by (2) of particle-event-ticks. It
-/// must be alive at `from` and dead at `to`.
+/// The first tick after `from` at which the particle in `row` is dead, by (2) of particle-event-ticks. The
+/// particle must be alive at `from` and dead at `to`.
 base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from, base::Ticks to);
 
 } // namespace fx::sim

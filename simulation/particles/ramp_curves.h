@@ -36,24 +36,27 @@ namespace fx::sim {
 
 constexpr uint32_t kMaxRamps = 8;
 constexpr uint32_t kMaxChannels = 8;
-constexpr uint32_t kPieceRoom = 16; ///< number of pieces, padded to the widest vector
+constexpr uint32_t kPieceRoom = 16; ///< maximum number of pieces, padded to the width of the widest vector
 
 struct RampCurves
 {
-    /// @param channels values at the 65 equally spaced samples of base::Curve, one span a channel
+    /// Converts sampled curves to ramps.
+    /// @param channels for each channel the values at the 65 equally spaced samples of base::Curve
     explicit RampCurves(std::span<const std::array<float, base::kCurveSamples + 1>> channels);
 
-    /// Smallest and largest sample of a channel.
+    /// Smallest or largest sample of a channel.
     float lowest(uint32_t channel) const;
     float highest(uint32_t channel) const;
     bool isConstant(uint32_t channel) const { return (varying >> channel & 1u) == 0; }
 
     uint32_t channels = 0;
-    uint32_t varying = 0;                     ///< bit c: channel c is not constant
-    bool byTable = false;                     ///< (3) instead of (2)
-    uint32_t ramps = 0;                       ///< one fewer than pieces
-    std::array<float, kPieceRoom + 1> from{}; ///< t_i; -infinity for the first, +infinity after the last
-    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceStart{}; ///< a_i; the last value is repeated
+    uint32_t varying = 0; ///< bit c is set if channel c is not constant
+    bool byTable = false; ///< whether the curves are evaluated by (3) instead of (2)
+    uint32_t ramps = 0;   ///< number of ramps, one less than the number of pieces
+    /// t_i, begin of piece i; -infinity for the first, +infinity after the last piece
+    std::array<float, kPieceRoom + 1> from{};
+    /// a_i, values at the begin of pieces; the last value is repeated
+    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceStart{};
     std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceSlope{}; ///< b_i
     std::array<float, kMaxRamps> at{};                                    ///< t_k
     std::array<float, kMaxChannels> start{};                              ///< c
@@ -62,7 +65,7 @@ struct RampCurves
     std::array<std::array<float, base::kCurveSamples + 1>, kMaxChannels> table{};
 };
 
-/// The samples of channel `k` of a curve, in the form that RampCurves takes.
+/// The samples of channel `k` of a curve, in the format of the constructor of RampCurves.
 template <size_t N>
 std::array<float, base::kCurveSamples + 1> samplesOf(const base::Curve<N>& curve, size_t k)
 {

@@ -10,7 +10,8 @@
 
 namespace fx::sim {
 
-/// @param arcPerTile [m] of a ribbon; 1 elsewhere
+/// Writes the constants of a group of the kind "particle".
+/// @param arcPerTile [m] RibbonDef::arcPerTile for ribbons; 1 for all other particles
 void writeConstants(const EmitterSettings& def, const EmitterAppearance& appearance, float arcPerTile,
                     std::span<float> constants);
 
@@ -29,7 +30,7 @@ base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, 
                              const GroupPlace& place, base::FrameSnapshot& snapshot);
 
 /// Publishes rows as a group of particles; see BudgetedSolver::proceedPublication().
-/// @param tasks null: on the calling thread
+/// @param tasks runner of parallel loops; null: the calling thread publishes all rows
 bool publishRows(const AppearanceJob& job, const GroupPlace& group, base::TaskRunner* tasks,
                  base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work);
 

@@ -22,7 +22,7 @@
 namespace fx::sim {
 
 constexpr uint32_t kTileRows = 256;
-constexpr uint32_t kTilePadding = 16; ///< modules may work on rows up to the next multiple of this
+constexpr uint32_t kTilePadding = 16; ///< modules may process rows up to the next multiple of this number
 
 /// Bits of Tile::flags. Stuck and Collided are kept from step to step; the others are set for one step.
 namespace tile_flag {
@@ -32,23 +32,25 @@ enum : uint32_t
     Collided = 2, ///< the particle has had a contact during its life
     Empty = 4,    ///< no particle lives here
     Hit = 8,      ///< the particle has a contact in this step, at the share `contact` of its path
-    Killed = 16,  ///< killed by a module in this step, at `contact` of its path
+    Killed = 16,  ///< a module has killed the particle in this step, at the share `contact` of its path
 };
 }
 
-/// Working columns. Arrays begin at multiples of 64 bytes; rows [count, kTileRows) hold finite numbers.
+/// Working columns of a tile of particles. Arrays begin at multiples of 64 bytes; rows [count, kTileRows)
+/// hold finite numbers.
 struct alignas(64) Tile
 {
-    float x[kTileRows]; ///< [m] local; before Integrate: at the step's begin, afterwards: at its end
+    /// [m] local position: before TilePhase::Integrate at the begin of the step, afterwards at its end
+    float x[kTileRows];
     float y[kTileRows];
     float z[kTileRows];
     float vx[kTileRows]; ///< [m/s] velocity
     float vy[kTileRows];
     float vz[kTileRows];
-    float fromX[kTileRows]; ///< [m] position when the row's part of the step began
+    float fromX[kTileRows]; ///< [m] position at the begin of the row's part of the step
     float fromY[kTileRows];
     float fromZ[kTileRows];
-    float fromVX[kTileRows]; ///< [m/s] velocity when the row's part of the step began
+    float fromVX[kTileRows]; ///< [m/s] velocity at the begin of the row's part of the step
     float fromVY[kTileRows];
     float fromVZ[kTileRows];
     float ax[kTileRows]; ///< [m/s2] sum of accelerations; forces add to it
@@ -57,17 +59,19 @@ struct alignas(64) Tile
     float ux[kTileRows]; ///< [m/s] velocity of the air; forces add to it
     float uy[kTileRows];
     float uz[kTileRows];
-    float drag[kTileRows]; ///< [1/s] linear drag rate towards the air, >= 0; forces add to it
-    /// [1/m] quadratic drag q: acceleration -q |v - u| (v - u), >= 0; forces add to it
+    float drag[kTileRows]; ///< [1/s] rate of linear drag towards the air, >= 0; forces add to it
+    /// [1/m] coefficient q of quadratic drag, >= 0: acceleration -q |v - u| (v - u); forces add to it
     float quadratic[kTileRows];
-    /// [s] at the begin of the row's part of the step; 0 for a row born within the step
+    /// [s] age at the begin of the row's part of the step; 0 for a row born within the step
     float age[kTileRows];
-    float seconds[kTileRows]; ///< [s] length of its part of the step; shorter when born within it, 0 if Empty
-    float life[kTileRows];    ///< [1] age / lifetime at the begin of the row's part of the step, 0..1
-    float excess[kTileRows];  ///< [K] temperature above the air's
-    /// [1] 0..1, share of the row's part of the step; set together with Hit or Killed
+    /// [s] length of the row's part of the step; shorter for a row born within the step, 0 if Empty
+    float seconds[kTileRows];
+    float life[kTileRows];   ///< [1] age / lifetime at the begin of the row's part of the step, 0..1
+    float excess[kTileRows]; ///< [K] temperature above that of the air
+    /// [1] time of the contact as a share of the row's part of the step, 0..1; set together with Hit or
+    /// Killed
     float contact[kTileRows];
-    uint32_t indexLow[kTileRows]; ///< birth index: counter words 0 and 1 of base::philox
+    uint32_t indexLow[kTileRows]; ///< birth index; it forms the counter words 0 and 1 of base::philox
     uint32_t indexHigh[kTileRows];
     uint32_t flags[kTileRows]; ///< tile_flag
     uint32_t count;            ///< rows in use
@@ -78,17 +82,18 @@ struct alignas(64) Tile
 /// One contact of a row in its part of the step.
 struct TileContact
 {
-    float share;        ///< [1] 0..1 of the row's part of the step
-    float speed;        ///< [m/s] >= 0, normal component against the surface, just before the contact
+    float share;        ///< [1] time of the contact as a share of the row's part of the step, 0..1
+    float speed;        ///< [m/s] speed against the surface along its normal, just before the contact, >= 0
     glm::vec3 position; ///< [m]
-    glm::vec3 velocity; ///< [m/s] just after the contact; of killed particles, just before
-    bool isLast;        ///< the row is killed or sticks
+    glm::vec3 velocity; ///< [m/s] velocity just after the contact; of killed particles, just before it
+    bool isLast;        ///< true if the particle dies or sticks at this contact
     uint32_t number;    ///< lower bound of the number of previous contacts of the row in this step
 };
 
 struct TileContext;
 
-/// Receives every contact when it begins. Called by several threads at once, for different tiles.
+/// Interface that receives every contact when it begins. It is called by several threads at once, for
+/// different tiles.
 class ContactListener
 {
 public:
@@ -105,42 +110,46 @@ struct TileContext
     glm::vec3 wind;                      ///< [m/s] sum of the winds of effect, host and emitter
     double begin;                        ///< [s] local time at which the step begins
     float seconds;                       ///< [s] its length
-    ContactListener* listener = nullptr; ///< null: contacts are not collected
+    ContactListener* listener = nullptr; ///< receives contacts; null: contacts are not collected
 };
 
-/// When a module runs within the step of a tile.
+/// Phases of the step of a tile, in which modules run.
 enum class TilePhase : uint8_t
 {
-    Force,     ///< adds to acceleration, air velocity and drag; reads position and velocity at the begin
+    /// adds to acceleration, air velocity and drag; reads position and velocity at the begin of the step
+    Force,
     Integrate, ///< built in: moves every row over its part of the step
     Contact,   ///< corrects the path from `from` to x, y, z: collisions, kill volumes
     Event,     ///< reads flags and contacts
 };
 
-/// Upper bounds of the action of a module on a particle.
+/// Upper bounds of the effect of a module on a particle.
 struct TileBound
 {
     float acceleration = std::numeric_limits<float>::infinity(); ///< [m/s2]
-    float air = 0.0f;                                            ///< [m/s] velocity that it adds to the air
-    /// True if it accelerates particles towards the air's velocity by something other than linear drag.
+    float air = 0.0f; ///< [m/s] largest velocity that the module adds to the air
+    /// true if the module accelerates particles towards the air's velocity by something other than linear
+    /// drag
     bool followsAir = false;
 };
 
-/// One compiled module. Immutable and shared by all instances and threads.
+/// A compiled module. It is immutable and shared by all instances and threads.
 class TileOp
 {
 public:
     virtual ~TileOp() = default;
     virtual TilePhase phase() const = 0;
-    /// Size of the memory that prepare() fills once a step and all tiles of the step read; 64-byte aligned.
+    /// [byte] Size of the memory that prepare() fills once a step and that all tiles of the step read. It is
+    /// aligned to 64 bytes.
     virtual size_t scratchBytes() const { return 0; }
     virtual void prepare(const TileContext&, void* /*scratch*/) const {}
     virtual void run(const TileContext& context, const void* scratch, Tile& tile) const = 0;
-    /// Upper bounds for the distance of particles; the default is unbounded.
+    /// Upper bounds of the effect of the module, from which distances of particles are bounded; unbounded by
+    /// default.
     virtual TileBound bound() const { return {}; }
-    /// True when the tile flags Stuck or Collided must survive the step.
+    /// Whether the tile flags Stuck or Collided must be kept after the step.
     virtual bool keepsFlags() const { return false; }
-    /// True when it depends on StepContext::collider.
+    /// Whether the module depends on StepContext::collider.
     virtual bool collides() const { return false; }
 };
 
@@ -152,7 +161,8 @@ public:
 
     struct Births
     {
-        const float* place[4];   ///< [1] uniform in [0, 1), one array per number
+        /// [1] uniform random numbers in [0, 1) for the position, four per birth in one array each
+        const float* place[4];
         const float* heading[4]; ///< [1]
         float* position[3];      ///< [m] out, local
         float* direction[3];     ///< [1] out, unit vectors

@@ -30,21 +30,21 @@
 
 namespace fx::sim {
 
-/// Inputs for the ages and the lengths of the parts of the step of the rows of a tile.
+/// Inputs of fillTimes(): times of the rows of a tile.
 struct TileTimes
 {
     const base::Ticks* born; ///< birth ticks of the rows of the tile
-    const float* perLife;    ///< [1/s] null when equal for all particles
+    const float* perLife;    ///< [1/s] reciprocal lifetimes of the rows; null if equal for all particles
     float perLifeOfAll;
     base::Ticks begin;
     base::Ticks end;
 };
 
-/// Computes age, seconds and life. Marks rows outside of [firstLiving, endLiving) or past their lifetime
-/// Empty.
+/// Computes age, seconds and life of each row. Sets the flag Empty for rows outside of [firstLiving,
+/// endLiving) and for particles past their lifetime.
 void fillTimes(const TileTimes& times, Tile& tile);
 
-/// Moves every row by its seconds; rows that are Stuck or Empty stay.
+/// Moves every row by its seconds. Rows with the flag Stuck or Empty do not move.
 void integrate(Tile& tile);
 
 } // namespace fx::sim

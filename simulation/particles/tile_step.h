@@ -9,15 +9,15 @@
 
 namespace fx::sim {
 
-/// One module of an emitter with its prepared data for this step.
+/// A module of an emitter with its prepared data for this step.
 struct PreparedOp
 {
     const TileOp* op;
     const void* scratch;
 };
 
-/// Called for each tile after its modules have run and before the tile is stored, and for each contact while
-/// the modules run. Called by several threads at once.
+/// Interface that is called for each tile after its modules have run and before the tile is stored, and for
+/// each contact while the modules run. It is called by several threads at once.
 class TileWatch : public ContactListener
 {
 public:
@@ -28,10 +28,11 @@ public:
 class TileStep
 {
 public:
-    /// Runs prepare() of all modules.
+    /// Prepares a step: calls prepare() of all modules.
     TileStep(const ParticleProgram& program, const StepContext& step);
 
-    /// Steps the rows [begin, end) of `store` that are in its window; begin is a multiple of kTilePadding.
+    /// Steps those rows in [begin, end) of `store` that are in its window. `begin` is a multiple of
+    /// kTilePadding.
     void run(ParticleStore& store, uint32_t begin, uint32_t end) const;
 
     /// Restricts the step to particles whose index is at least `first`.

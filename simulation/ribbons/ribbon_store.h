@@ -44,7 +44,7 @@
 
 namespace fx::sim {
 
-/// Threads: one at a time.
+/// The trails of the particles of one emitter. Threads: one at a time.
 class RibbonStore
 {
 public:
@@ -64,10 +64,11 @@ public:
     };
     /// Adds the points of a step, within the work budget. `job` describes the particles at the end of the
     /// step.
-    /// @param ioRow row of the next particle, 0 at first @return whether all particles have been processed
+    /// @param ioRow row of the next particle, 0 at first
+    /// @return whether all particles have been processed
     bool follow(const AppearanceJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work);
     bool empty() const { return count_ == 0; }
-    /// Largest number of rows that publish() writes.
+    /// Maximum number of rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
     /// Writes all trails at `now`, as BudgetedSolver::proceedPublication().
     /// @param past [tick] time before `now` for which the tails must be known; trails are longer by about
@@ -77,7 +78,9 @@ public:
     void clear();
 
     void save(StateWriter& writer) const;
-    /// @param store restored store of the particles  @param now [tick] local time of the state
+    /// Restores the output of save().
+    /// @param store restored store of the particles
+    /// @param now [tick] local time of the state
     void restore(StateReader& reader, const ParticleStore& store, base::Ticks now);
 
 private:
@@ -90,8 +93,8 @@ private:
     struct Trail
     {
         uint64_t index = kNoParticle; ///< index of the particle
-        Point head;                   ///< position now, or at death
-        uint32_t first = 0;           ///< oldest point in the ring
+        Point head;                   ///< present position of the particle, or its position at death
+        uint32_t first = 0;           ///< index of the oldest point in the ring
         uint32_t count = 0;
         uint64_t next = 0; ///< number k of the next point
         bool ended = false;

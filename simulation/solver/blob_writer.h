@@ -24,6 +24,7 @@ inline uint64_t blobId(uint32_t solver, uint64_t index)
 class BlobWriter
 {
 public:
+    /// Adds a group to the snapshot.
     /// @param capacity maximum number of elements of the solver, so that later snapshots reuse the group's
     ///          memory
     BlobWriter(base::FrameSnapshot& snapshot, const base::GroupInfo& base, base::KindId kind, uint32_t count,
@@ -35,7 +36,7 @@ public:
         info.kind = kind;
         info.count = count;
     }
-    /// Continues a group that another writer has begun.
+    /// Continues to write a group that another writer has added.
     BlobWriter(base::SnapshotGroup& group, float secondsBack)
         : group_(group), count_(group.info().count), secondsBack_(secondsBack)
     {}
@@ -46,7 +47,7 @@ public:
     float& constant(size_t index) { return group_.editConstants()[index]; }
     void copy(size_t index, const float* values) { copy(index, values, 0, count_); }
     void fill(size_t index, float value) { fill(index, value, 0, count_); }
-    /// Writes the rows [begin, end) only.
+    /// As the function above, but only for the rows [begin, end).
     void copy(size_t index, const float* values, uint32_t begin, uint32_t end)
     {
         std::copy(values + begin, values + end, column(index) + begin);
@@ -58,9 +59,9 @@ public:
 
     void closeBounds() { addBounds(0, count_); } ///< computes the bounds of all rows
     /// Extends the bounds by the rows [begin, end), which have been written. The bounds contain the balls,
-    /// stretched along their path by the open shutter, at any moment since the previous snapshot. That
-    /// includes blobs that were not in it. They cannot be found by age, because ages are in the time of the
-    /// instance, which may run faster.
+    /// stretched along their path by the open shutter, at any time since the previous snapshot. Blobs born
+    /// since then are included for the whole time, because they cannot be found by their age: ages are in the
+    /// time of the instance, which may run faster.
     void addBounds(uint32_t begin, uint32_t end)
     {
         namespace blob = base::blob_column;
@@ -83,7 +84,7 @@ public:
     }
 
 private:
-    static constexpr float kRoundedUp = 1.001f; ///< exceeds the rounding of times
+    static constexpr float kRoundedUp = 1.001f; ///< factor larger than the rounding errors of times
 
     glm::vec3 vector(size_t first, uint32_t i)
     {

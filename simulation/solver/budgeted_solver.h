@@ -16,13 +16,13 @@ struct PublicationPlace
     uint32_t group = 0;    ///< index among the groups of the solver
     uint32_t part = 0;     ///< stage of the work on that group
     uint32_t row = 0;      ///< next row of that stage
-    uint32_t count = 0;    ///< elements found or written so far
+    uint32_t count = 0;    ///< number of elements found or written so far
     bool isSorted = true;  ///< whether these elements are sorted
     base::Bounds bounds{}; ///< bounds of the rows written so far
     float radius = 0;      ///< [m] largest radius so far
 };
 
-/// A solver that counts its work itself. See Solver::budgeted().
+/// A solver that counts its work itself, so that its steps can be divided. See Solver::budgeted().
 class BudgetedSolver
 {
 public:

@@ -1,6 +1,6 @@
 /// @file drawing_hints.h
-/// How an effect is meant to be drawn, and what several effects together ask for. For renderers: the
-/// simulation does not depend on it.
+/// Drawing hints: how the author of an effect intends it to be drawn, and the hints of several effects
+/// together. They are for renderers; the simulation does not depend on them.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace fx::sim {
 
-/// How the media of an effect are meant to be put together where they overlap.
+/// Intended composition of the media of an effect where they overlap.
 enum class PreferredComposition : uint8_t
 {
     None,
@@ -19,16 +19,16 @@ enum class PreferredComposition : uint8_t
     Volume,
 };
 
-/// How light that the media of an effect scatter again is meant to be computed.
+/// Intended computation of the light that the media of an effect scatter.
 enum class PreferredScattering : uint8_t
 {
     Automatic, ///< no preference
-    Single,    ///< light that is scattered once
+    Single,    ///< light that is scattered once only
     ClosedForm,
     Network, ///< an illumination network
 };
 
-/// When a picture has several effects, the greatest value of each member applies.
+/// Drawing hints of an effect. When a picture has several effects, the greatest value of each member applies.
 struct DrawingHints
 {
     PreferredComposition composition = PreferredComposition::None;
@@ -42,11 +42,12 @@ inline DrawingHints greatest(const DrawingHints& a, const DrawingHints& b)
     return {std::max(a.composition, b.composition), std::max(a.scattering, b.scattering)};
 }
 
-/// Numbers of effects by their hints.
+/// Counts effects by their hints.
 class HintCounts
 {
 public:
-    /// @param more 1: an effect has come, -1: one has gone
+    /// Counts one effect more or less with the given hints.
+    /// @param more 1: an effect was added; -1: one was removed
     void add(const DrawingHints& hints, int more)
     {
         compositions_[size_t(hints.composition)] += uint32_t(more);

@@ -19,44 +19,46 @@ namespace fx::sim {
 /// Estimated cost of an instance at medium quality, with steps of 1/60 s.
 struct EffectCost
 {
-    double stepWork = 0;  ///< [unit] of base::WorkBudget, of the most expensive step
-    double startWork = 0; ///< [unit] of the prewarm
-    uint64_t memory = 0;  ///< [byte] of solvers and snapshots
+    double stepWork = 0;  ///< [unit of base::WorkBudget] work of the most expensive step
+    double startWork = 0; ///< [unit of base::WorkBudget] work of the prewarm
+    uint64_t memory = 0;  ///< [byte] memory of solvers and snapshots
 };
 
 struct EffectDef
 {
     std::string name;
-    uint64_t fingerprint = 0;         ///< hash of the preset, equal for equal presets; 0 without a preset
-    base::Ticks duration = 0;         ///< lifetime of the effect; 0: until its solvers have finished
-    base::Ticks prewarm = 0;          ///< simulated time before the first visible step
+    /// hash of the preset, equal for equal presets; 0 if the effect was not built from a preset
+    uint64_t fingerprint = 0;
+    base::Ticks duration = 0;         ///< lifetime of the effect; 0: it ends when its solvers have finished
+    base::Ticks prewarm = 0;          ///< time that is simulated before the first visible step
     uint32_t subSteps = 1;            ///< steps of the effect per step of the scene, 1..16
     glm::vec3 wind{0.0f};             ///< [m/s] local
-    bool hasGround = true;            ///< particles stay above the instance's y = 0
-    std::optional<CatchUp> offscreen; ///< catch-up policy of hidden instances; empty: that of its solvers
-    /// [m] upper bound of the local distance of elements from the origin; 0: that of its solvers.
+    bool hasGround = true;            ///< whether particles are kept above the plane y = 0 of the instance
+    std::optional<CatchUp> offscreen; ///< policy of hidden instances; empty: that of the solvers
+    /// [m] Upper bound of the local distance of elements from the origin; 0: the bound is computed from the
+    /// solvers.
     float bound = 0;
     std::vector<std::unique_ptr<const SolverDef>> solvers;
     /// Order of all solvers in which events of one solver cause births in later ones; empty: any order.
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of the host's events
-    EffectCost cost;                     ///< estimate of the preset's loader
+    EffectCost cost;                     ///< cost as estimated by the loader of presets
     DrawingHints hints;
 
-    /// True when it depends on the host's geometry.
+    /// Whether the effect depends on the host's geometry.
     bool collides() const
     {
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->collides(); });
     }
 
-    /// True when it depends on the placement of the instance, even without geometry.
+    /// Whether the effect depends on the placement of the instance, even without geometry.
     bool dependsOnPlacement() const
     {
         return std::any_of(solvers.begin(), solvers.end(),
                            [](const auto& def) { return def->dependsOnPlacement(); });
     }
 
-    /// True when one of its solvers publishes groups of `kind`.
+    /// Whether one of its solvers publishes groups of `kind`.
     bool publishes(const base::KindDesc& kind) const
     {
         return std::any_of(solvers.begin(), solvers.end(),
@@ -68,7 +70,7 @@ struct EffectDef
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->bendsLight(); });
     }
 
-    /// Sum of the influence of all solvers, which may cause births in each other.
+    /// Sum of the influences of all solvers. It is a sum because solvers may cause births in each other.
     Influence influence() const
     {
         Influence sum;
@@ -77,7 +79,7 @@ struct EffectDef
         return sum;
     }
 
-    /// The preset's choice. Without one, the policy of the solver that allows the least.
+    /// Policy of hidden instances: the preset's choice, or else the most restrictive policy of its solvers.
     CatchUp catchUp() const
     {
         if (offscreen)
@@ -88,7 +90,7 @@ struct EffectDef
         return most;
     }
 
-    /// [m] radius about the local origin within which all elements stay; infinite when unknown.
+    /// [m] Radius about the local origin within which all elements stay; infinite when unknown.
     float reach(float gravity, float windSpeed) const
     {
         if (bound > 0)
@@ -104,7 +106,7 @@ struct EffectDef
         return most;
     }
 
-    /// [byte] memory of the solvers of each instance with its own simulation, without snapshots.
+    /// [byte] Memory of the solvers of an instance that has its own simulation, without snapshots.
     uint64_t bytes() const
     {
         uint64_t sum = 0;

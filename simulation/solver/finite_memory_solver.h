@@ -11,8 +11,8 @@ namespace fx::sim {
 class FiniteMemorySolver
 {
 public:
-    /// [tick] local time after which no element alive now is left, if the host's parameters do not change;
-    /// the largest number if unknown.
+    /// [tick] Local time after which no element that is alive now exists, if the host's parameters do not
+    /// change; the largest number if unknown.
     virtual base::Ticks influenceHorizon(const InstanceParameters& parameters) const = 0;
 
     /// Solver::save() without living elements. A state restored from it is correct after influenceHorizon().

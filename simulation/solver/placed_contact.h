@@ -11,11 +11,11 @@
 
 namespace fx::sim {
 
-/// Threads: any.
+/// The host's contact callback at the placement of one instance. Threads: any.
 class PlacedContact
 {
 public:
-    /// All arguments must outlive this object.
+    /// Creates the callback for one instance. All arguments must outlive this object.
     PlacedContact(const HostContact& host, const base::Placement& placement, std::atomic<uint64_t>& faults)
         : host_(host), placement_(placement), faults_(faults), hook_{this, &PlacedContact::meet}
     {}
@@ -23,7 +23,8 @@ public:
     PlacedContact& operator=(const PlacedContact&) = delete;
 
     const ContactHook& hook() const { return hook_; }
-    /// Data for the same contact at another placement; valid as long as this object.
+    /// The arguments of the constructor, with which the same contact can be created at another placement;
+    /// valid during the lifetime of this object.
     const base::Placement& placement() const { return placement_; }
     const HostContact& host() const { return host_; }
     std::atomic<uint64_t>& faults() const { return faults_; }

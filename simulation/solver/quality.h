@@ -15,18 +15,21 @@ enum class QualityLevel : uint8_t
     Low,
     Medium, ///< the level for which presets are designed
     High,
-    Reference, ///< used to measure the errors of the other levels
+    Reference, ///< level against which the errors of the other levels are measured
 };
 
-/// Parameters of solvers at a level. Errors of the levels are measured by `fx accuracy`.
+/// Parameters of solvers at a quality level. `fx accuracy` measures the errors of the levels.
 struct Quality
 {
     QualityLevel level = QualityLevel::Medium;
-    float particles = 1.0f;    ///< [1] multiple of the preset's particle count, > 0
-    float neighbors = 58.0f;   ///< [1] nominal number of neighbors, 4/3 pi n H^3
-    float radiusFloor = 0.25f; ///< [1] smallest radius of a gas particle over its radius at release; 0: none
-    float flowMach = 0.3f; ///< [1] highest Mach number of the flow when the speed of sound is reduced to take
-                           ///< longer steps; 0: sound keeps its speed
+    float particles = 1.0f; ///< [1] factor on the preset's number of particles, > 0
+    /// [1] nominal number of neighbors, 4/3 pi n H^3, with the number density n and the support radius H
+    float neighbors = 58.0f;
+    /// [1] smallest radius of a gas particle, relative to its radius at release; 0: no limit
+    float radiusFloor = 0.25f;
+    /// [1] highest Mach number of the flow down to which the speed of sound is reduced, for longer steps; 0:
+    /// the speed of sound is not reduced
+    float flowMach = 0.3f;
 };
 
 constexpr Quality qualityOf(QualityLevel level)

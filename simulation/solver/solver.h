@@ -30,43 +30,48 @@ class GpuParticleProgram;
 
 namespace fx::sim {
 
-/// Policy for a hidden instance: how its state reaches the present when the instance is visible again.
+/// Policy for a hidden instance: how its state is brought to the present when the instance becomes visible
+/// again.
 enum class CatchUp : uint8_t
 {
     Analytic, ///< not simulated; the present is computed directly, with the bits of an unbroken simulation
-    Replay,   ///< not simulated; the missing steps are taken later, some each frame, with the same bits
-    Coarse,   ///< steps of four times the length, at fixed ticks; deterministic, but other bits
-    Skip,     ///< not simulated; the missing time is left out: particles age without moving
+    /// not simulated while hidden; the missing steps are taken later, some in each frame, with the same bits
+    Replay,
+    /// simulated while hidden, in steps of four times the length at fixed ticks; deterministic, but with
+    /// other bits
+    Coarse,
+    Skip,          ///< not simulated while hidden; the missing time is skipped: particles age without moving
     Authoritative, ///< always simulated
 };
 
-/// True if hiding an instance does not change its state.
+/// Whether hiding an instance leaves its later state unchanged, bit for bit.
 constexpr bool isExact(CatchUp policy)
 {
     return policy == CatchUp::Analytic || policy == CatchUp::Replay || policy == CatchUp::Authoritative;
 }
 
-constexpr int64_t kCoarseSteps = 4; ///< steps of the scene in one step of CatchUp::Coarse
+constexpr int64_t kCoarseSteps = 4; ///< number of steps of the scene in one step of CatchUp::Coarse
 
 /// Parameters of a running instance.
 struct InstanceParameters
 {
-    float intensity = 1.0f; ///< [1] >= 0, scales future birth rates and injected energies
-    glm::vec3 wind{0.0f};   ///< [m/s] world, added to the effect's own wind
-    bool emitting = true;   ///< false: no births, existing elements continue
+    float intensity = 1.0f; ///< [1] factor on future birth rates and injected energies, >= 0
+    glm::vec3 wind{0.0f};   ///< [m/s] world wind that is added to the effect's own wind
+    bool emitting = true;   ///< false: there are no births; existing elements continue
 };
 
-/// Work done, summed over a step; exact counts, not times.
+/// Counts of the work of a step. They are exact, not times.
 struct StepCounters
 {
     uint64_t born = 0;
-    uint64_t dropped = 0;       ///< births refused because a capacity was full
-    uint64_t particleSteps = 0; ///< particles advanced, once per sub-step
+    uint64_t dropped = 0;       ///< number of births that were dropped because a capacity was full
+    uint64_t particleSteps = 0; ///< number of particles advanced, summed over sub-steps
     uint64_t neighborPairs = 0;
     uint64_t subSteps = 0;
-    uint64_t clamped = 0; ///< values limited to keep the state finite
+    uint64_t clamped = 0; ///< number of values that were limited to keep the state finite
     base::Ticks debt = 0; ///< time that is not simulated, because the limit of sub-steps was reached
-    uint64_t events = 0;  ///< events of particles, counted once for each rule that may answer
+    /// number of events of particles, each counted once for each rule that may apply to it
+    uint64_t events = 0;
 
     StepCounters& operator+=(const StepCounters& more)
     {
@@ -80,7 +85,7 @@ struct StepCounters
         debt += more.debt;
         return *this;
     }
-    /// Difference to the earlier counters `before`.
+    /// The counts since an earlier state `before` of these counters.
     StepCounters since(const StepCounters& before) const
     {
         return {born - before.born,
@@ -94,19 +99,20 @@ struct StepCounters
     }
 };
 
-/// Geometry behind a callback of the host. The callback is called for each path of particles that collide
+/// Geometry of the host behind a callback. The callback is called for the path of each particle that collides
 /// with it.
 struct ContactHook
 {
     void* user = nullptr;
-    /// Intersects the segment from `from` to `to` [m, local]. Returns 0 when it is free. Otherwise gives the
-    /// share of the path before the contact, 0..1, and the normal, of any length. Called by several threads
-    /// at once. Equal arguments must give equal results during a step.
+    /// Intersects the segment from `from` to `to` [m, local] with the geometry. Returns 0 when the segment is
+    /// free. Otherwise returns another number, the share of the path before the contact, 0..1, and the
+    /// normal, of any length. Called by several threads at once. Equal arguments must give equal results
+    /// during a step.
     int (*meet)(void* user, const float from[3], const float to[3], float* outShare,
                 float outNormal[3]) = nullptr;
 };
 
-/// Contact callback in world space, set by the host.
+/// The host's contact callback, in world space.
 struct HostContact
 {
     void* user = nullptr;
@@ -117,7 +123,7 @@ struct HostContact
 class SpawnBatch;
 class EventBoard;
 
-/// An event of the host.
+/// An event that the host has triggered.
 struct HostEvent
 {
     uint32_t event; ///< index in EffectDef::hostEvents
@@ -130,31 +136,32 @@ struct StepContext
     base::Ticks tick;         ///< local time at which the step begins
     base::Ticks stepTicks;    ///< length of the step, > 0
     uint64_t seed;            ///< seed of the instance
-    uint32_t solverIndex;     ///< position in the effect; part of the key of every random number
+    uint32_t solverIndex;     ///< index of the solver in the effect; part of the key of every random number
     glm::vec3 gravity;        ///< [m/s2] local
     glm::vec3 wind;           ///< [m/s] local
     float groundHeight;       ///< [m] local y of the ground plane; -infinity for none
     const Collider* collider; ///< the host's geometry; null for none
-    /// intensity and emission; the host's wind is already part of `wind`
+    /// intensity and emission; its wind is already part of `wind`
     const InstanceParameters* parameters;
     base::TaskRunner* tasks;
     base::Arena* scratch; ///< freed after the step
     StepCounters* counters;
     const ContactHook* contactHook = nullptr; ///< null for none
-    EventBoard* board = nullptr;              ///< events between solvers in this step; null for none
-    std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
-    /// may defer births to the end of the step; null: births are computed at once
+    EventBoard* board = nullptr;              ///< events between solvers in this step; null: there are none
+    std::span<const HostEvent> hostEvents{};  ///< host events, which happen at `tick`
+    /// batch to which births may be deferred until the end of the step; null: births are computed at once
     SpawnBatch* spawnBatch = nullptr;
-    /// target of the instance's motion; identity unless the effect depends on it
+    /// placement that the instance moves to; identity unless the effect depends on the placement
     base::Placement placement{};
-    /// [1] 0..1, share of the remaining motion to `placement` that takes place in this step.
+    /// [1] share of the remaining motion to `placement` that takes place in this step, 0..1
     float moveShare = 1.0f;
     glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
-    /// [m/s] world, the host's share of `wind`; 0 unless the effect depends on the placement
+    /// [m/s] the host's share of `wind`, in world space; 0 unless the effect depends on the placement
     glm::vec3 worldWind{0.0f};
-    glm::vec3 effectWind{0.0f};              ///< [m/s] local, the preset's share of `wind`
-    std::span<const ThermalFlow> thermals{}; ///< flows of the effect's gases, for solvers that follow them
-    bool gpuParticles = false; ///< emitters that the GPU may compute need not be computed as rows
+    glm::vec3 effectWind{0.0f}; ///< [m/s] the preset's share of `wind`, in local space
+    /// air flows of the effect's gases, for solvers that follow them
+    std::span<const ThermalFlow> thermals{};
+    bool gpuParticles = false; ///< true: emitters that the GPU can compute need not be computed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -165,7 +172,7 @@ class FiniteMemorySolver;
 class PooledEmitter;
 class SeekableSolver;
 
-/// The changing state of one emitter, one gas, ... of one instance.
+/// The changing state of one part of an instance, such as an emitter or a gas.
 class Solver
 {
 public:
@@ -180,12 +187,12 @@ public:
     /// the first birth.
     virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
 
-    /// True when no element is alive and none will be born from local time `tick` on.
+    /// Whether no element is alive and none will be born from local time `tick` on.
     virtual bool finished(base::Ticks tick) const = 0;
 
     virtual uint32_t elementCount() const = 0;
 
-    /// Whether elementCount() is above 0; may be cheaper than counting.
+    /// Whether elementCount() is above 0. An implementation may be faster than counting.
     virtual bool hasElements() const { return elementCount() > 0; }
 
     /// Writes exactly the data that later steps and publications depend on, so equal states write equal
@@ -205,18 +212,18 @@ public:
     virtual PooledEmitter* pooledEmitter() { return nullptr; }
 };
 
-/// Conditions for the bound of distances.
+/// Conditions on which the upper bound of distances depends.
 struct ReachConditions
 {
     float gravity = 0; ///< [m/s2] magnitude
     float wind = 0;    ///< [m/s] magnitude
-    float seconds = 0; ///< [s] time since the start
+    float seconds = 0; ///< [s] time since the start of the instance
 };
 
-/// Bounds of births caused by events of other solvers.
+/// Upper bounds of the births that events of other solvers cause.
 struct BirthReach
 {
-    float distance = 0; ///< [m] largest distance from the origin
+    float distance = 0; ///< [m] largest distance of a birth from the origin
     float speed = 0;    ///< [m/s] largest inherited speed
 
     void add(const BirthReach& more)
@@ -226,10 +233,10 @@ struct BirthReach
     }
 };
 
-/// Influence of an instance's past on its living elements.
+/// Influence of the past of an instance on its living elements.
 struct Influence
 {
-    /// [s] time of the instance after which the past has no influence; infinite if unknown
+    /// [s] time, in the time of the instance, after which the past has no influence; infinite if unknown
     float seconds = 0;
     float inherits = 0; ///< [1] share of the instance's velocity that particles inherit
     float extent = 0;   ///< [m] local extent of the births of particles that inherit velocity
@@ -244,13 +251,14 @@ struct Influence
     }
 };
 
-/// Expected amounts of work of a step of a solver.
+/// Expected amounts of a step of a solver, from which its work is estimated.
 struct StepLoad
 {
     double seconds;    ///< [s] length
-    double births = 0; ///< of emitters: births, including those caused by events
-    double alive = 0;  ///< of emitters: living particles, at most the capacity
-    double events = 0; ///< of emitters: events of particles, counted once for each rule that may answer
+    double births = 0; ///< number of births of an emitter, including those caused by events
+    double alive = 0;  ///< number of living particles of an emitter, at most its capacity
+    /// number of events of an emitter's particles, each counted once for each rule that may apply to it
+    double events = 0;
 };
 
 /// Immutable definition of a solver; shared by all instances of a preset.
@@ -261,7 +269,7 @@ public:
     /// Creates a solver with all memory that it needs at this quality.
     virtual std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                            std::pmr::memory_resource* memory) const = 0;
-    /// Upper bound on elements alive at once, at medium quality.
+    /// Maximum number of simultaneously alive elements, at medium quality.
     virtual uint32_t capacity() const = 0;
     /// Whether its solvers publish groups of `kind`.
     virtual bool publishes(const base::KindDesc& kind) const = 0;
@@ -269,21 +277,22 @@ public:
     virtual bool bendsLight() const { return false; }
     /// Program by which the GPU replaces the solvers; null if this is impossible or disabled. [any thread]
     virtual std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const { return nullptr; }
-    /// Influence of the instance's past, without that of the host's parameters.
+    /// Influence of the past of an instance, without that of the host's parameters.
     virtual Influence influence() const { return {.seconds = std::numeric_limits<float>::infinity()}; }
     /// [byte] maximum memory of a solver, at medium quality.
     virtual uint64_t bytes() const { return 0; }
-    /// True when its solvers depend on StepContext::collider.
+    /// Whether its solvers depend on StepContext::collider.
     virtual bool collides() const { return false; }
-    /// True when its solvers depend on StepContext::placement.
+    /// Whether its solvers depend on StepContext::placement.
     virtual bool dependsOnPlacement() const { return false; }
-    /// True when its solvers depend on StepContext::thermals.
+    /// Whether its solvers depend on StepContext::thermals.
     virtual bool followsThermals() const { return false; }
-    /// Catch-up policy of hidden instances, unless the preset defines one.
+    /// Policy of hidden instances, unless the preset defines one.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
-    /// [m] upper bound of the distance of elements, radius included, from the instance's origin within
+    /// [m] Upper bound of the distance of elements, radius included, from the instance's origin within
     /// `seconds` after the start; infinite when unknown.
-    /// @param gravity [m/s2] magnitude @param wind [m/s] magnitude
+    /// @param gravity [m/s2] magnitude of gravity
+    /// @param wind [m/s] magnitude of the wind
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {
         return std::numeric_limits<float>::infinity();
@@ -296,7 +305,7 @@ public:
     {
         return reach(conditions.gravity, conditions.wind, conditions.seconds);
     }
-    /// [unit] of base::WorkBudget: estimated work of the most expensive step, at medium quality.
+    /// [unit of base::WorkBudget] Estimated work of the most expensive step, at medium quality.
     virtual double workOf(const StepLoad& /*load*/) const { return 0.0; }
 };
 

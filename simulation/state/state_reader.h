@@ -20,13 +20,13 @@ public:
     const base::Status& status() const { return status_; }
     size_t left() const { return left_.size(); } ///< [byte]
 
-    /// Fails with `what` unless `condition` holds; an earlier failure is kept.
+    /// Records the failure `what` unless `condition` holds. An earlier failure is kept.
     void require(bool condition, const char* what)
     {
         if (!condition && status_.ok())
             status_ = {base::Code::Parse, what};
     }
-    /// Takes over the failure of a larger state that contains this one.
+    /// Records the failure of a larger state that contains this one, unless there already is a failure.
     void fail(const base::Status& status)
     {
         if (status_.ok())
@@ -40,7 +40,8 @@ public:
         take(&value, sizeof value);
         return value;
     }
-    /// Reads a number in [least, most]. Any other number, and NaN, is a failure and gives `least`.
+    /// Reads a number in [least, most]. For any other number, and for NaN, records a failure and returns
+    /// `least`.
     template <StateValue T>
     T value(T least, T most, const char* what)
     {
@@ -69,7 +70,7 @@ public:
         values(std::span<float>(xyzw));
         return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
     }
-    /// Fills `out`; floating-point elements must be finite.
+    /// Reads all elements of `out`. Floating-point elements must be finite.
     template <StateValue T>
     void values(std::span<T> out)
     {
@@ -78,8 +79,8 @@ public:
             require(std::all_of(out.begin(), out.end(), [](T x) { return base::isFinite(x); }),
                     "a number of the state is not finite");
     }
-    /// The bytes of StateWriter::block(). They are valid as long as the bytes of the reader; empty after a
-    /// failure.
+    /// Reads the bytes of StateWriter::block(). They are valid as long as the bytes of the reader; empty
+    /// after a failure.
     std::span<const std::byte> block()
     {
         const uint64_t size = value<uint64_t>();

@@ -51,13 +51,13 @@ public:
         const float xyzw[4] = {q.x, q.y, q.z, q.w};
         put(xyzw, sizeof xyzw);
     }
-    /// Writes the elements without their number; the reader must know the number.
+    /// Writes the elements without their number, which the reader must know.
     template <StateValue T>
     void values(std::span<const T> values)
     {
         put(values.data(), values.size_bytes());
     }
-    /// Writes bytes of another format, preceded by their number.
+    /// Writes bytes that have a format of their own, preceded by their number.
     void block(std::span<const std::byte> bytes)
     {
         value(uint64_t(bytes.size()));
@@ -87,7 +87,7 @@ private:
     std::pmr::vector<std::byte> bytes_;
 };
 
-/// Computes only a hash of the written values. Allocates nothing.
+/// Computes a hash of the written values and stores nothing. Allocates nothing.
 class StateHasher final : public StateWriter
 {
 public:

@@ -29,13 +29,13 @@
 namespace fx::sim {
 
 constexpr double kAirPressure = 101325;  ///< [Pa]
-constexpr double kAirDensity = 1.225;    ///< [kg/m3] at 15 degrees
+constexpr double kAirDensity = 1.225;    ///< [kg/m3] density of air at 15 degrees C
 constexpr double kEnergyOfTnt = 4.184e6; ///< [J/kg] by definition
 
 double kinneyGrahamOverpressure(double scaledDistance);   ///< [Pa]
 double kingeryBulmashOverpressure(double scaledDistance); ///< [Pa]
 
-/// Wave (3), fitted to a history of overpressure.
+/// Friedlander wave (3), fitted to a history of overpressure.
 struct FriedlanderWave
 {
     double peak = 0;     ///< [Pa]
@@ -52,9 +52,9 @@ struct PressureSample
     double overpressure; ///< [Pa]
 };
 
-/// Fits a wave to samples in the order of time. For a smeared shock, the arrival is the time at half of the
-/// rise, and the peak is the decay curve extrapolated back to the arrival. The peak is 0 if the samples
-/// contain no complete positive phase.
+/// Fits a wave to samples in the order of time. For a smeared shock, the arrival is the time at which half of
+/// the rise is reached, and the peak is the decay curve extrapolated back to the arrival. The peak is 0 if
+/// the samples contain no complete positive phase.
 FriedlanderWave fitFriedlander(std::span<const PressureSample> samples);
 
 } // namespace fx::sim

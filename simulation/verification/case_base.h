@@ -14,20 +14,21 @@ public:
     const GasDynamicsDef& dynamics() const final { return def_; }
     const std::vector<GasParticle>& particles() const final { return particles_; }
     const std::vector<double>& sampleTimes() const final { return sampleTimes_; }
-    /// Distance from the origin and speed away from it.
+    /// Converts a particle to its distance from the origin and its speed away from the origin.
     ProfilePoint seen(const CaseParticle& particle) const override;
 
 protected:
-    /// @param gamma, time defaults of the case, used if the settings do not set them
+    /// Stores the settings of a case.
+    /// @param gamma, time defaults of the case, used if the settings do not set these values
     CaseBase(const CaseSettings& settings, double gamma, double time);
 
-    /// Sets def_ from the particles and settings. Constructors call it last.
+    /// Sets def_ from the particles and settings. Constructors of derived classes call it last.
     /// @param sampleCount number of equal intervals between samples
     void finish(uint32_t sampleCount);
 
     double gamma_;
     double time_;  ///< [s] end of the simulation
-    bool ownTime_; ///< true: gamma and end are the case's defaults, so its limits apply
+    bool ownTime_; ///< true: gamma and end time are the defaults of the case, so its limits apply
     GasDynamicsDef def_;
     std::vector<GasParticle> particles_;
 

@@ -14,10 +14,13 @@ struct CaseReport
 {
     CaseMeasures measures;
     uint32_t particles = 0;
-    double seconds = 0;         ///< [s] simulated time
-    double energyStart = 0;     ///< [J]
-    double energyDrift = 0;     ///< [1] (E - E_start) / E_start at the end
-    double momentumDrift = 0;   ///< [1] |P - P_start| / sum m |v|; not measured if there are walls
+    double seconds = 0;     ///< [s] simulated time
+    double energyStart = 0; ///< [J]
+    /// [1] change of the total energy from the start to the end, relative to that at the start
+    double energyDrift = 0;
+    /// [1] magnitude of the change of the total momentum over the sum of mass times speed; not measured if
+    /// there are walls
+    double momentumDrift = 0;
     AdvanceReport work;         ///< total of all steps
     double initialSeconds = 0;  ///< [s] wall time before the first step
     double steppingSeconds = 0; ///< [s] wall time of the steps, without sampling
@@ -27,12 +30,13 @@ struct CaseReport
 
 struct CaseWatch
 {
-    /// Called before each sample with its number and the total.
+    /// Called before each sample with the index of the sample and the number of samples.
     std::function<void(uint32_t sample, uint32_t samples)> progress;
-    /// Called often; returning true ends the run as soon as possible, with Code::Interrupted.
+    /// Called often. When it returns true, the run ends as soon as possible with Code::Interrupted.
     std::function<bool()> stop;
 };
 
+/// Runs a case to its end and measures it.
 /// @tparam T precision of the dynamics
 template <class T>
 base::Result<CaseReport> runCase(GasCase& gasCase, base::TaskRunner& tasks, const CaseWatch& watch = {});

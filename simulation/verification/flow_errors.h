@@ -32,7 +32,7 @@
 
 namespace fx::sim {
 
-/// Accumulates the sums of (1).
+/// Accumulates the sums of (1) over particles.
 class FlowErrors
 {
 public:
@@ -46,17 +46,17 @@ private:
     std::vector<DensityError> densities_;
 };
 
-/// A shell of the profile.
+/// Means over the particles in one shell of the profile, an interval of the distance.
 struct Shell
 {
     double place = 0;   ///< [m] its middle
-    uint32_t count = 0; ///< particles; the state is 0 without particles
+    uint32_t count = 0; ///< number of particles; without particles the state is 0
     FlowState state;    ///< means over particles
 };
 
 std::vector<Shell> shellsOf(std::span<const ProfilePoint> points, double width);
 
-/// Radius of the shock by (2). Zero if no shell is denser than the gas ahead.
+/// Radius of the shock by (2); 0 if no shell is denser than the gas ahead of the shock.
 double shockRadius(std::span<const Shell> shells, double densityAhead);
 
 /// Radius of the shock by (3).
@@ -64,7 +64,7 @@ double densestRadius(std::span<const Shell> shells);
 
 std::vector<ProfilePoint> profileOf(const GasCase& gasCase, std::span<const CaseParticle> particles);
 
-/// Stores the errors against `exact` of all points nearer than `radius`.
+/// Computes the errors against `exact` of all points nearer than `radius`, and stores them in `out`.
 void storeErrors(std::span<const ProfilePoint> points, double radius, const FlowState& units,
                  const std::function<FlowState(double place)>& exact, CaseMeasures& out);
 

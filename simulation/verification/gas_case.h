@@ -20,12 +20,12 @@ constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 /// Settings of a case.
 struct CaseSettings
 {
-    /// requested number; the lattice determines the actual one; 0: default of the case
+    /// requested number of particles, which the lattice rounds; 0: default of the case
     uint32_t particles = 0;
-    double gamma = 0; ///< [1] 0: default of the case
+    double gamma = 0; ///< [1] ratio of specific heats; 0: default of the case
     double time = 0;  ///< [s] end of the simulation; 0: default of the case
-    GasDynamicsDef
-        rules; ///< kernel, neighbors, viscosity, steps, courant, step ratio; the case sets the rest
+    /// Kernel, neighbors, viscosity, steps, courant and step ratio; the case sets all other members.
+    GasDynamicsDef rules;
 };
 
 /// State of a particle at a sample.
@@ -39,10 +39,10 @@ struct CaseParticle
     double support;      ///< [m]
 };
 
-/// State of a particle in the one direction in which the flow varies.
+/// Position and state of a particle along the one direction in which the flow varies.
 struct ProfilePoint
 {
-    double place; ///< [m] distance from the center; x in planar cases
+    double place; ///< [m] distance from the center; in planar cases x
     double mass;  ///< [kg]
     FlowState state;
 };
@@ -53,7 +53,7 @@ struct Measure
     std::string name;
     double value = 0;
     std::string meaning;            ///< description with unit, for messages
-    double expected = kNotMeasured; ///< the exact or published value
+    double expected = kNotMeasured; ///< exact or published value
 };
 
 /// A bound on a measure. It applies to the default settings of the case.
@@ -66,23 +66,23 @@ struct CaseLimit
     bool holds() const { return value >= low && value <= high; }
 };
 
-/// The error of the density of one particle.
+/// Error of the density of one particle.
 struct DensityError
 {
     double volume; ///< [m3] volume that the particle represents
-    double error;  ///< signed, in the case's unit of density
+    double error;  ///< signed error, in the case's unit of density
 };
 
 struct CaseMeasures
 {
-    double l1Density = kNotMeasured; ///< volume-weighted mean of |rho - exact|; each case names its units
+    double l1Density = kNotMeasured; ///< volume-weighted mean of |rho - exact|, in the case's unit of density
     double l1Velocity = kNotMeasured;
     double l1Pressure = kNotMeasured;
     double shockRadius = kNotMeasured; ///< [m]
     double shockRadiusExact = kNotMeasured;
     std::vector<DensityError> densityErrors; ///< errors of the particles over which l1Density averages
     std::vector<Measure> more;
-    std::vector<CaseLimit> limits; ///< bounds that apply to this number of particles and end time
+    std::vector<CaseLimit> limits; ///< limits that apply to this number of particles and end time
 };
 
 class GasCase
@@ -93,14 +93,15 @@ public:
     /// Definition of the dynamics of the case; its capacity is the number of particles.
     virtual const GasDynamicsDef& dynamics() const = 0;
     virtual const std::vector<GasParticle>& particles() const = 0;
-    /// [s] Times of samples, ascending; the last is the end.
+    /// [s] Times of samples, ascending; the last is the end of the simulation.
     virtual const std::vector<double>& sampleTimes() const = 0;
-    /// Called at each of sampleTimes().
+    /// Measures the particles at one of sampleTimes().
     virtual void look(double /*time*/, std::span<const CaseParticle> /*particles*/) {}
     virtual ProfilePoint seen(const CaseParticle& particle) const = 0;
+    /// Computes the results of the case.
     /// @param particles state at the end
     virtual CaseMeasures measure(std::span<const CaseParticle> particles) const = 0;
-    /// [1] Relative change of energy that is allowed with the default settings.
+    /// [1] Relative change of energy that is accepted with the default settings.
     virtual double energyTolerance() const { return 5e-3; }
 };
 

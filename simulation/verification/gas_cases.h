@@ -21,7 +21,7 @@ struct GasCaseEntry
 {
     std::string_view name;
     std::string_view summary;
-    uint32_t particles; ///< number if the user does not set one
+    uint32_t particles; ///< number of particles if the user does not set one
     std::unique_ptr<GasCase> (*make)(const CaseSettings& settings);
 };
 

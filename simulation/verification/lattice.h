@@ -28,14 +28,15 @@ struct Lattice
     }
 };
 
-/// The even integer, at least `least`, whose cube is nearest to `particles`. It is even so that the center of
-/// a cube lies between particles, and events there affect the nearest particles equally.
+/// The even integer, at least `least`, whose cube is nearest to `particles`. With an even side, the center of
+/// a cube lies between particles, so that an event at the center affects the nearest particles equally.
 uint32_t evenSide(uint32_t particles, uint32_t least);
 
-/// Rounds up to an even number.
+/// Rounds `value` up to an even number.
 uint32_t evenAbove(double value);
 
-/// [1] Ratio of support to spacing of a lattice at which 4/3 pi n H^3 = neighbors.
+/// [1] Ratio of the support H to the spacing of a lattice at which 4/3 pi n H^3 = neighbors, with the number
+/// density n.
 double supportInSpacings(double neighbors);
 
 } // namespace fx::sim

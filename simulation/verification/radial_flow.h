@@ -40,9 +40,9 @@ struct RadialFlowDef
     double gamma = 1.4;
     bool spherical = true;
     int cells = 1000;           ///< number of cells, initially of equal width
-    double length = 1;          ///< [m] from the center or wall at 0
-    bool outerWall = true;      ///< false: a free surface
-    double outsidePressure = 0; ///< [Pa] on the free surface
+    double length = 1;          ///< [m] length of the domain from the center or the wall at 0
+    bool outerWall = true;      ///< true: a wall at the outer end; false: a free surface
+    double outsidePressure = 0; ///< [Pa] pressure on the free surface
     std::function<FlowState(double radius)> initial;
 };
 
@@ -51,14 +51,14 @@ class RadialFlow
 public:
     explicit RadialFlow(const RadialFlowDef& def);
 
-    /// Steps to `time` [s].
+    /// Advances the flow to `time` [s].
     void advanceTo(double time);
     double time() const { return time_; }
     /// State at a radius; zero outside of the gas.
     FlowState at(double radius) const;
-    double radius() const { return faces_.back(); } ///< [m] of the outermost face
-    double energy() const;                          ///< [J], of the whole sphere or of 1 m2
-    double thermalEnergy() const;                   ///< [J] energy without kinetic energy
+    double radius() const { return faces_.back(); } ///< [m] position of the outermost face
+    double energy() const;        ///< [J] energy of the whole sphere, or of 1 m2 in planar flow
+    double thermalEnergy() const; ///< [J] energy without kinetic energy
 
 private:
     struct Cell
@@ -92,7 +92,8 @@ private:
     std::vector<double> masses_;
     std::vector<double> faces_;
     std::vector<Cell> cells_;
-    std::vector<double> centers_; ///< centers_, states_ and slopes_ are derived from faces_ and cells_
+    /// positions of cell centers; like states_ and slopes_, they are derived from faces_ and cells_
+    std::vector<double> centers_;
     std::vector<FlowState> states_;
     std::vector<FlowState> slopes_; ///< per m
 };

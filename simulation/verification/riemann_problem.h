@@ -38,14 +38,16 @@ class RiemannProblem
 public:
     RiemannProblem(const FlowState& left, const FlowState& right, double gamma);
 
+    /// State on the ray x / t = speed.
     /// @param speed [m/s] x / t
     FlowState at(double speed) const;
 
-    double starPressure() const { return pressure_; } ///< [Pa] between the outer waves
+    double starPressure() const { return pressure_; } ///< [Pa] pressure between the outer waves
     double starVelocity() const { return velocity_; } ///< [m/s]
-    double starDensityLeft() const;                   ///< [kg/m3] left of the contact
-    double starDensityRight() const;                  ///< [kg/m3] right of the contact
-    double rightWaveSpeed() const; ///< [m/s] of the right shock, or of the head of the right rarefaction
+    double starDensityLeft() const;                   ///< [kg/m3] density left of the contact
+    double starDensityRight() const;                  ///< [kg/m3] density right of the contact
+    /// [m/s] speed of the right shock, or of the head of the right rarefaction
+    double rightWaveSpeed() const;
 
 private:
     double velocityJump(const FlowState& side, double pressure) const;

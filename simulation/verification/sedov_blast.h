@@ -41,8 +41,9 @@ namespace fx::sim {
 class SedovBlast
 {
 public:
-    /// @param energy [J]
-    /// @param density [kg/m3] of the gas at rest
+    /// Computes the similarity solution.
+    /// @param energy [J] energy of the blast
+    /// @param density [kg/m3] density of the gas at rest
     SedovBlast(double gamma, double energy, double density);
 
     double xi0() const { return xi0_; }
@@ -50,21 +51,21 @@ public:
     double shockSpeed(double time) const;  ///< [m/s]
     /// State immediately behind the shock.
     FlowState behindShock(double time) const;
-    /// Ahead of the shock the gas is at rest without pressure.
+    /// State at a radius and time. Ahead of the shock the gas is at rest without pressure.
     FlowState at(double radius, double time) const;
 
 private:
     struct Similar
     {
-        double velocity; ///< V x: v in units of the shock speed
+        double velocity; ///< V x, the velocity in units of the shock speed
         double density;  ///< G
-        double pressure; ///< G Z x^2 / gamma: p in units of rho0 U^2
+        double pressure; ///< G Z x^2 / gamma, the pressure in units of rho0 U^2
     };
     double gamma_;
     double energy_;
     double density_;
     double xi0_ = 0;
-    std::vector<Similar> table_; ///< at x = k / (size - 1)
+    std::vector<Similar> table_; ///< solution at the points x = k / (size - 1)
 };
 
 } // namespace fx::sim

@@ -28,7 +28,7 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kNormalRate = 1u << 16; ///< local time advances as scene time does
+constexpr uint32_t kNormalRate = 1u << 16; ///< rate at which local time advances as fast as scene time
 constexpr uint32_t kHighestRate = 16u << 16;
 
 struct InstanceClock
@@ -45,7 +45,7 @@ struct InstanceClock
             return local + since;
         return local + base::Ticks((Wide(since) * rate) >> 16); // (1)
     }
-    /// Scene time of a local time; INT64_MAX / 4 if it is never reached.
+    /// Scene time at which a local time is reached; INT64_MAX / 4 if it is never reached.
     base::Ticks toScene(base::Ticks tick) const
     {
         __extension__ using Wide = __int128;

@@ -21,30 +21,32 @@
 
 namespace fx::sim {
 
-/// Key of a shared simulation: all conditions on which its results depend. It does not contain the position,
-/// the scale, or a rotation that leaves local gravity and wind unchanged. Only if the simulation collides
-/// with the host's geometry or depends on its placement, these are part of the key.
+/// Key of a shared simulation: all conditions on which its results depend. The key contains neither the
+/// position and scale of the instance nor a rotation that leaves local gravity and wind unchanged. Only if
+/// the simulation collides with the host's geometry or depends on its placement, the key contains these too.
 struct SimulationConditions
 {
     uint64_t seed = 0;
-    InstanceClock clock; ///< its anchor is the start, or the time at which the host last changed it
+    /// clock; its anchor is the start, or the time at which the host last changed the clock
+    InstanceClock clock;
     Quality quality;
-    glm::vec3 gravity{0.0f};       ///< [m/s] local, sum of the winds of effect and host
-    glm::vec3 wind{0.0f};          ///< [m/s] local, the effect's and the host's
-    float groundHeight = 0;        ///< [m] local y; -infinity for none
-    InstanceParameters parameters; ///< intensity and emission; the wind is 0, because `wind` contains it
+    glm::vec3 gravity{0.0f};       ///< [m/s2] local gravity
+    glm::vec3 wind{0.0f};          ///< [m/s] local wind, the sum of the winds of effect and host
+    float groundHeight = 0;        ///< [m] local y of the ground plane; -infinity for none
+    InstanceParameters parameters; ///< intensity and emission; its wind is 0, because `wind` contains it
     const DistanceField* field = nullptr; ///< the host's geometry; null for none
-    bool hasContact = false;              ///< the host's contact callback is used
-    base::Placement placement;            ///< target placement if results depend on it; otherwise the default
-    glm::vec3 worldWind{0.0f}; ///< [m/s] world, the host's wind, if the effect depends on its placement
+    bool hasContact = false;              ///< whether the host's contact callback is used
+    base::Placement placement; ///< target placement if the results depend on it; otherwise the default
+    /// [m/s] the host's wind in world space, if the effect depends on the placement
+    glm::vec3 worldWind{0.0f};
 
-    /// Compares bit for bit.
+    /// Whether all members are equal, bit for bit.
     bool equals(const SimulationConditions& other) const;
     uint64_t hash() const;
 };
 
-/// An incomplete sub-step of solvers that exchange events, in a shared simulation that is stepped separately.
-/// It keeps the events until the next call.
+/// State of an incomplete sub-step of solvers that exchange events, in a shared simulation that is stepped
+/// separately. It keeps the events until the next call.
 struct LinkedPart
 {
     explicit LinkedPart(std::pmr::memory_resource* memory) : scratch(memory) {}
@@ -57,8 +59,8 @@ struct LinkedPart
 /// The solvers of one effect and their inputs.
 struct SharedSimulation
 {
-    /// A pending change of the conditions of a paused simulation. The simulation has not reached its time
-    /// yet.
+    /// A pending change of the conditions of a paused simulation, at a time that the simulation has not
+    /// reached yet.
     struct Change
     {
         base::Ticks tick; ///< scene time
@@ -66,7 +68,7 @@ struct SharedSimulation
         std::shared_ptr<const DistanceField> field; ///< keeps the field of the conditions alive
     };
 
-    /// An event of the host.
+    /// A pending event of the host.
     struct PendingEvent
     {
         base::Ticks tick; ///< scene time
@@ -76,54 +78,58 @@ struct SharedSimulation
     // Members that every step and publication reads, adjacent for the cache.
     std::vector<std::unique_ptr<Solver>> solvers; ///< empty while released
     Solver* only = nullptr;                       ///< the solver, if there is only one; otherwise null
-    base::Ticks simulated = 0;                    ///< scene time of the state
+    base::Ticks simulated = 0;                    ///< scene time that the state refers to
     base::Ticks restUntil = 0;                    ///< scene time up to which steps have no effect
-    base::Ticks quietUntil =
-        0; ///< scene time up to which steps need not be taken, see SeekableSolver::passTo()
-    base::Ticks quietOffset = 0; ///< local time minus scene time until then
-    uint64_t steppedIn = 0;      ///< number of the last step in which it was stepped
-    uint32_t users = 0;          ///< number of its instances; 0: unused
+    /// Scene time up to which steps need not be taken, see SeekableSolver::passTo().
+    base::Ticks quietUntil = 0;
+    base::Ticks quietOffset = 0; ///< local time minus scene time, until quietUntil
+    uint64_t steppedIn = 0;      ///< number of the last step of the world in which the simulation was stepped
+    uint32_t users = 0;          ///< number of instances that use the simulation; 0: the simulation is unused
     uint32_t hidden = 0; ///< number of users that are out of sight; if all are, the simulation is paused
-    bool pooled = false; ///< its only solver is in a pool; then `simulated` is the time of joining
-    bool released =
-        false; ///< its solvers were released; `kept` has their state, and is empty before the start
+    /// true: its only solver is in a pool; `simulated` is then the time at which it joined
+    bool pooled = false;
+    /// True: the solvers were released; `kept` has their state, and is empty before the start of the
+    /// instance.
+    bool released = false;
     std::shared_ptr<const EffectDef> effect;
     SimulationConditions conditions;
-    std::vector<Change> changes;                ///< changes of a paused simulation, by tick
-    std::vector<PendingEvent> pendingEvents;    ///< host events that are not yet in hostEvents, by tick
+    std::vector<Change> changes; ///< changes of a paused simulation, in the order of time
+    /// host events that solvers have not received yet, in the order of time
+    std::vector<PendingEvent> pendingEvents;
     std::shared_ptr<const DistanceField> field; ///< keeps the field of a paused simulation's conditions alive
     std::shared_ptr<const StateBuffer> pristine; ///< state of the solvers before their first step
     std::optional<StateBuffer> kept;
-    bool brief = false; ///< the kept state lacks elements that have died since
-    base::Ticks forgottenAt =
-        kNever; ///< scene time after which no particle of the state is alive; of a released simulation
-    bool fresh = false;     ///< not stepped yet; another instance may still join
+    bool brief = false; ///< true: the kept state lacks elements that have died since
+    /// For a released simulation: scene time after which no particle of the state is alive.
+    base::Ticks forgottenAt = kNever;
+    bool fresh = false;     ///< true: not stepped yet, so that another instance may still join
     uint32_t nextFresh = 0; ///< see SimulationPool
 
     // State of an open step, see World::proceed(), and of an incomplete prewarm or seek, see World::arrive().
-    bool inStep = false;                  ///< some of its sub-steps are complete, or one is open
-    bool inPart = false;                  ///< a sub-step is open
-    bool arriving = false;                ///< a prewarm or seek from `reached` to `target` is in progress
-    uint32_t stepped = 0;                 ///< number of solvers that have finished the open sub-step
-    base::Ticks part = 0;                 ///< number of complete sub-steps of the step
-    base::Ticks stepTick = 0;             ///< [tick] of the scene at which the step begins
-    base::Ticks stepLength = 0;           ///< [tick] of the scene
-    base::Ticks reached = 0;              ///< [tick] local
-    base::Ticks target = 0;               ///< [tick] local
-    std::unique_ptr<LinkedPart> linked{}; ///< exists while the simulation catches up separately
+    bool inStep = false;        ///< true: some sub-steps of the step are complete, or one is open
+    bool inPart = false;        ///< true: a sub-step is open
+    bool arriving = false;      ///< true: a prewarm or seek from `reached` to `target` is in progress
+    uint32_t stepped = 0;       ///< number of solvers that have finished the open sub-step
+    base::Ticks part = 0;       ///< number of complete sub-steps of the step
+    base::Ticks stepTick = 0;   ///< [tick] scene time at which the step begins
+    base::Ticks stepLength = 0; ///< [tick] length of the step in scene time
+    base::Ticks reached = 0;    ///< [tick] local
+    base::Ticks target = 0;     ///< [tick] local
+    /// events of a sub-step; exists while the simulation catches up separately
+    std::unique_ptr<LinkedPart> linked{};
 
     // Data of one step of the world.
-    uint64_t visitedIn = 0; ///< number of the last step whose list contained it
-    uint64_t dividedIn = 0; ///< number of the last step whose list contained only some of its users
-    uint32_t visits = 0;    ///< number of users in the list of that step
-    uint32_t division = 0;  ///< the simulation for these users
+    uint64_t visitedIn = 0; ///< number of the last step whose list contained an instance of the simulation
+    uint64_t dividedIn = 0; ///< number of the last step whose list contained only some of its instances
+    uint32_t visits = 0;    ///< number of its instances in the list of that step
+    uint32_t division = 0;  ///< index of the simulation to which these instances are moved
 
     static constexpr base::Ticks kNever = std::numeric_limits<base::Ticks>::max();
     bool isPaused() const { return hidden == users; }
-    /// [tick] local time after which no presently living element is left, see influenceHorizon(). kNever
-    /// while host events are pending.
+    /// [tick] Local time after which no element that is alive now exists, see
+    /// FiniteMemorySolver::influenceHorizon(). kNever while host events are pending.
     base::Ticks influenceHorizon() const;
-    /// Called after the solvers have been created or moved.
+    /// Updates `only`. Called after the solvers have been created or moved.
     void updateOnly() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
     void save(StateWriter& writer) const;
     void saveWithoutElements(StateWriter& writer) const;
@@ -136,27 +142,28 @@ constexpr SimulationIndex kNoSimulation = ~0u;
 class SimulationPool
 {
 public:
+    /// Creates an empty pool.
     /// @param share false: every instance has its own simulation
     SimulationPool(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory, bool share);
 
     SharedSimulation& at(SimulationIndex index) { return simulations_[index]; }
     const SharedSimulation& at(SimulationIndex index) const { return simulations_[index]; }
-    uint32_t count() const { return count_; }           ///< simulations in use
-    size_t size() const { return simulations_.size(); } ///< one more than the largest index
+    uint32_t count() const { return count_; }           ///< number of simulations in use
+    size_t size() const { return simulations_.size(); } ///< number of indices, used and unused
 
     // Functions that create solvers may throw std::bad_alloc; then the pool is unchanged.
 
     /// Adds an instance, which joins an equal fresh simulation or starts a new one.
-    /// @param released start a new simulation without solvers
+    /// @param released true: a new simulation is started without solvers
     SimulationIndex acquire(const std::shared_ptr<const EffectDef>& effect,
                             const SimulationConditions& conditions, bool released = false);
-    /// Creates a simulation without users; instances cannot join it before publish().
+    /// Creates a simulation without users. Instances cannot join it before publish().
     SimulationIndex create(const std::shared_ptr<const EffectDef>& effect,
                            const SimulationConditions& conditions, bool released = false);
     /// Restores the solvers of a released simulation.
     void materialize(SimulationIndex index);
     /// Moves the solvers of a shared simulation to the free list and keeps its state as bytes.
-    /// @param mayForget the saved state may omit elements that die before the simulation is restored
+    /// @param mayForget true: the saved state may omit elements that die before the simulation is restored
     void release(SimulationIndex index, base::Ticks now, bool mayForget);
     /// Frees solvers that have been in the free list since before `tick`.
     void trimFreeList(base::Ticks tick);
@@ -168,9 +175,9 @@ public:
     /// Changes the conditions of one user of a shared simulation from now on. @return the simulation of this
     /// user afterwards
     SimulationIndex change(SimulationIndex index, const SimulationConditions& conditions);
-    /// Removes a user; without users the solvers are destroyed.
+    /// Removes a user. If it was the last one, the solvers are destroyed.
     void leave(SimulationIndex index);
-    /// As leave(), but moves the solvers to the free list.
+    /// As leave(), but moves the solvers of the last user to the free list.
     void recycle(SimulationIndex index, base::Ticks now);
     /// Marks a simulation as stepped; it is no longer fresh.
     void touch(SimulationIndex index);
@@ -180,7 +187,7 @@ public:
     void swap(SimulationPool& other) noexcept;
 
 private:
-    /// Solvers of the free list.
+    /// The solvers of one simulation in the free list.
     struct FreeSolvers
     {
         std::shared_ptr<const EffectDef> effect;

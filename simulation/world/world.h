@@ -40,31 +40,34 @@ struct InstanceStart
     base::Placement placement;
     InstanceParameters parameters;
     QualityLevel quality = QualityLevel::Medium; ///< never changes
-    uint32_t rate = kNormalRate;                 ///< see InstanceClock, from the start on
-    /// Set if the host has changed the instance's time; otherwise derived from the members above.
+    uint32_t rate = kNormalRate;                 ///< rate of the clock from the start on, see InstanceClock
+    /// Clock of the instance, if the host has changed its time; otherwise the clock follows from the members
+    /// above.
     std::optional<InstanceClock> clock{};
 };
 
 /// Conditions shared by all instances of a world.
 struct Environment
 {
-    glm::vec3 gravity{0.0f, -9.80665f, 0.0f};     ///< [m/s2] world
-    bool hasGround = true;                        ///< false: no effect has a ground
+    glm::vec3 gravity{0.0f, -9.80665f, 0.0f}; ///< [m/s2] world
+    bool hasGround = true;                    ///< true: presets may have a ground; false: no effect has one
     std::shared_ptr<const DistanceField> field{}; ///< geometry of the host; null for none
 };
 
-/// Index of an instance inside the world; valid until removed.
+/// Index of an instance inside the world, valid until the instance is removed.
 using Slot = uint32_t;
 
 class World
 {
 public:
+    /// Creates an empty world.
     /// @param share false: every instance has its own simulation
     World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
           const Environment& environment = {}, bool share = true);
 
     /// Adds an instance and creates all solvers of `effect`. Strong guarantee.
-    /// @param hidden start out of sight: solvers are created when the instance becomes visible
+    /// @param hidden true: the instance starts out of sight, and its solvers are created when it becomes
+    ///          visible
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
     /// Removes an instance at the end of its life, and moves its solvers to the free list.
@@ -72,22 +75,22 @@ public:
 
     // ---- hidden instances; step() and publish() must not get hidden slots ----
     void hide(Slot slot);
-    void show(Slot slot); ///< call after catchUp() has returned true
+    void show(Slot slot); ///< makes a hidden instance visible, after catchUp() has returned true
     bool isHidden(Slot slot) const { return instances_[slot].hidden; }
-    /// True when the state has not reached the present.
+    /// Whether the state of the instance lags behind the present.
     bool lags(Slot slot) const;
     base::Ticks simulated(Slot slot) const
     {
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
         return simulation.pooled ? pools_.now() : simulation.simulated;
     }
-    /// True when the simulation has many pending changes, so that catchUp() should be called to apply them.
+    /// Whether the simulation has many pending changes, so that catchUp() should be called to apply them.
     bool hasManyChanges(Slot slot) const;
     /// Advances a hidden instance towards the present by `policy`; a prewarm comes first. Strong guarantee
     /// for each step.
-    /// @param ioBudget [1] allowed particle steps; each step costs one more than its particles. The last step
-    ///         may exceed the budget.
-    /// @param work also limits the call, possibly in the middle of a step; the next call continues the step
+    /// @param ioBudget [1] number of particle steps that are allowed; each step costs the number of its
+    ///          particles plus one. The last step may exceed the budget.
+    /// @param work limits the call too, possibly in the middle of a step; the next call continues the step
     /// @return true when the instance is at the present, or finished
     bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters,
                  base::WorkBudget& work);
@@ -96,30 +99,30 @@ public:
         base::WorkBudget unlimited;
         return catchUp(slot, policy, stepTicks, ioBudget, counters, unlimited);
     }
-    /// Takes one step, of any length, from the state of a hidden instance to the present. Or continues such a
+    /// Takes one step, of any length, from the state of a hidden instance to the present, or continues such a
     /// step that exceeded the work budget.
     void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work);
     /// Simulates the prewarm of an instance before its first step.
-    /// @return whether the prewarm is complete; if not, the instance must be hidden, and catchUp() continues
-    ///         it
+    /// @return whether the prewarm is complete; if it is not, the instance must be hidden, and catchUp()
+    ///         continues the prewarm
     bool arrive(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
     {
         return arrive(instances_[slot].simulation, now_, stepTicks, work, counters);
     }
     /// Ends a step that catchUp() has left incomplete.
     void closeStep(Slot slot) { closeSimulation(instances_[slot].simulation); }
-    /// True while a prewarm, or a seek of seekTo(), is incomplete.
+    /// Whether a prewarm, or a seek of seekTo(), is incomplete.
     bool isArriving(Slot slot) const { return simulations_.at(instances_[slot].simulation).arriving; }
-    /// [tick] local time that is not simulated yet.
+    /// [tick] Local time of an incomplete prewarm or seek that is not simulated yet.
     base::Ticks missing(Slot slot) const
     {
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
         return simulation.arriving ? simulation.target - simulation.reached : 0;
     }
     /// Moves the solvers of a paused simulation to the free list and keeps its state as bytes.
-    /// @param mayForget particles that will be dead at the time of catching up need not be kept, because the
-    ///         host skips the time in between without a difference
-    /// @return scene time at which another call would free more; the largest number for never
+    /// @param mayForget true: particles that will be dead when the instance catches up are not kept, because
+    ///          the host skips the time in between and there is no difference
+    /// @return scene time at which another call would free more memory; the largest number for never
     base::Ticks release(Slot slot, bool mayForget);
     /// Skips time of a lagging simulation if its past has no influence on the present. Moves it to a step
     /// shortly before the present; from there catchUp() gives the same bits.
@@ -128,22 +131,23 @@ public:
     void materialize(Slot slot) { simulations_.materialize(instances_[slot].simulation); }
     /// Frees solvers that have been in the free list since before `tick`.
     void trimFreeList(base::Ticks tick) { simulations_.trimFreeList(tick); }
-    size_t freeSolvers() const { return simulations_.freeSolvers(); } ///< sets of solvers in the free list
+    /// number of sets of solvers in the free list
+    size_t freeSolvers() const { return simulations_.freeSolvers(); }
     /// Scene time, at least the present, up to which steps do not change the visible state of the instance.
     /// These steps are not taken.
     base::Ticks restsUntil(Slot slot) const;
-    uint32_t pooled() const
-    {
-        return pools_.members();
-    } ///< number of instances that pools compute, see EmitterPool
-    /// Number of slots that the last step() skipped because they rest
+    /// Number of instances that pools compute, see EmitterPool.
+    uint32_t pooled() const { return pools_.members(); }
+    /// Number of slots that the last step() skipped because they were at rest.
     uint32_t resting() const { return resting_; }
-    /// @param allow false: every step is taken, also of resting instances
+    /// Allows or forbids that steps of resting instances are skipped.
+    /// @param allow false: every step is taken
     void allowRest(bool allow) { mayRest_ = allow; }
-    /// @param allow false: emitters do not use pools from the next step on. Results are the same
+    /// Allows or forbids the use of pools by emitters, from the next step on. The results are the same.
+    /// @param allow false: no pools
     void allowPools(bool allow) { mayPool_ = allow; }
-    /// Whether emitters are published as input of the GPU where possible, from the next step on; see
-    /// StepContext::gpuParticles.
+    /// Enables or disables that emitters are published as input of the GPU where possible, from the next step
+    /// on; see StepContext::gpuParticles.
     void setGpuParticles(bool onGpu) { gpuParticles_ = onGpu; }
     /// Advances resting instances to the present, for saving and hashing.
     void endRests();
@@ -152,14 +156,14 @@ public:
 
     const Environment& environment() const { return environment_; }
     /// Replaces the geometry of the host from the next step on; null for none. Strong guarantee. Allocates
-    /// when instances at different positions share a simulation.
+    /// memory when instances at different positions share a simulation.
     void setField(std::shared_ptr<const DistanceField> field);
 
-    /// Sets the contact callback of the host from the next step on; without `meet` there are no contacts.
-    /// Strong guarantee; allocates as setField() does.
+    /// Sets the contact callback of the host from the next step on. If its member `meet` is null, there are
+    /// no contacts. Strong guarantee; allocates as setField() does.
     void setContact(const HostContact& contact);
     const HostContact& contact() const { return contact_; }
-    /// Number of invalid results of the contact callback since the last call.
+    /// Returns the number of invalid results of the contact callback since the last call.
     uint64_t takeContactFaults() { return contactFaults_ == 0 ? 0 : contactFaults_.exchange(0); }
 
     // Strong guarantee. The functions may allocate if the instance then differs from the instances that share
@@ -179,18 +183,19 @@ public:
         return seekTo(slot, to, stepTicks, counters, unlimited);
     }
     base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
-    /// The present clock, see InstanceClock, including a change that is still pending.
+    /// The present clock of an instance, including a change that is still pending. See InstanceClock.
     InstanceClock clockOf(Slot slot) const;
     /// Posts a host event to an instance. It takes effect in the next step after its state has reached the
     /// present. Strong guarantee; may allocate.
     void postEvent(Slot slot, const HostEvent& event);
-    /// True at the end of the effect's duration, when all solvers have finished, or when an instance that no
-    /// longer emits has no particles.
+    /// Whether the instance has finished: the effect's duration is over, all solvers have finished, or the
+    /// instance no longer emits and has no particles.
     bool finished(Slot slot, base::Ticks sceneTick) const;
     uint32_t elementCount(Slot slot) const;
-    bool hasElements(Slot slot) const; ///< whether elementCount() is not 0
+    bool hasElements(Slot slot) const; ///< whether elementCount() is above 0
     const EffectDef& effect(Slot slot) const;
-    uint32_t simulations() const { return simulations_.count(); } ///< at most one per instance
+    /// number of simulations, at most one per instance
+    uint32_t simulations() const { return simulations_.count(); }
 
     /// Steps each slot of `active` from scene time `tick` to `tick + stepTicks`, in the order of the list. A
     /// slot whose start is inside the step begins at its start tick; a slot that starts later is not stepped.
@@ -199,9 +204,10 @@ public:
     /// step is open, changes of instances are deferred to its end, see makeChanges(). Only functions that
     /// change or query an instance may be called meanwhile.
     void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
-    /// @param work at least one piece of work is done, even if it exceeds the budget: a sub-step of a solver
-    ///          or of a gas
-    /// @param counters receives the counts when the step is complete. After an exception no step is open.
+    /// Continues the open step. Returns true when the step is complete. After an exception no step is open.
+    /// @param work budget. At least one piece of work is done, even if it exceeds the budget: a sub-step of a
+    ///          solver or of a gas.
+    /// @param counters receives the counts when the step is complete
     bool proceed(base::WorkBudget& work, StepCounters& counters);
     /// Whether a step or its publication is open.
     bool isStepping() const { return hand_.isOpen || publication_.isOpen; }
@@ -224,7 +230,7 @@ public:
     /// publish() in parts, with equal bits: call beginPublication() once, then proceedPublication() until it
     /// returns true. Meanwhile the rules of an open step apply, and no other code may write to `snapshot`.
     void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
-    /// Returns true when the publication is complete. An exception closes the publication.
+    /// Continues the publication. Returns true when it is complete. An exception ends the publication.
     bool proceedPublication(base::WorkBudget& work);
     void dropPublication() { publication_.isOpen = false; } ///< discards the written part of the snapshot
 
@@ -233,15 +239,15 @@ public:
     /// Writes the states behind `slots`; a shared state is written once.
     void save(std::span<const Slot> slots, StateWriter& writer) const;
 
-    /// An instance to restore: the arguments of add().
+    /// An instance to be restored, with the arguments of add().
     struct Entry
     {
         std::shared_ptr<const EffectDef> effect;
         InstanceStart start;
     };
-    /// Fills an empty world with instances, in the order in which save() received them.
-    /// @param outSlots as many elements as `entries`. After a failure, which the reader records, the world
-    ///         may only be destroyed.
+    /// Fills an empty world with instances, in the order in which save() received them. After a failure,
+    /// which the reader records, the world may only be destroyed.
+    /// @param outSlots receives the slots; as many elements as `entries`
     void restore(std::span<const Entry> entries, StateReader& reader, std::span<Slot> outSlots);
     /// Exchanges all instances with a world of the same schema, memory and environment.
     void swap(World& other) noexcept;
@@ -251,7 +257,8 @@ private:
     {
         SimulationIndex simulation = kNoSimulation;
         bool hidden = false;
-        uint32_t wanted = 0; ///< index in wanted_ plus 1 of the deferred `start`; 0: unchanged
+        /// 1 plus the index in wanted_ of the deferred `start`; 0: `start` does not change
+        uint32_t wanted = 0;
         InstanceStart start;
     };
 
@@ -259,7 +266,8 @@ private:
     struct Waiting
     {
         Slot slot;
-        std::optional<HostEvent> event; ///< empty: the start changes to the one in wanted_
+        /// event; empty: the start of the instance changes to the one in wanted_
+        std::optional<HostEvent> event;
     };
 
     /// State of an incomplete step.
@@ -269,12 +277,12 @@ private:
         bool isPlanned = false;
         base::Ticks tick = 0;
         base::Ticks stepTicks = 0;
-        size_t place = 0; ///< index of the current simulation in the list
+        size_t place = 0; ///< index of the present simulation in the list
         std::span<const Slot> active;
         std::span<const Slot> list;           ///< slots of `active` that are in no pool
-        std::vector<Slot> ownActive, ownList; ///< memory of both, reused between calls
+        std::vector<Slot> ownActive, ownList; ///< memory of `active` and `list`, reused between calls
         StepCounters counters;
-        std::optional<EventBoard> board;         ///< board of the open sub-step
+        std::optional<EventBoard> board;         ///< event board of the open sub-step
         std::span<const HostEvent> hostEvents{}; ///< host events of the step
     };
     /// State of an incomplete publication.
@@ -282,9 +290,9 @@ private:
     {
         bool isOpen = false;
         bool hasPools = false;
-        size_t place = 0; ///< index of the current slot in the list
+        size_t place = 0; ///< index of the present slot in the list
         std::span<const Slot> list;
-        std::vector<Slot> own; ///< memory of the list between two calls
+        std::vector<Slot> own; ///< memory of `list` between two calls
         uint32_t solver = 0;   ///< index of the solver in that slot
         PublicationPlace part; ///< progress within that solver
         base::FrameSnapshot* snapshot = nullptr;
@@ -294,8 +302,10 @@ private:
     {
         base::Ticks tick; ///< scene time
         base::Ticks stepTicks;
-        SpawnBatch* spawnBatch = nullptr; ///< set only if it is closed before the simulation is read
-        std::optional<EventBoard>* board = nullptr; ///< null: the simulation has its own, see linkedPartOf()
+        /// set only if its results are complete before the simulation is read
+        SpawnBatch* spawnBatch = nullptr;
+        /// event board of the step; null: the simulation has its own, see linkedPartOf()
+        std::optional<EventBoard>* board = nullptr;
     };
     struct LocalSpan
     {
@@ -303,7 +313,7 @@ private:
         base::Ticks end;
     };
 
-    /// Data that is rebuilt only when the list of slots or the pools have changed.
+    /// Lists that are rebuilt only when the list of slots or the pools have changed.
     struct Plan
     {
         std::vector<Slot> active; ///< the list
@@ -328,7 +338,7 @@ private:
     void keepStep();
     void dropStep();
     void changeAfterStep(Slot slot, const InstanceStart& start);
-    /// The start of an instance, including changes that are deferred to the end of the open step.
+    /// The start of an instance, including changes that will be applied at the end of the open step.
     const InstanceStart& wantedOf(Slot slot) const
     {
         const Instance& instance = instances_[slot];
@@ -392,25 +402,26 @@ private:
     bool share_;
     base::Arena scratch_;
     SpawnBatch spawnBatch_; ///< batch of the open step or publication; empty otherwise
-    EmitterPools pools_;    ///< declared before the simulations, because their solvers are in the pools
+    EmitterPools pools_;    ///< pools; declared before the simulations, because solvers are in the pools
     SimulationPool simulations_;
     std::vector<Instance> instances_;
     std::vector<Slot> free_;
     Plan stepPlan_;
     StepInHand hand_;
     PublicationInHand publication_;
-    StepCounters closed_;                  ///< work of steps that were ended early, not counted yet
-    std::vector<Waiting> waiting_;         ///< deferred changes, in the order of the calls
+    StepCounters closed_;          ///< counts of the work of steps that were ended early, not reported yet
+    std::vector<Waiting> waiting_; ///< deferred changes, in the order of the calls
     std::vector<InstanceStart> wanted_;    ///< starts that apply from the end of the open step on
     std::vector<Slot> leaving_;            ///< removed instances
     std::vector<SimulationIndex> joining_; ///< simulations that may join a pool after the step
     std::vector<SimulationIndex> left_;    ///< simulations that left their pool in a step
     Plan publishPlan_;
-    uint64_t placed_ = 0; ///< value of moves_ for publishPlan_
-    uint64_t moves_ = 1;  ///< incremented when an instance whose simulation is in a pool is moved
-    std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< rosters, some of which snapshots hold
-    std::shared_ptr<base::GroupRoster> roster_;                  ///< roster of the last publication
-    std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()
+    uint64_t placed_ = 0; ///< value of moves_ when publishPlan_ was made
+    uint64_t moves_ = 1;  ///< number of motions of instances whose simulation is in a pool, plus 1
+    /// memory of rosters; snapshots hold some of them
+    std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_;
+    std::shared_ptr<base::GroupRoster> roster_; ///< roster of the last publication
+    std::vector<uint32_t> ends_;                ///< see FrameSnapshot::setRoster()
     uint64_t stepNumber_ = 0;
     uint64_t boards_ = 0; ///< number of EventBoards that have been created
     base::Ticks now_ = 0; ///< end of the last step

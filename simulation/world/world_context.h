@@ -9,7 +9,8 @@
 
 namespace fx::sim {
 
-/// Calls body(context, simulation). All members of the context except the time are set.
+/// Creates the step context of a simulation and calls body(context, simulation). All members of the context
+/// except the time are set.
 template <class F>
 void World::withContext(SimulationIndex index, StepCounters& counters, F&& body)
 {

@@ -14,13 +14,14 @@
 
 namespace fx::test {
 
-/// An allocator that counts, and that can be set to fail. Several threads may call its hooks at once.
+/// An allocator that counts blocks and bytes, and that can be set to fail. Several threads may call its hooks
+/// at once.
 class HostAllocator
 {
 public:
     FxAllocator hooks() { return {this, &allocate, &release}; }
 
-    /// Lets the `n`-th allocation from now (1: the next) and all later ones fail; 0: none fails.
+    /// Makes allocation number `n` from now (1: the next) and all later ones fail; 0: none fails.
     void failFrom(uint64_t n) { remaining_ = n; }
     bool hasFailed() const { return failed_; }
     int64_t blocks() const { return blocks_; } ///< allocated and not released
@@ -32,8 +33,8 @@ private:
 
     bool isLeft();
 
-    std::atomic<uint64_t> remaining_{
-        0}; ///< allocations until the one that fails, itself included; 0: none fails
+    /// Number of allocations until the first one that fails, itself included; 0: none fails.
+    std::atomic<uint64_t> remaining_{0};
     std::atomic<bool> failed_{false};
     std::atomic<int64_t> blocks_{0};
     std::atomic<int64_t> bytes_{0};
@@ -41,14 +42,14 @@ private:
 
 constexpr double kFrame = 1.0 / 60.0; ///< [s]
 
-/// A preset of 60 particles a second, without end. They live 1 s and fall under gravity.
+/// A preset with 60 particles a second, without end. The particles live 1 s and fall under gravity.
 std::string fountainPreset();
 /// A preset of one burst of `count` particles that live `seconds`.
 std::string burstPreset(int count, double seconds);
 
 #if FXSDK_WITH_SPH
 constexpr bool kHasGas = true;
-constexpr const char* kLargeEffect = "library:explosion"; ///< of the library, with everything that it can do
+constexpr const char* kLargeEffect = "library:explosion"; ///< preset of the library that uses most features
 #else
 constexpr bool kHasGas = false;
 constexpr const char* kLargeEffect = "library:burning-debris";
@@ -63,7 +64,7 @@ std::string smallBlastPreset();
 
 FxPresetId loadText(FxContext* context, const std::string& text);
 
-/// A context without GL on one thread, a scene in it, and the fountain.
+/// A context without GL on one thread, with a scene and the preset fountainPreset().
 class ApiTest : public ::testing::Test
 {
 protected:
@@ -78,7 +79,7 @@ protected:
     std::vector<std::byte> savedState() const;
     FxResult restore(const std::vector<std::byte>& state) const;
     void play(int frames) const;
-    uint64_t bytesInUse() const; ///< [byte] of the context
+    uint64_t bytesInUse() const; ///< [byte] memory that the context uses
 
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;

@@ -11,7 +11,8 @@
 
 namespace fx::test {
 
-/// Each function starts a thread, which runs until stop() or the destruction of this object.
+/// Makes calls on threads of its own. Each function starts a thread, which runs until stop() or the
+/// destruction of this object.
 class BackgroundCalls
 {
 public:

@@ -36,17 +36,18 @@ struct TrialResult
 {
     RandomPreset preset;
     int drawn = 0; ///< number of changed pixels
-    /// [pixel] distance of the farthest changed pixel from the bounds
+    /// [pixel] for each kind of omission: distance of the farthest changed pixel from the bounds
     std::array<double, size_t(Without::Count)> by{};
-    double slack = 0;      ///< [pixel] allowed distance
-    bool isCut = false;    ///< the bounds reach behind the near plane
-    double tightness = 0;  ///< [1] linear size of the bounds on the picture over that of what was drawn; 0:
-                           ///< cannot be told
-    double reach = 0;      ///< [m] reach that the instance reports
-    double beyond = 0;     ///< [m] of the ray of the farthest pixel from the ball of that radius, less slack
-    double room = 0;       ///< [1] that radius over the distance of the bounds' farthest corner
-    uint32_t onGpu = 0;    ///< number of rows that the GPU computed
-    uint32_t thinned = 0;  ///< number of rows that the level of detail left out
+    double slack = 0;   ///< [pixel] distance that is allowed
+    bool isCut = false; ///< whether the bounds reach behind the near plane
+    /// [1] linear size of the bounds in the picture over that of the changed pixels; 0: not measured
+    double tightness = 0;
+    double reach = 0; ///< [m] reach that the instance reports
+    /// [m] distance of the ray of the farthest changed pixel from the ball of radius `reach`, less the slack
+    double beyond = 0;
+    double room = 0;       ///< [1] `reach` over the distance of the bounds' farthest corner
+    uint32_t onGpu = 0;    ///< number of particles that the GPU computed
+    uint32_t thinned = 0;  ///< number of particles that the level of detail omitted
     uint32_t pictures = 0; ///< number of effects drawn as impostors
 };
 
@@ -55,11 +56,11 @@ class BoundsTrialTest : public ViewApiTest
 protected:
     BoundsTrialTest();
 
-    /// @param isSharp uses sharpPreset(), moved in the last step and drawn at full detail, large and from the
-    ///          side
+    /// Runs one trial.
+    /// @param isSharp true: a preset of sharpPreset(), moved in the last step and drawn at full detail, large
+    ///          and from the side
     TrialResult tryOne(uint64_t seed, bool isSharp = false);
-    /// [m] of the farthest pixel of the last trial from the reach that another preset would have in its
-    /// place, as TrialResult::beyond.
+    /// [m] Distance as TrialResult::beyond for the last trial, but with the reach of the preset `text`.
     double beyondReachOf(const std::string& text);
 
 private:
@@ -87,8 +88,8 @@ private:
     FxInstanceDef def_{};
     TrialCamera camera_{};
     TrialBall ball_{};
-    double moved_ = 0;               ///< [m] by its last move
-    std::vector<glm::dvec2> pixels_; ///< middles of those that changed
+    double moved_ = 0;               ///< [m] distance by which the last move displaced the instance
+    std::vector<glm::dvec2> pixels_; ///< centers of the changed pixels
     double slack_ = 0;               ///< [pixel]
 };
 

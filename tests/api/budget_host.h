@@ -28,7 +28,7 @@ inline uint64_t simulationHashOf(FxScene* scene)
     return hash;
 }
 
-/// A scene of a context of its own.
+/// A host with a context and a scene of its own.
 class Host
 {
 public:
@@ -63,7 +63,7 @@ public:
         EXPECT_EQ(fxScene_Update(scene_, seconds), FX_OK);
         return statisticsOf(scene_);
     }
-    /// Updates by nothing until the debt is paid.
+    /// Updates by 0 s until the scene has no time debt.
     void payDebt()
     {
         for (int i = 0; i < 100'000 && update(0.0).timeDebtTicks > 0; ++i) {

@@ -41,8 +41,9 @@ public:
             ++counts[label];
         return counts;
     }
-    const std::set<std::string>& programs() const { return programs_; } ///< all that were ever created
-    size_t framebuffers() const { return framebuffers_.size(); }        ///< alive
+    /// names of all programs that were created, deleted ones included
+    const std::set<std::string>& programs() const { return programs_; }
+    size_t framebuffers() const { return framebuffers_.size(); } ///< alive
 
 private:
     static GlLedger*& current()

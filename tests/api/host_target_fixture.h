@@ -24,8 +24,8 @@ struct ColorFormat
         Float,
         Srgb,
     } kind;
-    double step;      ///< Unorm, Srgb: one code; Float: relative distance of neighboring values
-    double alphaStep; ///< step of alpha; 0: there is no alpha
+    double step; ///< distance of neighboring values: absolute for Unorm and Srgb codes, relative for Float
+    double alphaStep; ///< distance of neighboring values of alpha; 0: the format has no alpha
 };
 
 struct Outcome
@@ -42,8 +42,9 @@ class HostTargetTest : public ViewApiTest
 protected:
     HostTargetTest();
 
-    /// @param inPlace true: only media, which are blended into the picture; false: also glare and shimmer,
-    /// which need a copy of the picture that is written back
+    /// Sets the settings of the view.
+    /// @param inPlace true: only media are drawn and blended into the picture; false: also glare and shimmer,
+    ///          for which the picture is copied and written back
     void useSettings(bool inPlace, bool toneMap = false);
     Outcome render(const FxFrameDef& def);
 
@@ -58,13 +59,13 @@ protected:
     /// Compares the stored values with the reference picture. @return a message; empty if they agree
     std::string faultOf(const ColorFormat& format, const std::vector<float>& stored,
                         const std::vector<float>& expected) const;
-    /// Far on the left, a wall through the flames on the right.
+    /// Creates the depth of a far plane on the left, and of a wall through the flames on the right.
     void buildWall(GLuint depth, GLenum attachment);
     /// Depth in [0, 1] at a distance along the axis.
     static float depthAt(double distance);
 
     HostTextures textures_;
-    bool isBlended_ = true; ///< the settings blend media into the picture where it lies
+    bool isBlended_ = true; ///< true: the settings blend media directly into the picture
 };
 
 extern const std::vector<ColorFormat> kColorFormats;

@@ -78,11 +78,12 @@ public:
     GLuint make2D(GLenum format, int size) { return make(GL_TEXTURE_2D, format, size, size); }
     /// A 2-D view of one level of one layer.
     GLuint makeView(GLuint of, GLenum format, GLuint level, GLuint layer);
-    /// By glTexImage2D, without mipmaps, with the default filters; without an image if the size is 0.
+    /// Texture created by glTexImage2D, without mipmaps, with the default filters. If `size` is 0, it has no
+    /// image.
     GLuint makeMutable(GLenum format, int size);
-    /// A framebuffer with one color attachment, the whole texture.
+    /// A framebuffer with the whole texture as its only color attachment.
     GLuint makeFramebuffer(GLuint color);
-    /// The same with a renderbuffer.
+    /// A framebuffer with a renderbuffer as its only color attachment.
     GLuint makeRenderbufferTarget(GLenum format, int size);
     GLuint makeBuffer();
 

@@ -14,12 +14,12 @@
 
 namespace fx::test {
 
-/// Runs loops of any number of simultaneous callers. A caller also takes ranges of its own loop. Ranges have
-/// the minimum allowed length, and no range waits for another range of its loop.
+/// Runs parallel loops for any number of simultaneous callers. A caller also processes ranges of its own
+/// loop. Ranges have the minimum allowed length, and no range waits for another range of its loop.
 class HostThreads
 {
 public:
-    explicit HostThreads(uint32_t helpers); ///< @param helpers threads besides the callers
+    explicit HostThreads(uint32_t helpers); ///< @param helpers number of threads besides the callers
     ~HostThreads();
     HostThreads(const HostThreads&) = delete;
     HostThreads& operator=(const HostThreads&) = delete;
@@ -43,7 +43,7 @@ private:
     void help();
     Loop* openLoop() const;
 
-    std::mutex mutex_; ///< guards the members up to the threads
+    std::mutex mutex_; ///< guards the members from here to threads_
     std::condition_variable changed_;
     std::vector<Loop*> loops_;
     bool isOver_ = false;

@@ -13,12 +13,13 @@
 
 namespace fx::test {
 
-/// An allocator in which one request fails, or that request and all later ones.
+/// An allocator in which one request fails, or one request and all later ones.
 class ScarceMemory
 {
 public:
     FxAllocator hooks() { return {this, &allocate, &release}; }
 
+    /// Sets the request that fails.
     /// @param n      number of the failing request from now, 1 for the next; 0 for none
     /// @param isGone true: all later requests fail as well
     void refuse(uint64_t n, bool isGone)
@@ -57,20 +58,20 @@ private:
     std::atomic<bool> hasRefused_{false};
 };
 
-/// Number of the next failing request of a sweep after `n`. With the environment variable
-/// FXSDK_EVERY_ALLOCATION every request fails in turn. Without it the first 32 do, then steps grow by a
-/// sixteenth of `n`.
+/// Number of the failing request that follows `n` in a sweep. With the environment variable
+/// FXSDK_EVERY_ALLOCATION every request fails in turn. Without it, each of the first 32 fails in turn; after
+/// that the number grows by a sixteenth in each step.
 inline uint64_t nextRefused(uint64_t n)
 {
     static const bool everyOne = std::getenv("FXSDK_EVERY_ALLOCATION") != nullptr;
     return everyOne ? n + 1 : n + 1 + n / 32 * 2;
 }
 
-/// Repeats `action` with a failing request, one request after another, until it succeeds without reaching it.
-/// Each request fails once alone and once with all later ones. A call that fails must return
-/// FX_ERROR_OUT_OF_MEMORY, and then `isAsBefore` must hold; calls may also succeed in spite of the failing
-/// request. There must be no leak: memory kept after a failure is reused by the next try, so repeated
-/// failures at the same request soon add nothing.
+/// Repeats `action` with a failing request, which is a later one in each repetition, until `action` succeeds
+/// without reaching it. Each request fails once alone and once together with all later ones. A call that
+/// fails must return FX_ERROR_OUT_OF_MEMORY, and then `isAsBefore` must hold. A call may also succeed in
+/// spite of the failing request. There must be no leak: memory that is kept after a failure is reused in the
+/// next repetition, so repeated failures at the same request soon add nothing.
 /// @return number of failures
 template <class Action, class IsAsBefore>
 uint64_t refuseEach(ScarceMemory& memory, Action&& action, IsAsBefore&& isAsBefore)

@@ -18,9 +18,10 @@ namespace fx::test {
 class ProjectedHull
 {
 public:
+    /// Projects a convex body and clips it at the near plane.
     /// @param corners    [m] points in eye coordinates, whose convex hull is the body
-    /// @param projection eye to clip
-    /// @param nearPlane  [m]
+    /// @param projection matrix from eye to clip space
+    /// @param nearPlane  [m] distance of the near plane
     ProjectedHull(const std::vector<glm::dvec3>& corners, const glm::dmat4& projection, double nearPlane,
                   glm::dvec2 size)
     {

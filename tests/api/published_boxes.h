@@ -12,24 +12,26 @@
 
 namespace fx::test {
 
-/// The part that is omitted from the bounds.
+/// Kinds of incomplete bounds, by what is omitted.
 enum class Without
 {
-    Nothing,  ///< the bounds as they are published
-    Rows,     ///< nothing; computed again row by row, never larger than the published bounds
-    Tenth,    ///< a tenth of their size
+    Nothing, ///< nothing is omitted: the published bounds
+    /// nothing is omitted, but bounds are computed again row by row; they are never larger than the published
+    /// ones
+    Rows,
+    Tenth,    ///< a tenth of the size of the bounds
     Size,     ///< radii, corners and widths
     Stretch,  ///< the stretching of sprites by their speed
     Shutter,  ///< the stretching of media by the open shutter
     Births,   ///< the path from births since the older snapshot
     Children, ///< emitters whose births other emitters cause
     Trails,
-    OlderPlace, ///< the placement of the instance before its last move
+    OlderPlace, ///< the placement that the instance had before its last move
     Count
 };
 const char* nameOf(Without what);
 
-/// Axis-aligned in the local space of one or two placements.
+/// A box that is aligned with the axes of the local space. It has one or two placements.
 struct PublishedBox
 {
     glm::dvec3 low, high;
@@ -39,10 +41,10 @@ struct PublishedBox
         glm::dquat rotation;
         double scale;
     };
-    Place place, other; ///< of its own step and of the other
+    Place place, other; ///< placement at the step of the box, and at the other step
 };
 
-/// Corners of all boxes in the world; for moving boxes also at times between both steps.
+/// Corners of all boxes in the world. For moving boxes, also the corners at times between both steps.
 std::vector<glm::dvec3> cornersOf(const std::vector<PublishedBox>& boxes);
 
 /// One snapshot of a scene, held during the lifetime of this object.

@@ -27,20 +27,23 @@ private:
 struct RandomPreset
 {
     std::string text;
-    std::string kind; ///< what it is about: "medium", "sprite", "mesh", "trail", "chain", "world", "gpu",
-                      ///< "volume", "gas" or "fragments"
+    /// subject of the preset: "medium", "sprite", "mesh", "trail", "chain", "world", "gpu", "volume", "gas"
+    /// or "fragments"
+    std::string kind;
 };
 
-/// A preset with an emitter or a chain of them, with fragments or with gas. It names the assets below and
-/// "library:debris-chunk.obj".
-/// @param gpu whether emitters may prefer the GPU  @param gas whether there may be gas
+/// A random preset with one emitter, a chain of emitters, fragments or gas. It refers to the assets below and
+/// to "library:debris-chunk.obj".
+/// @param gpu whether emitters may prefer the GPU
+/// @param gas whether the preset may have gas
 RandomPreset randomPreset(uint64_t seed, bool gpu, bool gas);
 
 /// A random preset with one emitter of few small solid particles, which are fast in one direction, so that
 /// their extent is clearly visible.
 RandomPreset sharpPreset(uint64_t seed);
 
-/// The assets "lump.obj", "cloud.fxgrid" and "wind.fxgrid": a mesh and a density for births, and moving air.
+/// Contents of the assets that random presets refer to: "lump.obj", a mesh for births; "cloud.fxgrid", a
+/// density for births; "wind.fxgrid", moving air.
 std::string lumpObj();
 std::string cloudGrid();
 std::string windGrid();

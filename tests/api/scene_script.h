@@ -21,8 +21,8 @@ public:
 
     FxScene* scene() const { return scene_; }
     void play(int frames);
-    uint64_t stateHash() const;      ///< of the visible state
-    uint64_t simulationHash() const; ///< of everything that later steps depend on
+    uint64_t stateHash() const;      ///< hash of the visible state
+    uint64_t simulationHash() const; ///< hash of everything that later steps depend on
 
 private:
     static constexpr size_t kMaxInstances = 10;

@@ -21,14 +21,15 @@ constexpr base::Ticks kStep = base::kTicksPerSecond / 60;
 /// Properties of a toy solver.
 struct ToyKind
 {
-    bool seeks = false;         ///< its state is a pure function of time and intensity
+    bool seeks = false;         ///< true: the state is a pure function of time and intensity
     uint32_t elements = 4;      ///< number of elements that it reports
     base::Ticks restsUntil = 0; ///< local time before which it has no elements
     base::Ticks endsAt = INT64_MAX;
     int* created = nullptr; ///< counter of created solvers
 };
 
-/// A solver whose state is a number: a sum over time if it seeks, otherwise a chain of hashes over steps.
+/// A solver whose state is a single number. If the solver seeks, the number is a sum over time; otherwise it
+/// is a chain of hashes over steps.
 class ToySolver final : public sim::Solver, public sim::SeekableSolver
 {
 public:
@@ -140,7 +141,7 @@ inline activation::Frustum lookAt(double radians, activation::Frustum::Limits li
     return {glm::dvec3(0.0), view, glm::perspective(1.0472f, 1.0f, 0.1f, 1000.0f), limits};
 }
 
-/// A scene without the C API.
+/// A scene that is used without the C API.
 class SightStage
 {
 public:

@@ -13,17 +13,20 @@ namespace fx::test {
 struct TechniqueRow
 {
     std::string name;
-    std::string members;             ///< preset members that use it; empty: a setting of the view enables it
-    std::string standsOn;            ///< another technique that it requires for drawing; empty: none
-    std::vector<std::string> passes; ///< passes of a frame right after a step
+    /// members of a preset that use the technique; empty: a setting of the view enables it
+    std::string members;
+    std::string standsOn;            ///< name of another technique that is required for drawing; empty: none
+    std::vector<std::string> passes; ///< names of the passes of a frame right after a step
     std::set<std::string> programs;
     GlLedger::Counts textures, buffers;
-    /// Those of the above that occur only in this row and in rows that require it.
+    /// Passes and programs that occur only in this row and in rows that require its technique.
     std::set<std::string> ownPasses, ownPrograms;
-    bool meetsMesh = false; ///< its effect collides with the host's geometry, which is then set
+    /// whether the effect collides with the host's geometry, which the test then sets
+    bool meetsMesh = false;
 };
 
-/// An emitter of 60 particles a second about the origin, with more members of its own.
+/// Members of a preset with an emitter of 60 particles a second at the origin. @param more further members of
+/// the emitter
 inline std::string emitterMembers(const std::string& more)
 {
     return R"("emitters": [{"shape": "sphere", "size": 0.4, "emission": {"rate": 60}, "lifetime": 1, "speed": 1,
@@ -99,7 +102,7 @@ inline TechniqueRow meshesRow()
             {"particle meshes"}};
 }
 
-inline TechniqueRow lightsRow() ///< a list for the host: nothing is drawn
+inline TechniqueRow lightsRow() ///< row for lights that are listed for the host, and not drawn
 {
     return {"particle lights",
             emitterMembers(R"("appearance": {"kind": "none"}, "light": {"intensity": 10})"),
@@ -112,7 +115,7 @@ inline TechniqueRow lightsRow() ///< a list for the host: nothing is drawn
             {}};
 }
 
-/// Geometry of the host that effects collide with. Steps sample it; it is not drawn.
+/// Row for the host's geometry with which effects collide. Steps sample the geometry; it is not drawn.
 inline TechniqueRow sceneMeshRow()
 {
     TechniqueRow row{"scene mesh",
@@ -128,7 +131,7 @@ inline TechniqueRow sceneMeshRow()
     return row;
 }
 
-/// Sprites whose rows and order the GPU computes.
+/// Row for sprites whose rows and order the GPU computes.
 inline TechniqueRow gpuParticlesRow()
 {
     return {

@@ -21,7 +21,7 @@ protected:
     static constexpr float kBackground = 0.25f; ///< exposed value of the host's picture
 
     ViewApiTest();
-    ~ViewApiTest() override; ///< fails the test when the driver complained
+    ~ViewApiTest() override; ///< makes the test fail if the driver reported a message
 
     FxFrameDef frame() const;
     void fillPicture();           ///< with kBackground
@@ -30,7 +30,7 @@ protected:
     void update(int frames);
 
     std::unique_ptr<render::GlContext> gl_;
-    std::unique_ptr<render::GlDevice> host_; ///< the host's own function table
+    std::unique_ptr<render::GlDevice> host_; ///< function table of the host's own OpenGL calls
     std::unique_ptr<render::GlMessages> messages_;
     render::GlTexture color_;
     render::GlTexture depth_; ///< holds the far plane

@@ -9,7 +9,7 @@
 namespace fx::test {
 
 /// During its lifetime, TBB loops run on up to `most` threads, as requested. Without it TBB uses at most as
-/// many threads as the machine has processors; 16 workers on two processors would be 2 threads.
+/// many threads as the machine has processors: 16 workers on two processors would be 2 threads.
 class RealThreads
 {
 public:

@@ -16,7 +16,7 @@
 
 namespace fx::fuzz {
 
-/// Targets into which views draw; created once for all inputs. Empty without GL.
+/// Render targets of views, created once for all inputs. Empty without GL.
 struct GlHost
 {
     FxGlLoader loader{};
@@ -51,7 +51,7 @@ public:
     CallsPlayer(const CallsPlayer&) = delete;
     CallsPlayer& operator=(const CallsPlayer&) = delete;
 
-    /// Makes all calls, then destroys the remaining objects and checks that no memory is held.
+    /// Makes all calls, then destroys the remaining objects and checks that no memory is still allocated.
     void play();
 
 private:
@@ -65,7 +65,7 @@ private:
     void forget(const void* memory, size_t size);
     void destroyAll(PlayedContext& played);
 
-    /// A random context; the first one is the most frequent.
+    /// Selects a context; the first one is selected most often.
     PlayedContext& anyContext() { return contexts_[input_.one(4) ? 1 + input_.below(2) : 0]; }
     PlayedScene& sceneOf(PlayedContext& played) { return played.scenes[input_.one(4) ? 1 : 0]; }
     FxView*& viewOf(PlayedContext& played) { return played.views[input_.one(4) ? 1 : 0]; }
@@ -123,7 +123,7 @@ private:
     InputReader recording_; ///< calls to come
     InputReader input_;     ///< arguments of this call
     std::array<PlayedContext, 3> contexts_;
-    int depth_ = 0;          ///< of calls within callbacks
+    int depth_ = 0;          ///< depth of nested calls within callbacks
     uint32_t calls_ = 0;     ///< made so far
     uint32_t intruders_ = 0; ///< number of callbacks that may still make a call
 };

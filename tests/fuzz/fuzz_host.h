@@ -22,12 +22,12 @@ FxResult checked(FxResult result);
 class FuzzHost
 {
 public:
-    /// Called by a callback before its own work; may be empty.
+    /// Called by each callback of the host before its own work; may be empty.
     std::function<void()> intrude;
     /// Called before memory is released.
     std::function<void(const void* memory, size_t size)> releasing;
     bool reversesLoops = false;      ///< whether the parts of a loop run from the last to the first
-    uint32_t failAfter = UINT32_MAX; ///< allocations that succeed before all others fail
+    uint32_t failAfter = UINT32_MAX; ///< number of allocations that succeed before all later ones fail
 
     FuzzHost() = default;
     FuzzHost(const FuzzHost&) = delete;
@@ -35,7 +35,8 @@ public:
 
     /// A definition with all hooks of this host except GL. The host must outlive the context.
     FxContextDef contextDef();
-    size_t blocks() const { return blocks_.size(); } ///< taken and not given back
+    /// number of blocks of memory that have been allocated and not released
+    size_t blocks() const { return blocks_.size(); }
 
 private:
     static void* allocate(void* user, size_t size, size_t alignment);

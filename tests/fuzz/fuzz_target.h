@@ -54,8 +54,10 @@ public:
     }
     uint8_t byte() { return value<uint8_t>(); }
     uint32_t below(uint32_t count) { return byte() % count; } ///< @param count 1..256
-    bool one(uint32_t in) { return below(in) == in - 1; }     ///< true for one of `in` bytes, never for 0
-    /// Splits off the next `count` bytes, so that changing them does not shift the bytes behind them.
+    /// true for one in `in` values of the next byte, never for 0
+    bool one(uint32_t in) { return below(in) == in - 1; }
+    /// Splits off the next `count` bytes as an input of their own. However many of them are read, the bytes
+    /// that follow are not shifted.
     InputReader part(size_t count)
     {
         const InputReader result(left_.first(std::min(count, left_.size())));

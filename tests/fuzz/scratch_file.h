@@ -26,7 +26,7 @@ public:
     ScratchFile(const ScratchFile&) = delete;
     ScratchFile& operator=(const ScratchFile&) = delete;
 
-    /// Opens the same file, as often as it is used.
+    /// Path under which the file can be opened any number of times.
     std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
 private:

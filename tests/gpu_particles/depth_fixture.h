@@ -20,7 +20,8 @@ namespace column = base::particle_column;
 
 inline constexpr int kWidth = 160, kHeight = 120;
 inline constexpr float kAspect = float(kWidth) / float(kHeight);
-inline constexpr double kFastest = 9.0; ///< [m/s] largest landing speed of particles of steppedText()
+/// [m/s] largest speed of particles of steppedText() at their first contact
+inline constexpr double kFastest = 9.0;
 
 /// A camera above the emitter of steppedText(), which sees all of its particles.
 inline const render::CameraPose kAbove{{1.5, 8.0, 9.0}, {0.3, 0.0, 0.6}};
@@ -84,9 +85,10 @@ inline glm::dvec3 placeOf(const Rows& rows, size_t i)
             rows.columns[column::PositionZ][i]};
 }
 
-/// [m] What depth-contact says of the place of a particle `seconds` after the first of contacts that halve
-/// its speed at least: a shift of 3 e, which a bounce doubles at most, and twice the turn of the normal; all
-/// bounces together come to less than four times the first.
+/// [m] Error bound of depth-contact for the position of a particle, `seconds` after the first of its
+/// contacts, each of which at least halves its speed. The error of the first contact is a shift of 3 e, which
+/// a bounce at most doubles, plus the distance flown in a direction that is wrong by twice the angular error
+/// of the normal. All contacts together have less than four times this error.
 inline double boundOf(const render::CameraView& camera, double distance, double seconds)
 {
     const DepthResolution at = resolutionAt(camera, kHeight, distance);
@@ -104,7 +106,8 @@ protected:
         depthCamera_ = camera;
         states_ = makeStates();
     }
-    /// [m] Largest difference of positions. Rows that are alive on one side only are counted.
+    /// [m] Largest difference of positions. outLiving counts the compared particles, outLonely those that are
+    /// alive on one side only.
     double worstOf(const Rows& cpu, const Rows& gpu, size_t& outLiving, size_t& outLonely)
     {
         double worst = 0.0;
@@ -120,13 +123,13 @@ protected:
         }
         return worst;
     }
-    /// [m] Within which equal motion gives equal places: llvmpipe rounds as the CPU does, others in their own
-    /// way.
+    /// [m] Tolerance for positions of equal motion on CPU and GPU: 0 for llvmpipe, which rounds as the CPU
+    /// does, otherwise 1e-4.
     double sameWithin() const
     {
         return device_->limits().renderer.find("llvmpipe") != std::string::npos ? 0.0 : 1e-4;
     }
-    /// Expects equal motion on both sides, for particles without contacts.
+    /// Expects equal motion on CPU and GPU, for particles without contacts.
     void expectSame(const Rows& cpu, const Rows& gpu)
     {
         size_t living = 0, lonely = 0;
@@ -149,7 +152,7 @@ protected:
     }
     static constexpr const char* kFewThatLast =
         R"("lifetime": 4, "maxParticles": 500, "emission": {"rate": 100, "duration": 0.5})";
-    /// No obstacle at all, but steps.
+    /// Members of a preset without obstacles whose motion is nevertheless integrated in steps.
     static constexpr const char* kFree = R"("collisions": [{"shape": "hook"}])";
 };
 

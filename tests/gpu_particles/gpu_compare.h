@@ -11,7 +11,7 @@ namespace fx::test {
 
 namespace column = base::particle_column;
 
-/// Relative to the length of the path, see docs/howto/gpu-particles.md
+/// Bound of the difference of positions, relative to the length of the path; see docs/howto/gpu-particles.md.
 inline constexpr float kBound = 4e-6f;
 
 /// Largest distance of a living particle from the origin.
@@ -24,7 +24,8 @@ inline float farthest(const Rows& rows)
     return most;
 }
 
-/// The CPU does not have the particles of GPU emitters, so their bounds are those of all possible particles.
+/// Expects that the bounds `seen` of particles are inside of `possible`. For GPU emitters, `possible`
+/// contains all possible particles, because the CPU does not have the real ones.
 inline void expectInside(const base::Bounds& seen, const base::Bounds& possible)
 {
     if (seen.empty())
@@ -37,7 +38,7 @@ inline void expectInside(const base::Bounds& seen, const base::Bounds& possible)
     EXPECT_LT(size, 40.0f * glm::length(seen.max - seen.min) + 1.0f) << "bounds of no use";
 }
 
-/// Number of living rows that are not bit-equal.
+/// Number of rows of living particles that are not bit-equal.
 inline size_t countDifferent(const Rows& cpu, const Rows& gpu)
 {
     size_t different = 0;
@@ -51,7 +52,7 @@ inline size_t countDifferent(const Rows& cpu, const Rows& gpu)
     return different;
 }
 
-/// Compares the rows. @return number of living rows
+/// Compares the rows computed by CPU and GPU. @return number of living particles
 inline size_t compare(const Rows& cpu, const Rows& gpu)
 {
     size_t living = 0, wrong = 0;

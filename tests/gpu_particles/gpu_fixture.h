@@ -26,7 +26,8 @@ std::vector<std::string> libraryNames();
 class OneEffect
 {
 public:
-    /// @param onGpu whether emitters may be published for the GPU
+    /// Creates the world.
+    /// @param onGpu true: emitters are published for the GPU where possible
     OneEffect(const base::SnapshotSchema& schema, std::shared_ptr<const sim::EffectDef> effect, bool onGpu,
               uint64_t seed = 7, const base::Placement& place = {});
 
@@ -51,10 +52,11 @@ private:
     std::unique_ptr<base::FrameSnapshot> snapshot_, older_;
 };
 
-/// Rows of one group, column by column; color as four numbers.
+/// Rows of particles of one group, column by column; color as four numbers.
 struct Rows
 {
-    std::vector<std::vector<float>> columns; ///< by base::particle_column, empty where there is none
+    /// columns, indexed by base::particle_column; empty if the group lacks a column
+    std::vector<std::vector<float>> columns;
     std::vector<glm::vec4> color;
     size_t count() const { return columns[0].size(); }
     bool isAlive(size_t row) const { return columns[base::particle_column::Radius][row] > 0.0f; }
@@ -69,7 +71,7 @@ protected:
     void TearDown() override;
 
     std::shared_ptr<const sim::EffectDef> load(const std::string& text);
-    /// Rows that the GPU computes from a group of the kind "gpuParticle".
+    /// Computes the rows of a group of the kind "gpuParticle" on the GPU.
     Rows computed(const base::SnapshotGroup& group) { return computed(group, *states_); }
     Rows computed(const base::SnapshotGroup& group, render::GpuStates& states);
     std::unique_ptr<render::GpuStates> makeStates()
@@ -80,7 +82,7 @@ protected:
     Picture draw(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
     base::Status drawInto(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
 
-    /// The depth of setDepth(), imported into the graph of this frame.
+    /// The depth texture of setDepth(), imported into the graph of this frame.
     render::GpuDepth seenDepth();
 
     base::AssetTable assets_{std::pmr::get_default_resource()};
@@ -89,8 +91,8 @@ protected:
     std::unique_ptr<render::GlBackend> backend_;
     std::unique_ptr<render::GpuEmitters> emitters_;
     std::unique_ptr<render::GpuStates> states_;
-    uint32_t steps_ = 0; ///< that the last computed() has taken
-    /// Of the camera that has seen what setDepth() was given, for computed() and draw(); none: no depth.
+    uint32_t steps_ = 0; ///< number of steps that the last call of computed() took
+    /// Camera of the depth texture passed to setDepth(), for computed() and draw(); empty: no depth.
     std::optional<render::CameraView> depthCamera_;
 };
 

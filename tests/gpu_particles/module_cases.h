@@ -6,7 +6,7 @@
 
 namespace fx::test {
 
-/// Text of a preset with one emitter; `members` add or replace members.
+/// Text of a preset with one emitter. The text `members` adds members to the emitter or replaces them.
 inline std::string
 steppedText(const std::string& members, const char* compute,
             const char* births = R"("lifetime": {"min": 0.4, "max": 1.6}, "maxParticles": 1200,
@@ -19,7 +19,7 @@ steppedText(const std::string& members, const char* compute,
            births + ", " + members + "}]}";
 }
 
-/// Members that require one or more modules.
+/// Members of an emitter that require one or more modules.
 struct ModuleCase
 {
     const char* name;

@@ -17,8 +17,8 @@
 
 namespace fx::test {
 
-/// World points p with dot(normal, p) = offset. The plane is visible from the side to which the normal
-/// points.
+/// A plane of the world points p with dot(normal, p) = offset. It is visible from the side to which the
+/// normal points.
 struct SeenPlane
 {
     glm::dvec3 normal; ///< unit
@@ -27,13 +27,14 @@ struct SeenPlane
     std::function<bool(const glm::dvec3& place)> isThere = {};
 };
 
-/// The ray of a pixel's middle: `from` + s * `way`.
+/// The ray through the center of a pixel: from + s way.
 struct PixelRay
 {
     glm::dvec3 from, way;
 };
 
-/// Computed from the camera's matrices only, independent of the tested code.
+/// Ray of a position in the picture. It is computed from the camera's matrices only, independent of the
+/// tested code.
 inline PixelRay rayOf(const render::CameraView& camera, int width, int height, double x, double y)
 {
     const glm::dmat4 back = glm::inverse(glm::dmat4(camera.projection) * glm::dmat4(camera.view));
@@ -84,8 +85,8 @@ inline std::vector<float> depthOf(const render::CameraView& camera, int width, i
 /// Resolution of a depth texture at a distance along the axis.
 struct DepthResolution
 {
-    double texture; ///< [m] between two neighboring values, and what floats make of them
-    double error;   ///< [m] e of depth-contact: the same of 24 bits
+    double texture; ///< [m] distance of two neighboring depth values, including the rounding of float
+    double error;   ///< [m] the same for 24 bits, e of depth-contact
     double pixel;   ///< [m] f
 };
 

@@ -1,6 +1,6 @@
 /// @file marker_kind.h
-/// Snapshot data of markers, shared by both halves of the technique: the position of each, and their common
-/// appearance.
+/// Kind of snapshot data for markers: the position of each marker, and the appearance that all have in
+/// common. Simulation and rendering share this file.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"

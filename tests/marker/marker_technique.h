@@ -1,6 +1,6 @@
 /// @file marker_technique.h
-/// The drawing half of a technique beside those of the library: squares of one color that face the view. It
-/// joins a view by its line in the list of techniques, and nothing in the library knows of it.
+/// The drawing half of a technique that is not part of the library: squares of one color that face the view.
+/// A view draws it because the test adds it to the list of techniques; the library does not refer to it.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"
@@ -14,7 +14,7 @@ namespace fx::test {
 
 extern const render::DrawTechnique kMarkerTechnique;
 
-/// GLSL of the technique's programs, for GlDevice::setSourceOverride().
+/// GLSL source of the technique's programs, for GlDevice::setSourceOverride(); empty for unknown names.
 std::optional<std::string> markerSource(std::string_view name, std::string_view defines);
 
 } // namespace fx::test

@@ -16,11 +16,11 @@ namespace fx::test {
 
 using Json = nlohmann::json;
 
-/// All values of a solver's definition, as numbers.
+/// All values of the definition of a solver, as numbers.
 using Fields = std::vector<double>;
 using FieldsOf = std::function<Fields(const sim::SolverDef&)>;
 
-/// Fields of the only solver of a preset whose `member` has the one element `element`.
+/// Loads a preset whose array `member` has the one element `element`, and returns the values of its solver.
 inline Fields load(const std::string& member, const Json& element, const FieldsOf& fieldsOf)
 {
     const Json document{{"version", 1}, {member, Json::array({element})}};
@@ -51,7 +51,8 @@ inline Json otherValue(const Json& member)
     return other;
 }
 
-/// Tests each plain member of `object` (a schema). `place` inserts a value for the member into an element.
+/// Tests each plain member of the schema `object`: the reader must read it, and its default must be the
+/// documented one.
 inline void probeMembers(const std::string& presetMember, const Json& object, const Json& element,
                          const std::string& where, const FieldsOf& fieldsOf)
 {

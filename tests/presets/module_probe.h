@@ -12,7 +12,7 @@
 
 namespace fx::test {
 
-/// Adds positions and directions of a few births.
+/// Appends positions and directions of a few births to `fields`.
 inline void addBirths(Fields& fields, const sim::ShapeOp* births)
 {
     if (!births)
@@ -31,7 +31,7 @@ inline void addBirths(Fields& fields, const sim::ShapeOp* births)
         fields.insert(fields.end(), column, column + kCount);
 }
 
-/// Adds sums, positions and flags after each module has processed a cloud of particles.
+/// Appends sums, positions and flags to `fields`, after each module has processed a cloud of particles.
 inline void addModules(Fields& fields, const std::vector<std::shared_ptr<const sim::TileOp>>& modules)
 {
     constexpr uint32_t kRows = 64;

@@ -17,36 +17,42 @@ constexpr double kBudget = 4.0;         ///< [ms]
 constexpr double kFrameTime = 1.0 / 60; ///< [s]
 constexpr int kFrames = 6000;
 
-/// Six equal techniques, each with six levels of 0 to 2.2 ms at normal load.
+/// Creates six equal techniques, each with six levels that take 0 to 2.2 ms at normal load.
 std::vector<ScalabilityLevels> sixTechniques();
-/// Frames in which the load differs from the frame before.
+/// Indices of the frames at which the load differs from that of the frame before.
 std::vector<int> loadChanges();
 
 /// Result of one run.
 struct Outcome
 {
-    int over = 0;          ///< frames above the budget
-    int switches = 0;      ///< frames that changed a choice
-    int worstRecovery = 0; ///< frames from a jump of the load until frames stay within the budget
-    int returns = 0;  ///< a technique went back within a second to where it was, without a jump of the load
-    int flickers = 0; ///< A, B, A, B within a second, jumps or not
+    int over = 0;     ///< frames above the budget
+    int switches = 0; ///< number of frames that changed a choice
+    /// largest number of frames from a jump of the load until frames stay within the budget
+    int worstRecovery = 0;
+    /// number of times that a technique returned within a second to an earlier level, without a jump of the
+    /// load
+    int returns = 0;
+    /// number of times that a technique took the levels A, B, A, B within a second, with or without jumps of
+    /// the load
+    int flickers = 0;
     double meanError = 0; ///< [1] summed over techniques
 };
 
-/// Decides the next choice from what is known of a frame.
+/// Function that makes the next choice from the choice of a frame and the budget.
 using Policy = std::function<Choice(const Choice& shown, double budget)>;
 
 struct Script
 {
-    int delay = 3; ///< [frame] until a result is known
+    int delay = 3; ///< [frame] delay until the time of a frame is known
     uint64_t seed = 1;
     std::function<bool(int frame)> isCatchUp; ///< may be empty
 };
 
 Outcome playController(const Script& script);
-/// Plays the same frames with the initial quality.
+/// Plays the frames of the script with the initial quality throughout.
 Outcome playFixed(const Script& script);
-/// Plays the same frames; all techniques go one level up or down by the time of the frame.
+/// Plays the frames of the script. After each frame, all techniques go one level up or down, depending on the
+/// time of the frame.
 Outcome playNaive(const Script& script);
 
 } // namespace fx::quality::test

@@ -7,7 +7,9 @@
 
 namespace fx::test {
 
-/// @param particles of each solver's capacity  @param detailed media carry coordinates
+/// Creates an effect with all kinds of solvers.
+/// @param particles capacity of each solver
+/// @param detailed true: media have material coordinates
 inline std::shared_ptr<sim::EffectDef> busyEffect(uint32_t particles, bool detailed = false)
 {
     auto effect = std::make_shared<sim::EffectDef>();

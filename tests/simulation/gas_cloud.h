@@ -13,7 +13,7 @@
 
 namespace fx::test {
 
-/// 16 MJ of TNT products, four kilograms, high above any ground.
+/// A charge of 16 MJ of TNT, about four kilograms, high above any ground.
 inline std::unique_ptr<sim::GasDef> fireball(uint32_t particles = 200)
 {
     auto def = std::make_unique<sim::GasDef>();
@@ -24,7 +24,7 @@ inline std::unique_ptr<sim::GasDef> fireball(uint32_t particles = 200)
     return def;
 }
 
-/// A gas with pressure and viscosity only.
+/// A gas without forces other than pressure and viscosity.
 inline std::unique_ptr<sim::GasDef> pureGas(uint32_t particles)
 {
     auto def = fireball(particles);

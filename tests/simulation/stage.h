@@ -26,7 +26,7 @@ public:
         : tasks_(std::move(tasks)), world_(&schema_, tasks_.get(), &memory_), snapshot_(&schema_, &memory_)
     {}
 
-    /// Adds an instance of an effect made of these solvers alone, without ground.
+    /// Adds an instance of an effect that consists of the given solvers, without ground.
     template <class... Defs>
     sim::Slot add(const sim::InstanceStart& start, std::unique_ptr<Defs>... defs)
     {
@@ -41,7 +41,7 @@ public:
         return slots_.back();
     }
 
-    /// Steps every instance by `ticks` and sums the counters.
+    /// Steps all instances by `ticks` and adds the counts to the counters.
     void step(base::Ticks ticks = kStep)
     {
         counters_ += world_.step(slots_, now_, ticks);
@@ -53,7 +53,7 @@ public:
             step();
     }
 
-    /// The visible state at present.
+    /// Publishes the present state.
     const base::FrameSnapshot& look()
     {
         snapshot_.begin(now_, 1);
@@ -95,7 +95,7 @@ inline std::unique_ptr<sim::EmitterDef> burstEmitter(uint32_t count)
     return def;
 }
 
-/// An emitter with a steady rate for ever.
+/// An emitter with a constant rate, without end.
 inline std::unique_ptr<sim::EmitterDef> rateEmitter(float rate, float lifetime = 1000.0f)
 {
     auto def = std::make_unique<sim::EmitterDef>();

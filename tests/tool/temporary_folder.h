@@ -28,7 +28,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    /// Number of files and folders in it, including hidden ones.
+    /// Number of files and folders in the temporary folder, including hidden ones.
     size_t entries() const
     {
         using Iterator = std::filesystem::directory_iterator;

@@ -1,5 +1,6 @@
 /// @file light_clouds.h
-/// Balls of medium in sunlight: light that leaves them to all sides, by OpenGL and by path tracing.
+/// Accuracy of the light that balls of medium in sunlight scatter to all sides: OpenGL compared with path
+/// tracing.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_technique.h"
@@ -8,8 +9,9 @@
 
 namespace fx::cli {
 
-/// Settings are optical diameters and substances. Errors are those of the mean light of pictures from the
-/// sun's side, from the side and from behind, relative to the path tracer; `work` contains the means.
+/// Each setting is a substance with an optical diameter. The errors are those of the mean light of pictures
+/// from the sun's side, from the side and from behind, relative to the path tracer. AccuracySample::work
+/// contains the mean light.
 /// @param isSmall true: a few substances in small pictures
 std::unique_ptr<AccuracyTechnique> makeLightClouds(bool isSmall);
 

@@ -8,8 +8,9 @@
 
 namespace fx::cli {
 
-/// Settings are optical diameters and substances. Errors are the standard errors of the shares of light that
-/// leave through the half facing the sun and through the opposite half; `work` contains the shares.
+/// Each setting is a substance with an optical diameter. The errors are the standard errors of the shares of
+/// light that leave through the half facing the sun and through the opposite half. AccuracySample::work
+/// contains the shares.
 std::unique_ptr<AccuracyTechnique> makeLitBallAccuracy();
 
 } // namespace fx::cli

@@ -23,11 +23,11 @@ struct PathSceneParameters
     double anisotropy;   ///< [1]
     bool isHot;          ///< true: every fifth blob is small, near the center and glowing; there is no sun
     int width, height;   ///< [pixel]
-    uint32_t samples;    ///< per pixel, for the comparison of estimators
+    uint32_t samples;    ///< samples per pixel, for the comparison of estimators
     uint32_t mostSamples, referenceSamples;
 };
 
-/// Parameters of a scene by name. @return nothing for an unknown name
+/// Looks up the parameters of a scene by name. @return nothing for an unknown name
 std::optional<PathSceneParameters> pathSceneParameters(const std::string& name);
 
 /// A scene and the rays of its picture.
@@ -38,7 +38,7 @@ public:
 
     const render::PathScene& scene() const { return scene_; }
     int pixels() const { return parameters_.width * parameters_.height; }
-    /// @param x, y in [0, 1) within the pixel
+    /// The ray through a position within a pixel. @param x, y position in units of the pixel, [0, 1)
     render::TraceRay ray(int pixel, double x, double y) const;
 
 private:

@@ -9,8 +9,8 @@
 
 namespace fx::cli {
 
-/// One setting for each of render::comparedSchemes(), the published scheme first, with the tiers of the
-/// product.
+/// Creates one setting for each of render::comparedSchemes(). The published scheme is first.
+/// AccuracySetting::tier marks the schemes that the library uses.
 std::vector<AccuracySetting> schemeSettings(const nlohmann::json& parameters);
 
 nlohmann::json toJson(const render::RayWork& work);

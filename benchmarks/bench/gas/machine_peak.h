@@ -14,8 +14,8 @@ struct MachinePeak
     double farBytes;    ///< [B/s] reading of 256 MiB by one thread
 };
 
-/// Uses the widest instruction set that is allowed now (foundation/simd/instruction_set.h). Returns the best
-/// of several runs, which take about half a second.
+/// Measures the peak performance with the widest instruction set that is allowed now
+/// (foundation/simd/instruction_set.h). Returns the best of several runs, which take about half a second.
 MachinePeak measureMachinePeak();
 
 } // namespace fx::cli

@@ -15,8 +15,8 @@ struct BenchCityOptions
     uint32_t frames = 240;
     /// [degree] rotation of the camera per frame; above 0: update times during the rotation are measured
     double turn = 0;
-    bool gl = false;    ///< draw each frame as well
-    bool check = false; ///< compare with a city without culling, instead of measuring time
+    bool gl = false;    ///< true: each frame is drawn as well
+    bool check = false; ///< true: results are compared with a city without culling, instead of measuring time
     bool json = false;
 };
 
@@ -31,8 +31,9 @@ struct CityPlace
 /// A square grid around the camera; no effect is within 30 m of the camera.
 std::vector<CityPlace> cityPlaces(uint32_t count);
 
-/// One of twelve fountains with different costs.
-/// @param offscreen their policy @param ballistic false: one in three has turbulence
+/// Text of a preset for one of twelve fountains with different costs.
+/// @param offscreen the preset's member "offscreen"  @param ballistic false: one in three fountains has
+///          turbulence
 std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
 
 /// Compares hashes, memory and pictures of the city with those of a city without culling.

@@ -18,7 +18,7 @@ constexpr double kLodEyeHeight = 40.0; ///< [m]
 /// Limits of pops. At most one in a hundred of the changed blocks changes by more than kLodPopP99. No block
 /// changes by more than kMaxLodPop times the largest change of the flight itself. Blocks are used because
 /// single pixels at the edge of a thick flame change with motion of a hundredth of a pixel.
-constexpr double kLodPopP99 = 0.04; ///< [1] of display values
+constexpr double kLodPopP99 = 0.04; ///< [1] 99th percentile of pops, in display values
 constexpr double kMaxLodPop = 0.6;  ///< [1]
 
 /// A case of the measurement.
@@ -26,7 +26,8 @@ struct LodCase
 {
     float bias;           ///< FxViewSettings::lodBias
     float impostorPixels; ///< FxViewSettings::lodImpostorPixels
-    bool isHard = false;  ///< control: levels of detail are switched off and on every few frames
+    /// true: a control, in which levels of detail are switched off and on every few frames
+    bool isHard = false;
 };
 
 /// Results of a flight.
@@ -50,10 +51,10 @@ struct LodFlightRules
     uint32_t frames; ///< 0: no flight
 };
 
-/// Draws each frame twice from the same camera: with the levels and impostors of the previous frame, and with
-/// its own. The difference is the effect of changing them.
-/// @param ioWithout changes from frame to frame in the flight without levels of detail; if empty, this flight
-/// is that one and fills it
+/// Draws each frame of a flight twice from the same camera: with the levels and impostors of the previous
+/// frame, and with its own. The difference is the visible effect of changing them.
+/// @param ioWithout changes of the picture from frame to frame in the flight without levels of detail. That
+///          flight comes first: it gets an empty list and fills it.
 base::Status fly(BenchScene& scene, const LodFlightRules& rules, const LodCase& what,
                  std::vector<std::vector<float>>& ioWithout, LodFlight& outFlight);
 

@@ -7,7 +7,7 @@
 
 namespace fx::cli {
 
-/// A slope beside the emitter, seen by a camera at a distance of 13 m, 1280 x 720.
+/// Depth texture of a slope beside the emitter, seen by a camera at a distance of 13 m, 1280 x 720 pixels.
 class BenchDepth
 {
 public:
@@ -18,7 +18,7 @@ public:
 
 private:
     render::CameraView camera_;
-    render::GlTexture distance_; ///< in the format of SceneDistancePass
+    render::GlTexture distance_; ///< distances in the format of SceneDistancePass
 };
 
 } // namespace fx::cli

@@ -15,7 +15,7 @@ namespace fx::cli {
 /// typical: births in a cone above a disc, random lifetimes and sizes, wind, rotation, flipbook frames.
 /// heavy: turbulence, ground, appearance over speed.
 /// @param gpu true: the emitter prefers the GPU
-/// @param depth true: and collides with a depth texture
+/// @param depth true: the particles collide with a depth texture
 std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint32_t count, bool gpu = false,
                                                   bool depth = false);
 

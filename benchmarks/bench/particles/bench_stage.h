@@ -30,8 +30,9 @@ public:
     /// Steps and publishes one timed frame. Adds its time to times() and its published data to hash().
     void playTimed();
 
-    const std::vector<double>& times() const { return times_; }         ///< [s] of the timed frames
-    const std::vector<double>& hashTimes() const { return hashTimes_; } ///< [s] of hashing, not in times()
+    const std::vector<double>& times() const { return times_; } ///< [s] times of the timed frames
+    /// [s] times of hashing, excluded from times()
+    const std::vector<double>& hashTimes() const { return hashTimes_; }
     uint64_t hash() const { return hash_; }
     uint64_t particles() const; ///< alive now
     uint64_t allocations() const { return memory_.allocationCount(); }

@@ -20,20 +20,22 @@ struct FramePlan
     bool isCleared = false;
 };
 
-/// One element per timed frame. A snapshot is uploaded to the GPU once, so each step is drawn twice. The
-/// first drawing is that of a host; its additional time over the second is the time of the upload.
+/// Times of the timed frames, one element per frame. A snapshot is uploaded to the GPU once. Therefore each
+/// step is drawn twice: the first drawing includes the upload, as in a host, and the second does not. The
+/// difference is the time of the upload.
 struct FrameTimes
 {
     std::vector<double> update;        ///< [s] update of the scene
-    std::vector<double> upload;        ///< [s] first drawing minus second, at least 0
-    std::vector<double> submit;        ///< [s] second drawing
+    std::vector<double> upload;        ///< [s] time of the first drawing minus that of the second, at least 0
+    std::vector<double> submit;        ///< [s] time of the second drawing
     std::vector<double> finish;        ///< [s] from the end of the first drawing until the GPU has finished
-    std::vector<double> calls;         ///< [s] update and first drawing
-    std::vector<double> whole;         ///< [s] update, first drawing and finish
-    std::vector<double> uploadedBytes; ///< [byte] uploaded by the first drawing
-    FxViewStatistics view{};           ///< of the last frame's first drawing
+    std::vector<double> calls;         ///< [s] sum of the update and the first drawing
+    std::vector<double> whole;         ///< [s] sum of the update, the first drawing and `finish`
+    std::vector<double> uploadedBytes; ///< [byte] data that the first drawing uploaded
+    FxViewStatistics view{};           ///< statistics of the first drawing of the last frame
 };
 
+/// Plays and times the frames of `plan`.
 /// @param outTimes is replaced; on failure it contains the times measured so far
 /// @return the first error of the scene; Interrupted after a signal
 base::Status playFrames(BenchScene& scene, const FramePlan& plan, FrameTimes& outTimes);

@@ -43,7 +43,7 @@ inline double depthOf(const SweepBlobs& blobs)
     return sum;
 }
 
-/// Overlapping blobs with the given total optical depth. @param isFurnace all emit 1
+/// Overlapping blobs with the given total optical depth. @param isFurnace true: all blobs emit 1
 inline SweepBlobs sweepBlobs(uint32_t count, double depth, uint64_t seed, bool isFurnace)
 {
     SweepRandom random(seed);
@@ -119,8 +119,9 @@ double differingNumbers(const render::RayLight<T>& a, const render::RayLight<T>&
     return count;
 }
 
-/// Naive implementation: float coefficients about the ray's origin, added where blobs begin and subtracted
-/// where they end. Red only. @param origin [m] is added to all positions
+/// Naive implementation: sums of float polynomial coefficients about the ray's origin. The coefficients of a
+/// blob are added where the blob begins and subtracted where it ends. Red channel only.
+/// @param origin [m] distance that is added to all positions
 double incrementalLight(const SweepBlobs& blobs, double origin);
 
 } // namespace fx::cli

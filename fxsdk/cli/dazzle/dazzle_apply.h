@@ -11,7 +11,7 @@ namespace fx::cli {
 
 enum class DazzleAlgorithm
 {
-    Exact, ///< integer sums over the full range, as the GPU computes them
+    Exact, ///< integer sums over the full range of values, as on the GPU
     Paper8 ///< 256 levels between 0 and white, see formula dazzle-levels
 };
 

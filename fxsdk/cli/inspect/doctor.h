@@ -13,8 +13,8 @@ struct Check
     std::string name;
     bool ok = true;
     bool required = false; ///< true if fx render cannot work without it
-    std::string detail;    ///< what was found
-    std::string remedy;    ///< what to do when `ok` is false
+    std::string detail;    ///< description of the result
+    std::string remedy;    ///< advice for the user, printed if `ok` is false
 };
 
 /// Lists the EGL devices of the system, by the name of their driver or device file. Needs no context.

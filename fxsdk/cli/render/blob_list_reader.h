@@ -18,10 +18,11 @@ namespace fx::cli {
 
 constexpr uint64_t kBlobListBytes = uint64_t(1) << 30;
 
+/// Parses a list of blobs.
 /// @param name name of the file, for messages
-/// @return Parse, with file, line and column, for another header, too few or too many numbers, a word that
-///         is not a number, or a number outside its range (radius > 0, tau_area >= 0, albedo 0..1, e >= 0,
-///         g -0.99..0.99, all below 1e12)
+/// @return Parse, with file, line and column, for another header, too few or too many numbers, a word that is
+///         not a number, or a number outside its range (radius > 0, tau_area >= 0, albedo 0..1, e >= 0, g
+///         -0.99..0.99, all below 1e12)
 base::Result<std::vector<render::MediumBlob>> readBlobList(std::string_view text, const std::string& name);
 
 /// Reads the list from a file. @return also NotFound, Io, TooLarge

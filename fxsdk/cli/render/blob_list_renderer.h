@@ -23,10 +23,11 @@ public:
 
     /// Replaces the list of blobs, from the next picture on.
     void show(std::span<const render::MediumBlob> blobs);
-    /// The renderer: gives access to settings, pictures and statistics.
+    /// The underlying renderer with its settings, pictures and statistics.
     SnapshotRenderer& pictures();
 
-    /// @param time [s] time of the picture; only the camera depends on it
+    /// Draws a picture of the blobs.
+    /// @param time [s] time of the picture; the blobs do not depend on it
     base::Status render(const render::ReferenceCamera& camera, double time);
 
 private:

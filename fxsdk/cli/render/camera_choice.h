@@ -13,12 +13,15 @@ namespace fx::cli {
 class CameraChoice
 {
 public:
-    /// @param plan holds the camera of --view
+    /// Evaluates the options --view and --camera.
+    /// @param plan contains the camera of --view
     /// @return the error of reading the file of --camera
     static base::Result<CameraChoice> create(const ReferenceArguments& arguments, const ReferencePlan& plan);
 
     bool isNone() const { return !fixed_ && !path_; }
-    /// @param time [s]  @param otherwise camera that is returned if no option sets one
+    /// The chosen camera at a time.
+    /// @param time [s] scene time
+    /// @param otherwise camera that is returned if no option sets one
     render::ReferenceCamera at(double time, const render::ReferenceCamera& otherwise = {}) const;
 
 private:

@@ -18,7 +18,7 @@ public:
     virtual ~FrameOutput() = default;
 
     virtual base::Status write(int64_t number, const FrameLayers& layers) = 0;
-    /// Called after the last frame. A video file appears only after this call.
+    /// Completes the output after the last frame. A video file appears only after this call.
     virtual base::Status finish() { return {}; }
 };
 

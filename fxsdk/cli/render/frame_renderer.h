@@ -25,8 +25,8 @@ struct FrameRendererOptions
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     render::ViewSettings settings;
-    EffectSceneOptions scene;  ///< the renderer sets the member `gl`
-    double frameSeconds = 0.0; ///< [s] time over which the motion output of the first frame is computed
+    EffectSceneOptions scene;  ///< options of the effects; the renderer itself sets the member `gl`
+    double frameSeconds = 0.0; ///< [s] interval over which the output "motion" of the first frame is computed
 };
 
 /// The pictures of one frame. All but `color` require settings.layerOutputs.
@@ -40,7 +40,7 @@ struct FrameLayers
     /// Pictures that settings.outputs requests; a picture that is not requested has no pixels.
     struct Outputs
     {
-        Picture instance;     ///< 1 channel: number of the instance in the scene, from 1; 0: none
+        Picture instance;     ///< 1 channel: number of the instance in the scene file, from 1; 0: no instance
         Picture motion;       ///< 2 channels [pixel]
         Picture firstDepth;   ///< 1 channel [m]
         Picture meanDepth;    ///< 1 channel [m]
@@ -55,12 +55,13 @@ struct FrameCounters
     FxViewStatistics view;
     std::vector<std::string> passes;
     double millisecondsSimulate = 0;
-    double millisecondsRender = 0; ///< time of stage and effects, until the GPU has finished
+    double millisecondsRender = 0; ///< [ms] time of drawing stage and effects, until the GPU has finished
 };
 
 class FrameRenderer
 {
 public:
+    /// Creates a renderer for a scene file.
     /// @param file must outlive the renderer
     static base::Result<std::unique_ptr<FrameRenderer>> create(const scene_file::SceneFile& file,
                                                                const FrameRendererOptions& options);
@@ -88,7 +89,8 @@ private:
     base::Status readShadows(std::span<render::StageLight> ioLights, size_t effects,
                              render::StageLighting& io);
     FxFrameDef frameOf(const render::CameraView& camera, double passed) const;
-    /// @param passed [s] since the previous picture, for the adaptation of glare
+    /// Draws the effects over the stage.
+    /// @param passed [s] time since the previous picture, for the adaptation of glare
     base::Status drawEffects(const render::CameraView& camera, double passed);
     base::Status count();
     Picture readPicture(uint32_t texture, int channels, float whenAbsent = 0.0f);
@@ -102,7 +104,7 @@ private:
     std::unique_ptr<render::StageRenderer> stage_;
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
-    bool staysOnGpu_ = false;   ///< particles are computed on the GPU, unless snapshots are read
+    bool staysOnGpu_ = false;   ///< whether particles are computed on the GPU; then no snapshots are read
     base::Ticks lastTick_ = -1; ///< tick of the previous frame; -1 before the first one
     Picture background_;
     FrameCounters counters_;

@@ -22,6 +22,7 @@ class PictureRenderer
 public:
     virtual ~PictureRenderer() = default;
 
+    /// Prepares the renderer for a scene.
     /// @param exposure [m2/cd] written value per unit of luminance
     virtual base::Status build(const render::ReferenceScene& scene, double exposure,
                                base::TaskRunner& tasks) = 0;
@@ -29,13 +30,16 @@ public:
     virtual uint32_t tileCount() const = 0;
     virtual void restore(uint32_t tile, std::span<const float> values) = 0;
     virtual base::Status render(render::TileJournal* journal, const render::RenderCallbacks& callbacks) = 0;
+    /// Adds the rendered channels to an EXR image.
     /// @param outPixels owns the pixels that the channels of `io` point to
     virtual void addChannels(render::ExrImage& io, std::vector<std::vector<float>>& outPixels) const = 0;
-    /// @param seconds duration of render()
+    /// Adds statistics of the picture to a JSON object.
+    /// @param seconds [s] duration of render()
     virtual void addStatistics(nlohmann::json& io, double seconds) const = 0;
     virtual uint64_t nonFinite() const = 0; ///< number of values or paths whose result was not finite
 };
 
+/// Creates a renderer that integrates along view rays.
 /// @param past data for --outputs motion; null: the channels of --outputs are not written
 std::unique_ptr<PictureRenderer> makeReferencePicture(const ReferenceArguments& arguments,
                                                       const ReferencePlan& plan, int width, int height,

@@ -23,21 +23,21 @@ struct ReferenceArguments
     std::string precision = "double";
     std::string source = "per-blob";
     std::string scattering = "centers";
-    /// detail of fields: on, off, or auto as the composition of the scene draws it
+    /// detail of fields: "on", "off", or "auto": on if the composition of the scene draws it
     std::string detail = "auto";
     std::string view;   ///< "ex,ey,ez,tx,ty,tz,fov": replaces the camera
-    std::string camera; ///< a scene file whose camera is used
-    int skyRings = 3;   ///< rings of the sky: 4 skyRings^2 directions with --scattering single
+    std::string camera; ///< path of a scene file; its camera replaces that of the scene
+    int skyRings = 3; ///< number of rings of sky directions: 4 skyRings^2 directions with --scattering single
     int samples = 1;
     std::optional<uint32_t> paths;   ///< paths per pixel; empty: 64, or as many as `error` requires
-    std::optional<double> error;     ///< [1] standard error wanted for written values
+    std::optional<double> error;     ///< [1] requested standard error of written values
     std::optional<uint32_t> bounces; ///< largest number of scattering events; empty: no limit
     double sunAngle = 0.53;          ///< [degree] diameter of the sun
     uint32_t threads = 0;            ///< number of threads; 0: all hardware threads
     bool resume = false;
 };
 
-/// Settings that the arguments give after checking.
+/// Checked and converted arguments.
 struct ReferencePlan
 {
     render::IntegralSettings integral;

@@ -14,18 +14,19 @@ namespace fx::cli {
 struct ReferenceFrame
 {
     render::ReferenceScene scene;
-    uint32_t nonFinite = 0; ///< number of blobs left out because a value was not finite
+    uint32_t nonFinite = 0; ///< number of blobs that were omitted because a value was not finite
 };
 
 /// Runs the effects of a scene file without GL.
 class ReferenceSceneSource
 {
 public:
+    /// Creates a source of frames of a scene file.
     /// @param file must outlive the source and its frames
     static base::Result<std::unique_ptr<ReferenceSceneSource>> create(const scene_file::SceneFile& file,
                                                                       const EffectSceneOptions& options);
 
-    /// The effects at `tick`, with the camera of the file. `tick` must not decrease from call to call.
+    /// The effects at `tick`, seen by the camera of the file. `tick` must not decrease from call to call.
     base::Result<ReferenceFrame> frameAt(base::Ticks tick);
 
 private:

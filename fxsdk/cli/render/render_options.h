@@ -26,28 +26,30 @@ struct RenderArguments
     std::string input;
     std::string output;
     std::string size = "1280x720";
-    std::string frames; ///< "A:B", empty for the default
+    std::string frames; ///< range "A:B" of frames; empty: the default
     std::string quality = "high";
-    std::string form;        ///< empty: the form that the quality implies
-    std::string composition; ///< empty: as the scene states
-    std::string slabs;       ///< empty: as the scene states
-    std::string voxels;      ///< empty: as the scene states
+    std::string form;        ///< form of billboards; empty: the form that the quality implies
+    std::string composition; ///< composition of media; empty: that of the scene
+    std::string slabs;       ///< number of slabs; empty: that of the scene
+    std::string voxels;      ///< number of voxels; empty: that of the scene
     std::string renderer = "gl";
-    std::string statistics; ///< file, empty for none
-    std::string times;      ///< "A,B,..." [s] instead of frames; empty: none
-    std::string compute;    ///< empty: as each emitter states
-    std::string lights;     ///< scene file whose lights, sky and exposure are used; empty: those of the input
+    std::string statistics; ///< path of the statistics file; empty: none
+    std::string times;      ///< times "A,B,..." [s] to render instead of frames; empty: none
+    std::string compute; ///< processor of particles, "cpu", "gpu" or "auto"; empty: as each emitter specifies
+    /// path of a scene file whose lights, sky and exposure are used; empty: those of the input
+    std::string lights;
     double framesPerSecond = 30.0;
-    std::optional<double> time; ///< [s] empty: the time of the preset's preview, or 0.5 s
+    std::optional<double> time; ///< [s] time to render; empty: the time of the preset's preview, or 0.5 s
     std::optional<uint64_t> seed;
     std::optional<float> exposureEv100;
     std::string layerScale = "1";
     float lodBias = 0.0f;
     float impostorPixels = 0.0f; ///< [pixel]
     uint32_t fragmentBudget = 0; ///< 0: none
-    std::string outputs;         ///< part of "id,motion,depth"; empty: none
-    std::string lightSlices;     ///< "off" or the number of planes of the sun; empty: that of the settings
-    int lightRefresh = 1;        ///< [frame] interval between updates of light
+    std::string outputs;         ///< list of outputs, such as "id,motion,depth"; empty: none
+    /// "off", or the number of planes of the sun's light slices; empty: that of the settings
+    std::string lightSlices;
+    int lightRefresh = 1; ///< [frame] interval between updates of light slices
     bool noDazzle = false;
     bool noShimmer = false;
     bool overdraw = false;
@@ -69,13 +71,14 @@ struct RenderPlan
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     std::vector<Frame> frames;
-    bool hasDefaultTime = false; ///< the only frame shows a time that the command line does not name
-    bool isSheet = false;        ///< the frames are arranged row by row as a contact sheet in one file
+    /// true if the only frame shows a default time, not a time from the command line
+    bool hasDefaultTime = false;
+    bool isSheet = false; ///< true if all frames are arranged row by row in one file (contact sheet)
     double framesPerSecond = 30.0;
-    int stepsPerSecond = 60; ///< step rate of the simulation
+    int stepsPerSecond = 60; ///< [1/s] step rate of the simulation
     uint32_t simulationQuality = FX_QUALITY_DEFAULT;
 
-    int sheetColumns() const; ///< as near to a square as they come
+    int sheetColumns() const; ///< number of columns for which the contact sheet is nearly square
     int sheetRows() const { return (int(frames.size()) + sheetColumns() - 1) / sheetColumns(); }
 };
 

@@ -14,8 +14,9 @@ namespace fx::cli {
 class SnapshotRenderer
 {
 public:
+    /// Creates a renderer.
     /// @param schema schema of the snapshots; must outlive the renderer
-    /// @param width, height [pixel]
+    /// @param width, height [pixel] size of pictures
     static base::Result<std::unique_ptr<SnapshotRenderer>>
     create(const base::SnapshotSchema& schema, const render::ViewSettings& settings, int width, int height);
     ~SnapshotRenderer();
@@ -23,15 +24,16 @@ public:
     /// Settings of the next picture.
     render::ViewSettings& settings();
 
+    /// Draws a moment of the scene.
     /// @param time [s] time of the picture, for passes with a history
     base::Status render(const SceneMoment& moment, const render::ReferenceCamera& camera, double time);
-    /// Copies the pictures from the GPU. All but `color` require settings.layerOutputs. Instances have the
-    /// ids of the snapshots if those are below 2^24.
+    /// Copies the pictures from the GPU. All but `color` require settings.layerOutputs. The picture of
+    /// instances contains the ids of the snapshots if those are below 2^24.
     FrameLayers read();
 
     const render::FrameStatistics& statistics() const;
-    bool fillsPlanes() const;          ///< whether the last frame filled planes of light slices
-    double millisecondsRender() const; ///< time of the last frame, until the GPU has finished
+    bool fillsPlanes() const;          ///< whether light slices of the last frame were filled
+    double millisecondsRender() const; ///< [ms] time of the last frame, until the GPU has finished
     const std::string& rendererName() const;
 
 private:

@@ -18,6 +18,7 @@ std::string gpuObstacleOf(const scene_file::SceneFile& scene);
 class ComputeOverride
 {
 public:
+    /// Creates an override.
     /// @param compute "cpu", "gpu" or "auto"; empty: presets are not changed
     explicit ComputeOverride(std::string compute) : compute_(std::move(compute)) {}
 

@@ -33,7 +33,7 @@ private:
     struct Ball
     {
         glm::dvec3 center; ///< [m]
-        double radius;     ///< [m] radius up to which the sphere is visible
+        double radius;     ///< [m] radius of the visible part of the sphere
         double weight;     ///< > 0
     };
     struct Span

@@ -26,15 +26,16 @@ struct EffectSceneOptions
     FxGlLoader gl{nullptr, nullptr}; ///< none: simulation only
     int stepsPerSecond = 60;
     uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of the simulation
-    std::optional<uint64_t> seed;          ///< instance k gets seed + k; empty: the seed of the file
-    std::string compute = {}; ///< "cpu", "gpu" or "auto" for all emitters; empty: as each emitter states
+    std::optional<uint64_t> seed;          ///< seed of instance k is seed + k; empty: the seeds of the file
+    /// value "cpu", "gpu" or "auto" for all emitters; empty: as each emitter specifies
+    std::string compute = {};
 };
 
-/// The moment that a view shows: a time between two steps.
+/// A moment of the scene as a view shows it: a time between two steps.
 struct SceneMoment
 {
-    base::SnapshotPair snapshots; ///< older is null before the second step
-    double interpolation = 0;     ///< 0: the older snapshot, 1: the newer
+    base::SnapshotPair snapshots; ///< snapshots of both steps; the older one is null before the second step
+    double interpolation = 0;     ///< [1] position between the steps: 0 is the older, 1 the newer
 };
 
 class EffectScene
@@ -82,12 +83,12 @@ private:
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
     InstanceDirector director_;
-    std::vector<uint64_t> instances_; ///< ids, in the order of the file
+    std::vector<uint64_t> instances_; ///< FxInstanceId::bits of the instances, in the order of the file
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
     base::SnapshotSchema schema_;
     std::unique_ptr<base::FrameSnapshot> copy_;  ///< copy of the last step
-    std::unique_ptr<base::FrameSnapshot> older_; ///< copy of the step before
+    std::unique_ptr<base::FrameSnapshot> older_; ///< copy of the step before the last
 };
 
 } // namespace fx::cli

@@ -20,14 +20,15 @@ public:
     /// Adds an instance. Instances without a play are not changed.
     void add(const scene_file::SceneInstance& instance, FxInstanceId id);
 
-    /// Called before each step of the scene. An event takes place in the step whose beginning is nearest to
-    /// its time. If the instance has not started by then, the event takes place in the second step of the
-    /// instance. At the end of the step, the placement of the instance is that of its keys at that time.
+    /// Plays the events of the next step and moves the instances. Called before each step of the scene. An
+    /// event takes place in the step whose beginning is nearest to its time. If the instance has not started
+    /// by then, the event takes place in the second step of the instance. At the end of the step, the
+    /// placement of the instance is that of its keys at that time.
     /// @param from, to begin and end of the step
     base::Status beforeStep(FxScene* scene, base::Ticks from, base::Ticks to);
 
 private:
-    /// One instance, and the number of its events that have been played.
+    /// One instance, and the numbers of its events that have been played so far.
     struct Role
     {
         scene_file::SceneInstance instance;

@@ -9,7 +9,7 @@
 
 namespace fx::cli {
 
-/// Rows from the top, channels interleaved.
+/// A picture. Rows are stored from the top; channels are interleaved.
 struct Picture
 {
     int width = 0;    ///< [pixel]

@@ -26,19 +26,20 @@ public:
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// @return Io naming the file and the system's reason
+    /// Opens the temporary file. @return Io naming the file and the system's reason
     base::Status open();
     base::Status write(std::string_view bytes);
-    /// @param durable waits until the bytes are on the disk. Then, after a crash of the machine, either the
-    ///                old or the new file exists; without it the file may be incomplete
+    /// Renames the temporary file to its final name.
+    /// @param durable true: first waits until the bytes are on the disk, so that after a crash of the machine
+    ///          either the old or the new file exists; false: after a crash the file may be incomplete
     base::Status commit(bool durable = true);
 
 private:
     base::Status failed(const char* what) const;
 
     std::filesystem::path target_;
-    std::filesystem::path temporary_; ///< empty when the target is written directly
-    EndsWithProgram entered_;         ///< registration of the temporary file
+    std::filesystem::path temporary_; ///< path of the temporary file; empty if the target is written directly
+    EndsWithProgram entered_;         ///< registers the temporary file for removal when the program ends
     int descriptor_ = -1;
 };
 

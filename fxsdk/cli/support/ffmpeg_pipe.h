@@ -20,12 +20,13 @@ class FfmpegPipe
 {
 public:
     FfmpegPipe() = default;
-    ~FfmpegPipe(); ///< without finish(): stops ffmpeg and removes its output
+    ~FfmpegPipe(); ///< if finish() was not called, stops ffmpeg and removes its output
     FfmpegPipe(const FfmpegPipe&) = delete;
     FfmpegPipe& operator=(const FfmpegPipe&) = delete;
 
+    /// Starts ffmpeg.
     /// @param width, height [pixel] size of every frame; odd sizes are padded by a pixel, because the codec
-    ///                      requires even ones
+    ///          requires even ones
     /// @param framesPerSecond > 0
     /// @return NotFound when ffmpeg is not installed (the message explains how to install it), Io
     base::Status start(const std::filesystem::path& target, int width, int height, double framesPerSecond);
@@ -43,7 +44,7 @@ private:
     std::filesystem::path temporary_;
     pid_t process_ = -1;
     EndsWithProgram enteredFile_, enteredProcess_;
-    int input_ = -1; ///< file descriptor of the writing end of the pipe
+    int input_ = -1; ///< file descriptor of the pipe's end to which frames are written
 };
 
 } // namespace fx::cli

@@ -11,11 +11,11 @@ namespace fx::cli {
 
 struct Machine
 {
-    std::string cpu;        ///< model name, "unknown" when the system does not provide it
-    int cores = 0;          ///< logical processors that this process may use
-    uint64_t memory = 0;    ///< [byte] of the machine
-    std::string simd;       ///< widest instruction set, such as "AVX2"
-    std::string glRenderer; ///< empty if no GL context was created
+    std::string cpu;        ///< model name of the processor; "unknown" when the system does not provide it
+    int cores = 0;          ///< number of logical processors that this process may use
+    uint64_t memory = 0;    ///< [byte] memory of the machine
+    std::string simd;       ///< name of the widest instruction set, such as "AVX2"
+    std::string glRenderer; ///< name of the GL renderer; empty if no GL context was created
 };
 
 Machine readMachine();

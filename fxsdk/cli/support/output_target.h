@@ -21,9 +21,10 @@ enum class OutputKind
 struct NumberedFile
 {
     std::filesystem::path path;
-    size_t numberAt = std::string::npos; ///< position of "%0Nd" in the file name; npos for a single file
-    size_t numberLength = 0;             ///< [character] length of that placeholder
-    int digits = 0;                      ///< minimum number of digits
+    /// position of the placeholder "%0Nd" in the file name; npos for a single file
+    size_t numberAt = std::string::npos;
+    size_t numberLength = 0; ///< [character] length of the placeholder
+    int digits = 0;          ///< minimum number of digits
 
     bool isSequence() const { return numberAt != std::string::npos; }
     /// The file of one frame; `path` itself for a single file.

@@ -16,6 +16,7 @@ std::string progressText(const std::string& what, uint64_t done, uint64_t total,
 class Progress
 {
 public:
+    /// Creates a progress bar.
     /// @param enabled false: nothing is printed, even on a terminal
     Progress(std::string what, uint64_t total, bool enabled);
     ~Progress(); ///< erases the line

@@ -39,11 +39,12 @@ typedef struct FxFocus
     /// [m] world position that the matrices are relative to, each within +-1e9.
     double origin[3];
 
-    /// World minus origin to eye, column-major; rigid; default identity.
+    /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid; default
+    /// identity.
     float view[16];
 
-    /// Eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1 and 0) or
-    /// orthographic (0 and 1); required.
+    /// Matrix from eye to clip coordinates, column-major, right-handed; perspective (elements 11 and 15 are
+    /// -1 and 0) or orthographic (0 and 1); required.
     float projection[16];
 
     /// [m] largest distance from the eye at which instances are seen; 0 (default): no limit.
@@ -102,7 +103,7 @@ typedef struct FxBudget
     /// Set by fxDefaultBudget(); do not touch.
     uint32_t structSize;
 
-    /// Particles alive at once; 0 (default): no limit.
+    /// Maximum number of simultaneously alive particles; 0 (default): no limit.
     uint32_t particles;
 
     /// [ms] 0..1e6, estimated time of a step; 0 (default): no limit.
@@ -126,16 +127,16 @@ static inline FxBudget fxDefaultBudget(void)
 /// Why an instance is not active.
 typedef enum FxActivityReason
 {
-    FX_REASON_NONE = 0,             ///< it is active
-    FX_REASON_NOT_STARTED = 1,      ///< its start time has not come
-    FX_REASON_OUTSIDE = 2,          ///< outside of every frustum
-    FX_REASON_TOO_FAR = 3,          ///< beyond its own maximum distance or that of the camera
-    FX_REASON_TOO_SMALL = 4,        ///< smaller than FxFocus::minPixels
-    FX_REASON_OCCLUDED = 5,         ///< FxActivationHints::occluded is set
-    FX_REASON_BUDGET = 6,           ///< a budget is exceeded and others are more significant
-    FX_REASON_CATCHING_UP = 7,      ///< its past is being simulated
-    FX_REASON_NOTHING_MOVES = 8,    ///< it has no particles, and no births before a known time
-    FX_REASON_ENDED = 9,            ///< it has finished
+    FX_REASON_NONE = 0,          ///< it is active
+    FX_REASON_NOT_STARTED = 1,   ///< its start time has not come
+    FX_REASON_OUTSIDE = 2,       ///< outside of every frustum
+    FX_REASON_TOO_FAR = 3,       ///< farther away than the maximum distance of the instance or of the camera
+    FX_REASON_TOO_SMALL = 4,     ///< smaller than FxFocus::minPixels
+    FX_REASON_OCCLUDED = 5,      ///< FxActivationHints::occluded is set
+    FX_REASON_BUDGET = 6,        ///< a budget is exceeded and others are more significant
+    FX_REASON_CATCHING_UP = 7,   ///< its past is being simulated
+    FX_REASON_NOTHING_MOVES = 8, ///< it has no particles, and no births before a known time
+    FX_REASON_ENDED = 9,         ///< it has finished
     FX_REASON_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxActivityReason;
 
@@ -156,43 +157,45 @@ typedef struct FxInstanceActivity
     uint32_t state;      ///< FxInstanceState
     uint32_t reason;     ///< FxActivityReason
     uint32_t policy;     ///< FX_CATCH_UP_...
-    uint32_t particles;  ///< number of particles in its solvers
-    float significance;  ///< [pixel] on the picture of the best camera, times priority
+    uint32_t particles;  ///< number of particles of the instance
+    float significance;  ///< [pixel] radius on the picture of the best camera, multiplied by the priority
     float milliseconds;  ///< [ms] estimated time of a step
     float reach;         ///< [m] largest distance of particles from its position; infinite when unknown
     int64_t lagTicks;    ///< [tick] time that is not simulated yet
 } FxInstanceActivity;
 
-/// Counters of the last fxScene_Update(); all but the estimate are exact. Fill structSize with sizeof
-/// before the call.
+/// Counters of the last fxScene_Update(); all but estimatedMilliseconds are exact. Fill structSize with
+/// sizeof before the call.
 typedef struct FxFrameStats
 {
     uint32_t structSize;   ///< set by the caller
-    uint32_t instances;    ///< existing
-    uint32_t dormant;      ///< waiting for their start
-    uint32_t active;       ///< stepped and shown
-    uint32_t finished;     ///< ended and not yet destroyed
-    uint32_t waking;       ///< catching up
-    uint32_t resting;      ///< without particles, and without births before a known time
-    uint32_t hidden;       ///< out of sight, or in sight and beyond the budget
-    uint32_t beyondBudget; ///< in sight, but hidden by the budget
-    uint32_t wentOut;      ///< became hidden
-    uint32_t cameBack;     ///< reached the present again
-    uint32_t judged; ///< bounds of instances, or of groups of hidden ones, that were tested against cameras
-    uint32_t simulations;          ///< existing
-    uint32_t particles;            ///< alive in active instances
-    uint64_t particleSteps;        ///< particles advanced, without those of catching up
-    uint64_t subSteps;             ///< sub-steps of gases
-    uint64_t neighborPairs;        ///< pairs of gas particles that interacted
-    uint64_t born;                 ///< particles born
-    uint64_t dropped;              ///< births refused because a capacity was full
-    uint64_t clamped;              ///< values limited
-    uint64_t catchUpParticleSteps; ///< particles advanced while catching up
+    uint32_t instances;    ///< number of existing instances
+    uint32_t dormant;      ///< number of instances before their start
+    uint32_t active;       ///< number of instances that are stepped and shown
+    uint32_t finished;     ///< number of instances that have ended and are not yet destroyed
+    uint32_t waking;       ///< number of instances that catch up
+    uint32_t resting;      ///< number of instances without particles, and without births before a known time
+    uint32_t hidden;       ///< number of instances that are out of sight, or in sight and beyond the budget
+    uint32_t beyondBudget; ///< number of instances that are in sight, but hidden by the budget
+    uint32_t wentOut;      ///< number of instances that became hidden
+    uint32_t cameBack;     ///< number of instances that have reached the present again
+    /// number of bounds tested against cameras: of instances, or of groups of hidden instances
+    uint32_t judged;
+    uint32_t simulations;          ///< number of existing simulations
+    uint32_t particles;            ///< number of living particles of active instances
+    uint64_t particleSteps;        ///< number of particles advanced, without those of catching up
+    uint64_t subSteps;             ///< number of sub-steps of gases
+    uint64_t neighborPairs;        ///< number of pairs of gas particles that interacted
+    uint64_t born;                 ///< number of particles born
+    uint64_t dropped;              ///< number of births refused because a capacity was full
+    uint64_t clamped;              ///< number of values limited to keep the state finite
+    uint64_t catchUpParticleSteps; ///< number of particles advanced while catching up
     int64_t catchUpTicks;          ///< [tick] time caught up, the sum over instances
-    int64_t debtTicks;             ///< [tick] simulated time that gases left out to limit their work
-    uint64_t allocations;          ///< from the context's allocator
-    double estimatedMilliseconds;  ///< [ms] of a step of all active instances
-    double nanosecondsPerParticle; ///< [ns] of a step, given or measured; used by the estimate
+    int64_t debtTicks;             ///< [tick] simulated time that gases omitted to limit their work
+    uint64_t allocations;          ///< number of allocations from the context's allocator
+    double estimatedMilliseconds;  ///< [ms] estimated time of a step of all active instances
+    /// [ns] time per particle and step, given or measured, on which the estimate is based
+    double nanosecondsPerParticle;
 } FxFrameStats;
 
 /// Sets the cameras of a scene, from the next update on. Cameras only decide which instances are in sight.

@@ -143,11 +143,11 @@ static inline FxContextDef fxDefaultContextDef(void)
 typedef struct FxMemoryStats
 {
     uint32_t structSize;      ///< set by the caller
-    uint32_t presets;         ///< loaded now
-    uint32_t scenes;          ///< existing now
-    uint32_t views;           ///< existing now
+    uint32_t presets;         ///< number of loaded presets
+    uint32_t scenes;          ///< number of existing scenes
+    uint32_t views;           ///< number of existing views
     uint64_t bytesInUse;      ///< [byte] taken from the allocator and not given back
-    uint64_t allocationCount; ///< allocations since the context was created
+    uint64_t allocationCount; ///< number of allocations since the context was created
 } FxMemoryStats;
 
 /// Creates a context. [any; with GL: on the thread where the OpenGL 4.5 context is current, which becomes

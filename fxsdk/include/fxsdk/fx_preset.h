@@ -18,7 +18,7 @@ typedef struct FxPresetInfo
     /// Set by the caller.
     uint32_t structSize;
 
-    /// Emitters and gases.
+    /// Number of emitters and gases.
     uint32_t solverCount;
 
     /// [tick] lifetime of the effect; 0: the effect ends when its last particle has died.
@@ -34,10 +34,10 @@ typedef struct FxPresetInfo
     /// [byte] memory at full capacity, snapshots included.
     uint64_t memoryBytes;
 
-    /// Work units of the most expensive step of 1/60 s, see FxSceneDef::workBudget.
+    /// Number of work units of the most expensive step of 1/60 s, see FxSceneDef::workBudget.
     uint64_t stepWork;
 
-    /// Work units of the prewarm, see FxSceneDef::workBudget.
+    /// Number of work units of the prewarm, see FxSceneDef::workBudget.
     uint64_t startWork;
 } FxPresetInfo;
 

@@ -78,7 +78,7 @@ typedef struct FxSceneDef
     /// [tick] 0..3600 s, longest absence that is replayed; longer ones are skipped and counted; default 30 s.
     int64_t maxCatchUpTicks;
 
-    /// Particle steps of one update that may be spent on replays, >= 1; default 200,000.
+    /// Maximum number of particle steps that one update spends on replays, >= 1; default 200,000.
     uint32_t catchUpSteps;
 
     /// Reserved; 0.
@@ -156,7 +156,8 @@ typedef struct FxInstanceDef
     /// 0.
     int64_t startTick;
 
-    /// The same seed and calls give the same bits on any number of threads; default 0.
+    /// Seed of random numbers. The same seed and calls give the same bits on any number of threads; default
+    /// 0.
     uint64_t seed;
 
     /// See FxInstanceParameters; default 1.
@@ -209,43 +210,43 @@ typedef struct FxSceneStatistics
     /// Set by the caller.
     uint32_t structSize;
 
-    /// All existing instances: dormant, active, finished, waking, resting and hidden.
+    /// Number of existing instances: dormant, active, finished, waking, resting and hidden.
     uint32_t instances;
 
-    /// Instances before their start.
+    /// Number of instances before their start.
     uint32_t instancesDormant;
 
-    /// Instances that are stepped and shown.
+    /// Number of instances that are stepped and shown.
     uint32_t instancesActive;
 
-    /// Instances that have ended and are not yet destroyed.
+    /// Number of instances that have ended and are not yet destroyed.
     uint32_t instancesFinished;
 
-    /// Particles alive after the last step.
+    /// Number of particles alive after the last step.
     uint32_t particles;
 
-    /// Steps taken since the scene was created.
+    /// Number of steps since the scene was created.
     uint64_t steps;
 
-    /// Particles born since the scene was created.
+    /// Number of particles born since the scene was created.
     uint64_t born;
 
-    /// Births refused because a preset's capacity was full.
+    /// Number of births refused because a preset's capacity was full.
     uint64_t dropped;
 
-    /// Particles advanced, once per sub-step.
+    /// Number of particles advanced, summed over sub-steps.
     uint64_t particleSteps;
 
-    /// Pairs of gas particles that interacted.
+    /// Number of pairs of gas particles that interacted.
     uint64_t neighborPairs;
 
-    /// Values limited to keep the state finite.
+    /// Number of values limited to keep the state finite.
     uint64_t clamped;
 
-    /// Instances that ended at their start because memory was exhausted.
+    /// Number of instances that ended at their start because memory was exhausted.
     uint64_t wakeFailures;
 
-    /// Calls of fxScene_Update refused because dt was negative or not finite.
+    /// Number of calls of fxScene_Update refused because dtSeconds was negative or not finite.
     uint64_t refusedUpdates;
 
     /// [tick] scene time.
@@ -257,41 +258,41 @@ typedef struct FxSceneStatistics
     /// [tick] time dropped since the scene was created because it exceeded maxFrameTicks.
     int64_t droppedTicks;
 
-    /// Allocations from the context's allocator during the last fxScene_Update.
+    /// Number of allocations from the context's allocator during the last fxScene_Update.
     uint64_t updateAllocations;
 
     /// [tick] time that gases skipped because a step would have taken too many sub-steps; the sum over all
     /// gases.
     int64_t debtTicks;
 
-    /// Sub-steps of gases.
+    /// Number of sub-steps of gases.
     uint64_t subSteps;
 
-    /// Existing simulations; fewer than instances when instances share them.
+    /// Number of existing simulations; smaller than that of instances when instances share simulations.
     uint32_t simulations;
 
     /// Reserved; 0.
     uint32_t reserved;
 
-    /// Instances that are in sight again and catch up.
+    /// Number of instances that are in sight again and catch up.
     uint32_t instancesWaking;
 
-    /// Instances without particles, and without births before a known time.
+    /// Number of instances without particles, and without births before a known time.
     uint32_t instancesResting;
 
-    /// Instances that are out of sight.
+    /// Number of instances that are out of sight.
     uint32_t instancesHidden;
 
     /// Reserved; 0.
     uint32_t reserved2;
 
-    /// Absences that were too long to be replayed; their time was skipped.
+    /// Number of absences that were too long to be replayed; their time was skipped.
     uint64_t catchUpsSkipped;
 
     /// [tick] steps that are due and did not fit into the work budget; the next updates take them.
     int64_t timeDebtTicks;
 
-    /// Work units spent by the last update, see FxSceneDef::workBudget.
+    /// Number of work units spent by the last update, see FxSceneDef::workBudget.
     uint64_t updateWork;
 } FxSceneStatistics;
 

@@ -29,10 +29,10 @@ typedef struct FxSnapshotInfo
     /// Set by the caller.
     uint32_t structSize;
 
-    /// Groups of the newer step.
+    /// Number of groups of the newer step.
     uint32_t groupsNewer;
 
-    /// Groups of the older step; 0 before the second step.
+    /// Number of groups of the older step; 0 before the second step.
     uint32_t groupsOlder;
 
     /// Reserved; 0.
@@ -51,18 +51,18 @@ typedef struct FxSnapshotInfo
 /// One group. Fill structSize with sizeof before the call.
 typedef struct FxSnapshotGroup
 {
-    uint32_t structSize;    ///< set by the caller
-    uint32_t count;         ///< elements
-    const char* kind;       ///< such as "blob"; constant string
-    FxInstanceId instance;  ///< instance of the particles; may have been destroyed since
-    uint32_t solver;        ///< position of the solver in its preset
-    float scale;            ///< [1] of the placement, > 0
-    double position[3];     ///< [m] world, of the placement
-    float rotation[4];      ///< unit quaternion x, y, z, w, of the placement
-    float boundsMin[3];     ///< [m] local; every element with its radius lies inside; min > max when empty
-    float boundsMax[3];     ///< [m] local
-    const uint64_t* ids;    ///< count ids, ascending; null when the kind has none (see docs/conventions.md)
-    const float* constants; ///< constantCount values shared by all elements, see docs/conventions.md
+    uint32_t structSize;   ///< set by the caller
+    uint32_t count;        ///< number of elements
+    const char* kind;      ///< such as "blob"; constant string
+    FxInstanceId instance; ///< instance of the particles; may have been destroyed since
+    uint32_t solver;       ///< index of the solver in its preset
+    float scale;           ///< [1] scale of the placement, > 0
+    double position[3];    ///< [m] world position of the placement
+    float rotation[4];     ///< rotation of the placement, unit quaternion x, y, z, w
+    float boundsMin[3]; ///< [m] local bounds that contain every element with its radius; min > max when empty
+    float boundsMax[3]; ///< [m] local
+    const uint64_t* ids;    ///< `count` ids, ascending; null when the kind has none (see docs/conventions.md)
+    const float* constants; ///< `constantCount` values shared by all elements, see docs/conventions.md
     uint32_t constantCount; ///< number of constants of the kind
     uint32_t columnCount;   ///< number of columns of the kind
 } FxSnapshotGroup;
@@ -73,7 +73,7 @@ typedef struct FxSnapshotColumn
     /// Set by the caller.
     uint32_t structSize;
 
-    /// Elements.
+    /// Number of elements.
     uint32_t count;
 
     /// Name, such as "radius"; constant string.

@@ -205,9 +205,10 @@ typedef struct FxViewSettings
     /// 1..4, number of samples of the sun's light along a view ray through one particle; default 2.
     uint32_t lightSamples;
 
-    /// 1 (default): multiple scattering, by a closed form; 2: by an illumination network where
-    /// FX_COMPOSITION_VOLUME draws media, elsewhere as 1; 0: single scattering; 3: as the presets of the
-    /// scene's instances ask for by their member "scattering", 2 before 1 before 0, and 1 if none does.
+    /// Scattering in media. 0: single scattering; 1 (default): multiple scattering by a closed form; 2:
+    /// multiple scattering by an illumination network in media that FX_COMPOSITION_VOLUME draws, by the
+    /// closed form elsewhere; 3: the value that the presets of the scene's instances request by their member
+    /// "scattering": the greatest of these values, or 1 if no preset requests one.
     uint32_t multipleScattering;
 
     /// FX_COMPOSITION_...; default FX_COMPOSITION_SORTED.
@@ -282,12 +283,13 @@ typedef struct FxFrameDef
     /// near the camera, single precision suffices far from the origin of the world.
     double origin[3];
 
-    /// World minus origin to eye, column-major; rigid (columns orthonormal within 1e-3); default identity.
+    /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid (columns
+    /// orthonormal within 1e-3); default identity.
     float view[16];
 
-    /// Eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1 and 0) or orthographic
-    /// (0 and 1), infinite far plane, off-center, jitter and mirroring allowed; near maps as in
-    /// depthConvention; required: the default, identity, is refused.
+    /// Matrix from eye to clip coordinates, column-major, right-handed; perspective (elements 11 and 15 are
+    /// -1 and 0) or orthographic (0 and 1). An infinite far plane, off-center projections, jitter and
+    /// mirroring are allowed; near maps as in depthConvention. Required: the default, identity, is refused.
     float projection[16];
 
     /// FX_DEPTH_...; default FX_DEPTH_STANDARD.
@@ -312,13 +314,13 @@ typedef struct FxFrameDef
     /// preset has an obstacle of the shape "depth".
     uint32_t depthTexture;
 
-    /// GL name, with FX_TARGET_FRAMEBUFFER; default 0.
+    /// GL name of the framebuffer, with FX_TARGET_FRAMEBUFFER; default 0.
     uint32_t framebuffer;
 
-    /// [pixel] of the frame, 1..16384 and within the target.
+    /// [pixel] width of the frame, 1..16384 and within the target.
     int32_t width;
 
-    /// [pixel] of the frame, 1..16384 and within the target.
+    /// [pixel] height of the frame, 1..16384 and within the target.
     int32_t height;
 
     /// 1: the frame is not typical, because the host loads, seeks or catches up: quality does not change, and
@@ -335,8 +337,9 @@ typedef struct FxFrameDef
     /// FX_DEPTH_... of sunShadowTexture; default FX_DEPTH_STANDARD.
     uint32_t sunShadowConvention;
 
-    /// World minus origin to texture coordinates and stored depth, each 0..1, of sunShadowTexture,
-    /// column-major, affine; the matrix includes the bias against self-shadowing; default identity.
+    /// Matrix from world coordinates minus `origin` to texture coordinates and stored depth of
+    /// sunShadowTexture, each 0..1, column-major, affine. It includes the bias against self-shadowing.
+    /// Default identity.
     float sunShadowMatrix[16];
 
     /// [m] 0..100, radius of the soft edge of the sun's shadow on media; default 0.1.
@@ -365,7 +368,8 @@ typedef struct FxLayerTextures
     /// Set by the caller.
     uint32_t structSize;
 
-    /// RGBA32F [cd/m2 times exposure] that reaches the eye from fire; A: its visible share.
+    /// RGBA32F. RGB: light of fire that reaches the eye [cd/m2 times exposure], premultiplied; A: its share
+    /// of the opacity.
     uint32_t fire;
 
     /// RGBA32F, the same for smoke.

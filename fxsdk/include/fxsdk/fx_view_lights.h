@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/// Number of lights that fxView_SetLights() takes at most.
+/// Maximum number of lights of fxView_SetLights().
 #define FX_MOST_LIGHTS 8
 
 /// Values of the argument `kind` of fxView_GetMediaShadow(), and of FxLightCost::kind.
@@ -76,16 +76,16 @@ typedef struct FxMediaShadow
     /// media cast no shadow in this light, and all members below are 0, with which the GLSL reads no texture.
     uint32_t texture;
 
-    /// Rows that give the texel along x. See the GLSL.
+    /// Rows of the matrix that gives the texel along x; the GLSL explains its use.
     float right[3][4];
 
-    /// Rows that give the texel along y.
+    /// Rows of the matrix that gives the texel along y.
     float up[3][4];
 
-    /// Rows that give the plane.
+    /// Rows of the matrix that gives the plane.
     float along[3][4];
 
-    /// [texel] where the planes lie in the texture.
+    /// [texel] positions of the planes in the texture.
     float tiles[3][4];
 
     /// Position of a light that is not the sun.

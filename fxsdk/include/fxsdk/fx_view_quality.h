@@ -30,23 +30,23 @@ typedef struct FxQualityReport
     uint32_t hasMeasured;       ///< 1: a frame has finished and measuredMilliseconds is its time; 0: none yet
     float measuredMilliseconds; ///< [ms] time of the last frame whose measurement is available
     float predictedMilliseconds; ///< [ms] expected time of the last frame
-    float estimatedError;        ///< [1] mean error of the picture's light against the highest setting
-    uint32_t saturated;          ///< 1: even the lowest settings are expected to exceed the budget
-    uint32_t held;               ///< 1: FxFrameDef::holdQuality was set for the last frame
-    uint32_t techniques;         ///< number of techniques for fxView_GetQualityChoice()
-    uint64_t switches;           ///< frames that changed a setting, since the calibration was set
+    float estimatedError; ///< [1] mean error of the picture's light, compared with the highest settings
+    uint32_t saturated;   ///< 1: even the lowest settings are expected to exceed the budget
+    uint32_t held;        ///< 1: FxFrameDef::holdQuality was set for the last frame
+    uint32_t techniques;  ///< number of techniques for fxView_GetQualityChoice()
+    uint64_t switches;    ///< number of frames that changed a setting, since the calibration was set
 } FxQualityReport;
 
 /// Quality of one technique in the last frame. Fill structSize with sizeof before the call.
 typedef struct FxQualityChoice
 {
-    uint32_t structSize;         ///< set by the caller
-    uint32_t step;               ///< 0..steps - 1, cheapest first
-    uint32_t steps;              ///< number of scalability levels of the technique
-    float cost;                  ///< [1] of the step, in units of the highest one's
-    float error;                 ///< [1] of the step, against the highest one's picture
-    float weight;                ///< [1] 0..1, about the share of the picture that the technique covers
-    float predictedMilliseconds; ///< [ms] of the step in this scene
+    uint32_t structSize; ///< set by the caller
+    uint32_t step;       ///< level in use, 0..steps - 1, cheapest first
+    uint32_t steps;      ///< number of scalability levels of the technique
+    float cost;          ///< [1] cost of the step relative to that of the highest step
+    float error;         ///< [1] error of the step's picture relative to the picture of the highest step
+    float weight;        ///< [1] 0..1, about the share of the picture that the technique covers
+    float predictedMilliseconds; ///< [ms] expected time of the step in this scene
     uint32_t reserved;           ///< 0
     char technique[32];          ///< "media", "shimmer", "dazzle", or "other" for passes without settings
     char setting[96];            ///< for display, such as "particles 0.5, kernel, detail on"

@@ -17,46 +17,47 @@ typedef struct FxViewStatistics
     /// Set by the caller.
     uint32_t structSize;
 
-    /// Particles of media drawn.
+    /// Number of drawn particles of media.
     uint32_t blobs;
 
-    /// Particles of media outside the view.
+    /// Number of particles of media outside the view.
     uint32_t blobsCulled;
 
-    /// Particles of media dropped because a value was not finite.
+    /// Number of particles of media dropped because a value was not finite.
     uint32_t blobsNonFinite;
 
-    /// Passes executed.
+    /// Number of executed passes.
     uint32_t passes;
 
-    /// Draws and dispatches.
+    /// Number of draws and dispatches.
     uint32_t drawCalls;
 
-    /// Programs compiled during the frame; 0 after fxContext_WarmUp().
+    /// Number of programs compiled during the frame; 0 after fxContext_WarmUp().
     uint32_t programsCompiled;
 
     /// Reserved; 0.
     uint32_t reserved;
 
-    /// Calls into GL during the frame.
+    /// Number of calls into GL during the frame.
     uint64_t glCalls;
 
     /// [byte] of GPU memory that the view holds.
     uint64_t textureBytes;
 
-    /// Pixels, at layerScale, with at least one particle; with countOverdraw.
+    /// Number of pixels, at layerScale, with at least one particle; with countOverdraw.
     uint64_t coveredPixels;
 
-    /// Fragments of all particles, at layerScale; with countOverdraw.
+    /// Number of fragments of all particles, at layerScale; with countOverdraw.
     uint64_t shadedFragments;
 
     /// [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue; with countOverdraw.
     double overflow[3];
 
-    /// Allocations from the context's allocator during the frame.
+    /// Number of allocations from the context's allocator during the frame.
     uint64_t allocations;
 
-    /// Estimated fragments of the particles' bounding rectangles, at layerScale; limited by fragmentBudget.
+    /// Estimated number of fragments of the particles' bounding rectangles, at layerScale; limited by
+    /// fragmentBudget.
     uint64_t estimatedFragments;
 
     /// [1] layerScale in use: that of the settings, or less to keep fragmentBudget.
@@ -69,7 +70,7 @@ typedef struct FxViewStatistics
     /// [byte] of particles, written to the GPU for the frame.
     uint64_t uploadedBytes;
 
-    /// Particles sorted by distance or age for the frame.
+    /// Number of particles sorted by distance or age for the frame.
     uint64_t sortedParticles;
 
     /// [byte] of the textures and buffers of the frame's passes without sharing of memory.
@@ -78,56 +79,58 @@ typedef struct FxViewStatistics
     /// [byte] of the same textures and buffers when resources of disjoint lifetimes share memory.
     uint64_t sharedBytes;
 
-    /// Particles of media that lodBias left out.
+    /// Number of particles of media that lodBias left out.
     uint32_t blobsThinned;
 
-    /// Groups of particles of media by the share that lodBias keeps: all; at least half; at least an eighth;
-    /// less.
+    /// Number of groups of particles of media for each share that lodBias keeps: all; at least half; at least
+    /// an eighth; less.
     uint32_t lodGroups[4];
 
-    /// Effects drawn as impostors.
+    /// Number of effects drawn as impostors.
     uint32_t impostors;
 
-    /// Impostors re-rendered for the frame.
+    /// Number of impostors re-rendered for the frame.
     uint32_t impostorsTaken;
 
-    /// Particles computed on the GPU for the frame, as the capacity of their emitters.
+    /// Number of particles computed on the GPU for the frame. Each emitter counts with its capacity.
     uint32_t gpuParticles;
 
-    /// Sprites, meshes and pieces of ribbons that lodBias left out.
+    /// Number of sprites, meshes and pieces of ribbons that lodBias left out.
     uint64_t particlesThinned;
 
-    /// [byte] of unchanged sprites, meshes and ribbons that were not uploaded again, while others of the step
-    /// were.
+    /// [byte] of sprites, meshes and ribbons that were not uploaded again because they had not changed,
+    /// counted when other particles of the step were uploaded.
     uint64_t keptRowBytes;
 
-    /// [byte] of the same that were not uploaded because another instance of the same simulation has uploaded
-    /// them.
+    /// [byte] of sprites, meshes and ribbons that were not uploaded because another instance of the same
+    /// simulation has uploaded them.
     uint64_t sharedRowBytes;
 
-    /// Sprites drawn, without those that lodBias left out. Emitters on the GPU count with their capacity, as
-    /// their number of living particles is not read back.
+    /// Number of drawn sprites, without those that lodBias left out. Each emitter on the GPU counts with its
+    /// capacity, because its number of living particles is not read back.
     uint64_t sprites;
 
-    /// Meshes, counted as sprites.
+    /// Number of drawn meshes, counted as sprites.
     uint64_t meshes;
 
-    /// Pieces of ribbons between two points, counted as sprites.
+    /// Number of drawn pieces of ribbons between two points, counted as sprites.
     uint64_t ribbonPieces;
 
-    /// Particles of media in the lists of all tiles of 16 x 16 pixels at layerScale, counted in each; of
-    /// FX_COMPOSITION_SLABS with countOverdraw.
+    /// Length of all particle lists of FX_COMPOSITION_SLABS: one list for each tile of 16 x 16 pixels at
+    /// layerScale. A particle of media counts once for each tile that it covers. Only with countOverdraw.
     uint64_t listedBlobs;
 
-    /// Blobs that are missing from these lists because the lists were full. The listed blobs are weighted so
-    /// that the mean density of the picture stays the same; its detail is lower.
+    /// Number of particles of media that are missing from the lists of listedBlobs because the lists were
+    /// full. The listed particles are weighted so that the mean density of the picture stays the same; its
+    /// detail is lower.
     uint64_t spilledBlobs;
 
-    /// Fragments of sprites, meshes, ribbons and impostors that were left out because the lists were full.
+    /// Number of fragments of sprites, meshes, ribbons and impostors that were omitted because the lists were
+    /// full.
     uint64_t spilledFragments;
 
-    /// FX_COMPOSITION_... with which the frame was drawn. FX_COMPOSITION_AUTOMATIC and the frame budget may
-    /// choose another composition than the setting.
+    /// The composition with which the frame was drawn (FX_COMPOSITION_...). FX_COMPOSITION_AUTOMATIC and the
+    /// frame budget may choose another composition than the setting.
     uint32_t composition;
 
     /// Number of slabs along a ray, or of voxels along 16 particle radii, with which the frame was drawn; 0

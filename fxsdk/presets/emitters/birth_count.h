@@ -23,7 +23,7 @@ class BirthCount
 public:
     explicit BirthCount(const std::vector<const sim::EmitterDef*>& emitters);
 
-    /// Particles alive at once, with unlimited capacity.
+    /// Expected number of simultaneously alive particles of emitter number `index`, with unlimited capacity.
     double alive(size_t index) { return wanted(lifeOf(index), index); }
 
 private:
@@ -38,14 +38,14 @@ private:
     /// Births of emitter number `index` within a time span of lifetime number `life`, with unlimited
     /// capacity.
     double wanted(size_t life, size_t index);
-    /// As wanted(), limited by the capacity.
+    /// As wanted(), but limited by the capacity of the emitter.
     double within(size_t life, size_t index);
     double causedBy(size_t cause, const sim::EventRule& rule, size_t life);
 
     const std::vector<const sim::EmitterDef*>& emitters_;
-    std::vector<std::vector<Cause>> causes_; ///< causes of births, by emitter
+    std::vector<std::vector<Cause>> causes_; ///< causes of births for each emitter
     std::vector<double> lives_; ///< [s] longest lifetimes of all emitters, ascending, without duplicates
-    std::vector<std::optional<double>> known_; ///< cached results of within(), by emitter and lifetime
+    std::vector<std::optional<double>> known_; ///< cached results of within() for each emitter and lifetime
 };
 
 } // namespace fx::preset

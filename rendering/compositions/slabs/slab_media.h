@@ -7,18 +7,18 @@
 
 namespace fx::render {
 
-/// Takes streams from a gathered frame, and adds passes that list their elements per tile. The memory is kept
-/// from frame to frame.
+/// Removes streams from a gathered frame, and adds passes that list their elements per tile. The memory is
+/// kept from frame to frame.
 class SlabMedia
 {
 public:
     explicit SlabMedia(const TechniqueSetup& setup);
 
-    /// Takes all streams out of `io`.
+    /// Removes all streams from `io` and stores them.
     void gather(const GatherInputs& in, GatheredFrame& io);
-    /// Stores references to all streams, which also stay in `from`.
+    /// Stores references to all streams; the streams also stay in `from`.
     void see(const GatherInputs& in, const GatheredFrame& from);
-    /// Replaces the balls of the taken streams by those of `balls`; null: no balls. `balls` must stay valid,
+    /// Replaces the balls of the stored streams by those of `balls`; null: no balls. `balls` must stay valid,
     /// and its buffers must exist when list() is called.
     void replaceBalls(const MediaSource* balls) { ballSource_ = balls; }
     bool isEmpty() const { return !ballSource_ && cards_.empty(); }
@@ -30,7 +30,7 @@ public:
     struct Lists
     {
         SlabTilePass::Outputs tiles;
-        ResourceId balls; ///< texture of SlabBallPass; invalid: no balls
+        ResourceId balls; ///< texture written by SlabBallPass; invalid: no balls
         SlabDetail detail;
         SlabDetailPass::Outputs fieldDetail;
         CardLists cards;
@@ -45,7 +45,7 @@ public:
     {
         uint32_t maxOfTile;         ///< see SlabTilePass::Inputs
         ResourceId fieldTiles = {}; ///< see SlabTilePass::Inputs
-        bool marks = false;         ///< cards also get the data that outputs need
+        bool marks = false;         ///< true: cards also get the data that outputs need
         BallDetails details = {};
     };
     /// Adds the passes that list balls and cards. A frame calls it once or twice.
@@ -61,11 +61,11 @@ private:
     const MediaSource* ballSource_ = nullptr; ///< source of all balls; null without balls
     std::pmr::vector<DrawBatch> cards_;       ///< batches of other sources
     std::pmr::vector<TileRect> rects_;
-    uint64_t cardFragments_ = 0; ///< estimated number in the whole picture
+    uint64_t cardFragments_ = 0; ///< estimated number of fragments of cards in the whole picture
     int width_ = 0;              ///< [pixel] width of the picture
-    bool counts_ = false;        ///< listed and spilled entries are counted
-    ResourceId tiles_, heads_;   ///< counters of the last frame, for reading back; may be invalid
-    uint64_t capacity_ = 0;      ///< fragments of cards that the last frame had room for
+    bool counts_ = false;        ///< true: listed and spilled entries are counted
+    ResourceId tiles_, heads_;   ///< counters of the last frame, for reading back to the CPU; may be invalid
+    uint64_t capacity_ = 0;      ///< number of fragments of cards for which the last frame had memory
 };
 
 } // namespace fx::render

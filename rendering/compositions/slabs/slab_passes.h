@@ -8,28 +8,32 @@
 
 namespace fx::render {
 
-/// Which detail is drawn.
+/// The detail that is drawn.
 enum class SlabDetail : uint8_t
 {
     None,
     OfBalls,  ///< noise of single balls
-    OfFields, ///< noise of single balls, and the detail of fields
+    OfFields, ///< both the noise of single balls and the detail of fields
 };
 
 constexpr size_t kSlabPrograms = 2 * 3 * 2;
+/// The program that sums media in slabs.
 /// @param slabs 6 or 16
 const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers);
 const ProgramDesc& slabProgramAt(size_t index);
 
 inline constexpr ProgramDesc kSlabCardsProgram{"slab cards", nullptr, nullptr, "slabs/slab_cards.comp.glsl",
                                                nullptr};
-/// @param detail with the detail of fields
+/// The program of SlabBallPass.
+/// @param detail true: with the detail of fields
 const ProgramDesc& slabBallsProgram(bool detail);
 inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
                                                nullptr};
 
-constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame; 4 bytes each
-constexpr uint64_t kMaxCards = uint64_t(1) << 21;       ///< fragments of cards of a frame; 32 bytes each
+/// Largest number of entries in all lists of a frame; 4 bytes each.
+constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23;
+/// Largest number of fragments of cards in a frame; 32 bytes each.
+constexpr uint64_t kMaxCards = uint64_t(1) << 21;
 
 /// Collects the fragments of cards in one linked list per texel. The result does not depend on the drawing
 /// order.
@@ -42,19 +46,19 @@ class SlabCardPass
 public:
     struct Inputs
     {
-        /// of sources without balls; must stay valid, like their sources
+        /// batches of sources without balls; batches and sources must stay valid
         std::span<const DrawBatch> batches;
         const MediaPass::Inputs* media; ///< inputs of the composition
-        uint64_t capacity;              ///< room for fragments; further fragments are dropped and counted
-        bool marks = false;             ///< also collect the data that outputs need
+        uint64_t capacity;  ///< largest number of fragments; further fragments are dropped and counted
+        bool marks = false; ///< true: also collect the data that outputs need
     };
     [[nodiscard]] static CardLists addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// Detail of the fields that balls belong to. Both lists must stay valid until the graph has executed.
+/// Detail of the fields to which balls belong. Both lists must stay valid until the graph has executed.
 struct BallDetails
 {
-    std::span<const BlobMaterial> materials{}; ///< one per ball; empty: no field has detail
+    std::span<const BlobMaterial> materials{}; ///< one material per ball; empty: no field has detail
     std::span<const FieldDetailBlock> details{};
     ResourceId lumpTile{}; ///< texture of LumpTileTexture
 };
@@ -68,7 +72,7 @@ class SlabDetailPass
 public:
     struct Outputs
     {
-        ResourceId texels, materials, lumpTile; ///< invalid: no field has detail
+        ResourceId texels, materials, lumpTile; ///< invalid if no field has detail
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const BallDetails& in);
 };
@@ -85,8 +89,8 @@ public:
                                           const SlabDetailPass::Outputs& detail, const ViewBlock& view);
 };
 
-/// Loop iterations that a program may execute in one invocation. Mesa's software renderers end all loops
-/// after 65,535 iterations.
+/// Largest number of loop iterations that a program executes in one invocation. Mesa's software renderers end
+/// all loops after 65,535 iterations.
 constexpr uint32_t kMaxLoopTurns = 60000;
 
 /// Lists the balls of each tile of 16 x 16 texels, in the order of balls, and the tiles that are not empty.
@@ -102,11 +106,12 @@ class SlabTilePass
 public:
     struct Inputs
     {
-        std::span<const TileRect> rects; ///< must stay valid until the graph has executed
-        uint64_t entries;                ///< total number of tiles in all `rects`
-        int width, height;               ///< [texel]
-        uint32_t maxOfTile;              ///< largest number of balls in the list of a tile, >= 2
-        float flip;                      ///< sign of window y relative to clip y, 1 or -1
+        /// Tiles that each ball may cover; must stay valid until the graph has executed.
+        std::span<const TileRect> rects;
+        uint64_t entries;   ///< total number of tiles in all `rects`
+        int width, height;  ///< [texel]
+        uint32_t maxOfTile; ///< largest number of balls in the list of a tile, >= 2
+        float flip;         ///< sign of the window's y axis relative to the y axis of clip space, 1 or -1
         CardLists cards;
         ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock; tiles with fields count as not empty
     };
@@ -143,7 +148,7 @@ public:
         SlabDetailPass::Outputs fieldDetail;
         SlabTilePass::Outputs tiles;
         CardLists cards;
-        int slabs; ///< 6 or 16
+        int slabs; ///< number of slabs: 6 or 16
     };
     /// Largest SlabTilePass::Inputs::maxOfTile for which no loop exceeds kMaxLoopTurns.
     static constexpr uint32_t maxOfTile(int slabs) { return kMaxLoopTurns / (slabs > 6 ? 28 : 14); }

@@ -1,5 +1,5 @@
 /// @file slab_tiles.h
-/// Which tiles of the layers each ball may cover.
+/// Finds the tiles of the layers that each ball may cover.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -14,19 +14,20 @@ namespace fx::render {
 
 constexpr int kSlabTile = 16; ///< [texel] side of a tile; shaders/slabs has the same constant
 
-/// First and last tile of a ball, both included; layout of shaders/slabs/slab_tiles.comp.glsl. left > right:
-/// the ball is outside of the picture.
+/// First and last tile of a ball, both included; layout of shaders/slabs/slab_tiles.comp.glsl. If left >
+/// right, the ball is outside of the picture.
 struct TileRect
 {
     uint16_t left, right; ///< columns
     uint16_t low, high;   ///< rows, numbered upwards
-    /// Constant for a ball; a tile with too many balls lists those with the lowest ranks.
+    /// Rank of the ball, which does not change from frame to frame. A tile with too many balls lists those
+    /// with the lowest ranks.
     uint32_t rank;
 };
 static_assert(sizeof(TileRect) == 12);
 
 /// Fills `outRects` with one rectangle per ball. The eye may be inside of balls.
-/// @param view of the layers; contains their size [texel] and the least radius of a ball
+/// @param view view block of the layers, with their size [texel] and the least radius of a ball
 /// @return total number of tiles in all rectangles
 uint64_t findTiles(std::span<const BlobInstance> balls, const ViewBlock& view,
                    std::pmr::vector<TileRect>& outRects);

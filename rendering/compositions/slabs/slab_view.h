@@ -33,10 +33,11 @@ private:
     GlDevice& device_;
     SlabMedia media_;
     std::pmr::vector<FieldDetailBlock> details_; ///< detail of the fields of this frame
-    std::span<const BlobMaterial> materials_;    ///< materials of balls in this frame; empty without details_
-    LumpTileTexture lumpTile_;                   ///< created when detail is drawn
-    ResourceId lumps_;                           ///< lumpTile_ in the graph of this frame
-    uint32_t unused_ = 0;                        ///< number of successive frames without detail
+    /// Materials of the balls in this frame; empty if details_ is empty.
+    std::span<const BlobMaterial> materials_;
+    LumpTileTexture lumpTile_; ///< created when detail is drawn for the first time
+    ResourceId lumps_;         ///< resource id of lumpTile_ in the graph of this frame
+    uint32_t unused_ = 0;      ///< number of successive frames without detail
     int slabs_ = 16;
 };
 

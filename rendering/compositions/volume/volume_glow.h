@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// Nothing is created before a field emits. Threads: [GL thread].
+/// Creates its GPU resources when a field emits light for the first time. Threads: [GL thread].
 class VolumeGlow
 {
 public:
@@ -23,18 +23,19 @@ public:
     base::Status makeRoom(std::span<const FieldGlowBlock> grids);
     /// Imports the resources of a frame. Without grids the resource ids are invalid.
     void importAll(FrameGraph& graph, std::span<const FieldGlowBlock> grids);
-    /// Uploads the grids and adds the passes. @param in inputs except grids and textures of the glow, which
-    /// this sets
+    /// Uploads the grids and adds the passes. @param in inputs of the passes; this function sets the grids
+    /// and textures of the glow
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::span<const FieldGlowBlock> grids);
 
-    ResourceId light() const { return textures_.light; } ///< light of this frame; invalid if no field emits
-    ResourceId grids() const { return grids_; }          ///< buffer of FieldGlowBlock
+    /// Light of this frame; invalid if no field emits light.
+    ResourceId light() const { return textures_.light; }
+    ResourceId grids() const { return grids_; } ///< buffer of FieldGlowBlock
     void release();
     uint64_t bytes() const;
 
 private:
     GlDevice& device_;
-    std::array<GlTexture, 5> volumes_; ///< in the order of GlowTextures
+    std::array<GlTexture, 5> volumes_; ///< textures in the order of the members of GlowTextures
     GlBuffer buffer_;
     GlowTextures textures_; ///< resource ids in this frame
     ResourceId grids_;      ///< grids of this frame

@@ -16,35 +16,36 @@
 namespace fx::render {
 
 /// The light of the last frame is the start of the next one. Each frame runs kSweeps iterations ("sweeps")
-/// while media or lights change, and until kSettledSweeps have run after the last change. Nothing is created
-/// before the settings of a view request networks. Threads: [GL thread].
+/// while media or lights change, and until kSettledSweeps have run after the last change. GPU resources are
+/// created when the settings of a view first request networks. Threads: [GL thread].
 class VolumeNetwork
 {
 public:
     explicit VolumeNetwork(GlDevice& device) : device_(device) {}
 
     /// Sets the grids of a frame whose media differ from the last frame.
-    /// @param cells along a side of a grid, a multiple of 8
+    /// @param cells number of cells along a side of a grid, a multiple of 8
     /// @param eye [m] world position to which the grids are relative
     /// @return OutOfMemory
     base::Status makeRoom(std::span<const FieldGlowBlock> grids, int cells, const glm::dvec3& eye);
     void importAll(FrameGraph& graph);
     /// Uploads the grids and adds the passes.
-    /// @param in inputs except grids and textures, which this sets
-    /// @param isKept media and lights are those of the last frame
+    /// @param in inputs of the passes; this function sets the grids and textures
+    /// @param isKept true: media and lights are those of the last frame
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const LightBindings& lights, bool isKept);
 
     bool isEmpty() const { return grids_.empty(); }
-    bool isSettled() const { return settled_ >= kSettledSweeps; } ///< no sweeps are left to do
+    bool isSettled() const { return settled_ >= kSettledSweeps; } ///< true if no more sweeps are needed
     int cells() const { return cells_; }
-    ResourceId moments() const { return textures_.moments; } ///< moments of this frame; invalid without grids
-    ResourceId buffer() const { return gridsId_; }           ///< buffer of FieldGlowBlock
+    /// Moments of the light in this frame; invalid without grids.
+    ResourceId moments() const { return textures_.moments; }
+    ResourceId buffer() const { return gridsId_; } ///< buffer of FieldGlowBlock
     void release();
     uint64_t bytes() const;
 
 private:
-    static constexpr int kSweeps = 2; ///< per frame
-    /// After the last change, and for grids that begin without light.
+    static constexpr int kSweeps = 2; ///< number of sweeps per frame
+    /// Number of sweeps after the last change, and for grids that begin without light.
     static constexpr int kSettledSweeps = 16;
 
     /// A grid of the last frame.
@@ -58,10 +59,10 @@ private:
 
     GlDevice& device_;
     int cells_ = 0;
-    int settled_ = 0; ///< sweeps since the last change
+    int settled_ = 0; ///< number of sweeps since the last change
     std::vector<FieldGlowBlock> grids_;
-    std::vector<Known> known_, now_;   ///< grids of the last frame; of this frame
-    std::array<GlTexture, 7> volumes_; ///< in the order of NetworkTextures
+    std::vector<Known> known_, now_;   ///< grids of the last frame, and of this frame
+    std::array<GlTexture, 7> volumes_; ///< textures in the order of the members of NetworkTextures
     GlBuffer buffer_;
     NetworkTextures textures_; ///< resource ids in this frame
     ResourceId gridsId_;       ///< grids in this frame

@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    /// Lists of FieldPlan on the GPU.
+    /// Lists of FieldPlan that are uploaded to the GPU.
     enum List : size_t
     {
         Fields,
@@ -54,10 +54,10 @@ private:
         Balls,
         Texels,
         Tiles,
-        Materials,  ///< empty if no field has detail, as is Blobs
-        Blobs,      ///< balls of the frame, for lights; PassFrame gets its balls later
+        Materials,  ///< empty if no field has detail; the same holds for Blobs
+        Blobs,      ///< balls of the frame, used for lights because PassFrame::blobs is set later
         Stacks,     ///< SliceStackBlocks of the lights
-        NearBricks, ///< empty if no ball is near the eye, as is NearParts
+        NearBricks, ///< empty if no ball is near the eye; the same holds for NearParts
         NearParts,
         Lists
     };
@@ -88,29 +88,29 @@ private:
     FieldMarchPass::Inputs march_{}; ///< inputs of the march in this frame
     std::pmr::vector<FieldDetailBlock> details_;
     std::span<const std::byte> stacks_; ///< SliceStackBlocks of the frame
-    /// Number of the filling of light slices to which detail has been added.
+    /// LightBindings::filled of the light slices to which detail was last added.
     uint64_t corrected_ = 0;
-    std::span<const BlobMaterial> materials_; ///< of the frame
+    std::span<const BlobMaterial> materials_; ///< materials of the balls in this frame
     VolumeGlow glow_;
-    VolumeNetwork network_;               ///< used instead of the glow if the settings request it
-    int networkCells_ = 0;                ///< cells along a side of a grid in this frame; 0: no networks
-    std::span<const BlobInstance> blobs_; ///< balls of this frame, if any has detail
-    bool layers_ = false;                 ///< the frame has layer outputs
-    glm::dvec3 eye_{0.0};                 ///< [m] world, of the frame
+    VolumeNetwork network_; ///< used instead of glow_ if the settings request it
+    int networkCells_ = 0; ///< number of cells along a side of a network's grid in this frame; 0: no networks
+    std::span<const BlobInstance> blobs_; ///< balls of this frame; empty if none has detail
+    bool layers_ = false;                 ///< true: the frame has layer outputs
+    glm::dvec3 eye_{0.0};                 ///< [m] world position of the eye of the frame
     /// Graph whose passes have filled the textures with fields that are not lit yet.
     const FrameGraph* filledFor_ = nullptr;
-    GlTexture texelTexture_, table_; ///< texels of FieldTexels; table of bricks
-    LumpTileTexture lumpTile_;       ///< created when detail is drawn
-    SlabMedia loose_;                ///< cards, and balls of `looseSource_`
-    BlobSource looseSource_;         ///< balls that are too small for voxels, or near the eye
+    GlTexture texelTexture_, table_; ///< texels of FieldTexels, and the table of bricks
+    LumpTileTexture lumpTile_;       ///< created when detail is drawn for the first time
+    SlabMedia loose_;                ///< cards, and the balls of `looseSource_`
+    BlobSource looseSource_;         ///< balls that are too small for voxels, and balls near the eye
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
     int slabs_ = 16; ///< least number of slabs for balls and cards outside of fields
-    /// Imported as persistent resources, so that their content is preserved for the next frame.
+    /// Imported as persistent resources, so that the next frame can reuse their content.
     std::array<GlBuffer, Lists> buffers_;
-    std::array<ResourceId, Lists> ids_;                        ///< of the frame
-    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< also persistent
-    bool isKept_ = false; ///< lists and textures are those of the last frame
+    std::array<ResourceId, Lists> ids_;                        ///< resource ids in this frame
+    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< textures of fields; also persistent
+    bool isKept_ = false; ///< true: lists and textures are those of the last frame
     uint32_t unused_ = 0; ///< number of successive frames without balls
 };
 

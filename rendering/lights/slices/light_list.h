@@ -25,11 +25,12 @@ struct SliceStackBlock
 };
 static_assert(sizeof(SliceStackBlock) == 5 * 16);
 
-constexpr uint64_t kSliceTexelBytes = 8; ///< depth and its slope towards the next plane, 32 bits each
-constexpr int kSliceTileColumns = 8;     ///< tiles (planes of a stack) in a row of the atlas
-/// first entry with finer planes of the sun near the eye
+/// Size of a texel: optical depth and its slope towards the next plane, 32 bits each.
+constexpr uint64_t kSliceTexelBytes = 8;
+constexpr int kSliceTileColumns = 8; ///< number of tiles in a row of the atlas; a tile is a plane of a stack
+/// index of the first entry that describes finer planes of the sun near the eye
 constexpr size_t kFinerPlanes = kMaxLightEntries - 2;
-/// axes of an icosahedron; both directions of each are sampled, with equal weights
+/// number of axes of an icosahedron; both directions of each axis are sampled, with equal weights
 constexpr size_t kSkyAxes = 6;
 static_assert(1 + kMaxEffectLights + kMaxHostLights + kSkyAxes <= kFinerPlanes);
 
@@ -39,23 +40,23 @@ constexpr float kSkyAxisElevation = 0.4472135955f; // 1 / sqrt(5)
 enum class LightKind : uint8_t
 {
     Sun,
-    Host,   ///< ViewSettings::hostLights
-    Effect, ///< light of an effect in the snapshot
-    Sky,    ///< sky and ground, sampled along axes
+    Host,   ///< a light of ViewSettings::hostLights
+    Effect, ///< a light of an effect in the snapshot
+    Sky,    ///< light of sky and ground, sampled along axes
 };
 
-/// Where a light of the list comes from.
+/// The source of a light in the list.
 struct LightOrigin
 {
     LightKind kind = LightKind::Sun;
-    uint32_t index = 0; ///< in ViewSettings::hostLights, or in the lights of effects, brightest first
+    uint32_t index = 0; ///< index in ViewSettings::hostLights, or in the lights of effects, brightest first
 };
 
 /// Cost of the planes of a light.
 struct LightCost
 {
     LightOrigin origin;
-    uint32_t stacks = 0; ///< 0: no planes, so media cast no shadows in this light
+    uint32_t stacks = 0; ///< number of stacks; 0: no planes, so that media cast no shadows in this light
     uint32_t planes = 0; ///< number of planes of all stacks
     uint64_t texels = 0; ///< number of texels of all planes
     uint64_t rays = 0;   ///< number of rays along which media are integrated to fill the planes
@@ -66,14 +67,14 @@ struct LightListInputs
 {
     const ViewSettings* settings;
     glm::dvec3 eye;                       ///< [m] world
-    std::span<const EffectLight> effects; ///< brightest first
+    std::span<const EffectLight> effects; ///< lights of the effects, brightest first
     std::span<const MediumCaster> casters;
-    bool resetsHistory = false; ///< planes do not cross-fade from those of the last frame
+    bool resetsHistory = false; ///< true: planes do not cross-fade from those of the last frame
 };
 
-/// Lights of a frame in the order in which they get planes: the sun, then the others by their illuminance at
-/// the casters, then the axes of the sky. If texel side or spacing of planes differ from the last frame, the
-/// new planes fade in. Threads: one at a time. Equal sequences of inputs give equal bits.
+/// The lights of a frame, in the order in which they get planes: the sun, then the others by their
+/// illuminance at the casters, then the axes of the sky. If texel side or spacing of planes differ from the
+/// last frame, the new planes fade in. Threads: one at a time. Equal sequences of inputs give equal bits.
 class LightList
 {
 public:
@@ -81,11 +82,11 @@ public:
 
     /// Builds the list of the next frame, and advances cross-fades of planes.
     void build(const LightListInputs& in);
-    /// Reverts the last build() and builds the list of the same frame from other inputs.
+    /// Discards the result of the last build(), and builds the list of the same frame from other inputs.
     void rebuild(const LightListInputs& in);
-    /// Sets the shadow map with which opaque surfaces shadow media.
+    /// Sets the shadow map by which opaque surfaces cast shadows on media.
     /// @param shift [m] eye minus the origin of the map's coordinates
-    /// @return whether block() has changed
+    /// @return true if block() has changed
     bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
 
     const LightListBlock& block() const { return block_; }
@@ -94,17 +95,18 @@ public:
     {
         return std::span(block_.lights).first(size_t(block_.counts.x + block_.counts.y));
     }
-    /// Origins of the first block().counts.x entries.
+    /// Sources of the first block().counts.x entries.
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
-    /// Number of lights for costOf(): the first block().counts.x lights, then one for the sky if it has
-    /// planes.
+    /// Number of lights that costOf() accepts: the first block().counts.x lights, then one for the sky if the
+    /// sky has planes.
     size_t costCount() const;
     LightCost costOf(size_t light) const;
-    /// Number that changes when the positions of planes in the world change.
+    /// A number that changes when the positions of the planes in the world change.
     uint64_t placesRevision() const { return placesRevision_; }
-    int atlasWidth() const { return atlasWidth_; }   ///< [texel] size; 0: no medium casts a shadow
+    /// [texel] Width of the atlas; 0: no medium casts a shadow.
+    int atlasWidth() const { return atlasWidth_; }
     int atlasHeight() const { return atlasHeight_; } ///< [texel]
     int mostTexels() const { return mostTexels_; }   ///< [texel] side of the largest plane
 
@@ -125,10 +127,10 @@ private:
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
     SliceFades fades_;
-    SliceFades fadesBefore_; ///< fades of the previous frame
+    SliceFades fadesBefore_; ///< cross-fades of the previous frame
     float sunTexel_ = 0.0f;  ///< [m] side of the sun's texels, interpolated during a cross-fade; 0: no planes
     std::pmr::vector<SliceStack> stacks_;
-    std::pmr::vector<size_t> stackLights_; ///< the light of each stack
+    std::pmr::vector<size_t> stackLights_; ///< by stack: index of its light
     std::pmr::vector<SliceStackBlock> stackBlocks_;
     uint64_t placesRevision_ = 0;
     int atlasWidth_ = 0, atlasHeight_ = 0;

@@ -1,6 +1,6 @@
 /// @file media_shadow.h
-/// The shadow of media on surfaces that the host draws: the uniforms with which
-/// shaders/shared/media_shadow.glsl samples light slices.
+/// Uniforms for the shadow of media on surfaces that the host draws; shaders/shared/media_shadow.glsl samples
+/// light slices with them.
 #pragma once
 
 #include "rendering/lights/slices/light_list.h"
@@ -13,7 +13,7 @@ namespace fx::render {
 /// planes all members are 0 and the transmittance is 1.
 struct MediaShadowBlock
 {
-    /// Levels of the sun, finer near the eye; other lights have one level.
+    /// Number of levels of the sun, which are finer near the eye. Other lights have one level.
     static constexpr size_t kLevels = 3;
 
     std::array<glm::vec4, kLevels> right{}, up{}, along{}, tiles{};
@@ -21,7 +21,8 @@ struct MediaShadowBlock
 };
 static_assert(sizeof(MediaShadowBlock) == 13 * 16);
 
-/// @param light index in the list, 0 is the sun
+/// Uniforms for the shadow of media in a light.
+/// @param light index in the list; 0 is the sun
 /// @param eye [m] world position to which the list is relative
 /// @param origin [m] world position to which the sampled positions are relative
 MediaShadowBlock mediaShadow(const LightList& list, size_t light, const glm::dvec3& eye,

@@ -11,7 +11,7 @@
 
 namespace fx::render {
 
-/// Optical depth at a point of a stack.
+/// Optical depths at a point of a stack.
 struct SliceDepth
 {
     float toLight; ///< [1] optical depth of the media between the light and the point
@@ -28,10 +28,10 @@ public:
     void build(const SliceStack& stack, std::span<const MediumCaster> casters);
 
     const SliceStack& stack() const { return stack_; }
-    /// [1] Optical depth between the light and a texel of a plane.
+    /// [1] Optical depth of the media between the light and the center of a texel of a plane.
     float at(int plane, int x, int y) const { return depths_[indexOf(plane, x, y)]; }
     /// Optical depths at a point, interpolated linearly between texels and between planes.
-    /// @param position [m] relative to the same point as the stack
+    /// @param position [m] position relative to the same point as the stack
     SliceDepth depthAt(const glm::vec3& position) const;
 
 private:

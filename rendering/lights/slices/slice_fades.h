@@ -13,18 +13,18 @@
 
 namespace fx::render {
 
-constexpr int kFadeFrames = 16; ///< length of a cross-fade
+constexpr int kFadeFrames = 16; ///< [frame] duration of a cross-fade
 
-/// Larger planes are replaced without a cross-fade, because the atlas has no room for old and new planes
-/// together.
+/// Largest planes that cross-fade. Larger ones are replaced at once, because the atlas has no room for old
+/// and new planes together.
 constexpr SliceResolution kMaxFadingPlanes{256, 64};
 
-/// The sides of a stack in this frame.
+/// The sides of a stack in this frame, and those from which they cross-fade.
 struct SliceFade
 {
     SliceFit now;
-    SliceFit before;     ///< valid if weight > 0
-    float weight = 0.0f; ///< [1] < 1, weight of the previous planes
+    SliceFit before;     ///< the previous sides; valid if weight > 0
+    float weight = 0.0f; ///< [1] weight of the planes with the previous sides, < 1
 };
 
 /// The cross-fades of all stacks of a view. Threads: one at a time.
@@ -33,11 +33,11 @@ class SliceFades
 public:
     explicit SliceFades(std::pmr::memory_resource* memory) : held_(memory) {}
 
-    /// Begins a frame. @param forgets the picture is unrelated to the last frame
+    /// Begins a frame. @param forgets true: the picture is unrelated to the last frame
     void begin(bool forgets);
-    /// Returns the fade of the next stack of the frame. Stacks must be passed in the same order in each
+    /// Returns the sides of the next stack of the frame. Stacks must be passed in the same order in each
     /// frame.
-    /// @param wanted the stack that fits the casters, snapped
+    /// @param wanted stack that fits the casters, with snapped sides
     SliceFade next(const SliceStack& wanted);
 
 private:

@@ -24,12 +24,12 @@ enum class SliceMapping : uint8_t
     Octahedral, ///< shells around a point
 };
 
-/// one in front of, within and behind the media, for any shift by snapping
+/// least number of planes: one in front of, one within and one behind the media, for any shift by snapping
 constexpr int kMinSlicePlanes = 3;
 constexpr int kMaxSlicePlanes = 128;
-constexpr int kMaxSliceTexels = 512; ///< along a side of a plane
+constexpr int kMaxSliceTexels = 512; ///< largest number of texels along a side of a plane
 
-/// Returns `asked` clamped to the limits, with texels rounded to a multiple of 8.
+/// Clamps a resolution to the limits, and rounds the number of texels to a multiple of 8.
 SliceResolution usableResolution(const SliceResolution& asked);
 
 /// Coordinates in a stack. Texel centers are at x, y = 0.5, 1.5, ...; plane number k is at plane = k.
@@ -47,18 +47,18 @@ struct SliceStack
     /// Unit vectors; `along` is the direction in which parallel light travels.
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, along{0, 0, 1};
     glm::vec3 origin{0}; ///< [m] corner of the first plane, or position of the point light
-    /// `origin` in the world. Parallel: in units of texel, texel and spacing along right, up and along.
-    /// Octahedral: [m].
+    /// World position of `origin`. For SliceMapping::Parallel, its coordinates along `right` and `up` are in
+    /// units of `texel`, and that along `along` in units of `spacing`. For Octahedral, they are in meters.
     glm::dvec3 corner{0};
     float texel = 1.0f;   ///< [m] side of a texel of flat planes
-    float spacing = 1.0f; ///< [m] between two planes
-    float first = 0.0f;   ///< [m] distance of the first shell from a point; 0 for flat planes
+    float spacing = 1.0f; ///< [m] distance between two planes
+    float first = 0.0f;   ///< [m] distance of the first shell from the point light; 0 for flat planes
     /// [m] Radius of the glowing gas that a point light represents. Media within this distance cast no
     /// shadow.
     float begin = 0.0f;
 
     SlicePlace placeOf(const glm::vec3& position) const;
-    /// [m] along the ray of a texel
+    /// [m] distance of plane number `plane` along the ray of a texel
     float distanceOf(int plane) const { return first + float(plane) * spacing; }
 };
 
@@ -66,32 +66,34 @@ struct SliceStack
 struct SliceRay
 {
     glm::vec3 start;
-    glm::vec3 direction; ///< unit
+    glm::vec3 direction; ///< unit vector
 };
 
-/// @param x, y of a texel's center, see SlicePlace
+/// The ray through a point of a texel plane.
+/// @param x, y coordinates of the point, see SlicePlace
 SliceRay sliceRay(const SliceStack& stack, float x, float y);
 
-/// Requested sides of a stack, and whether it is fixed in the world.
+/// Requested sides of a stack (side of a texel, spacing of planes), and whether they are fixed in the world.
 struct SliceFit
 {
-    /// False: sides and corner follow the casters exactly, to measure the effect of snapping.
+    /// False: sides and corner are not snapped but follow the casters exactly, to measure the effect of
+    /// snapping.
     bool isSnapped = true;
-    float texel = 0.0f;   ///< [m] 0: as large as the casters require
-    float spacing = 0.0f; ///< [m] 0: as large as the casters require
+    float texel = 0.0f;   ///< [m] side of a texel; 0: as large as the casters require
+    float spacing = 0.0f; ///< [m] spacing of planes; 0: as large as the casters require
 };
 
 /// Fits planes to all casters. Texels and planes are fixed in the world while the casters move: texel side
 /// and spacing are powers of 2^(1/4) m, and the corner is a multiple of them.
-/// @param towards unit, to the light  @param eye [m] world position to which casters are relative
-/// @param asked clamped to a usable resolution; no planes: no stack
-/// @return false without casters or planes
+/// @param towards unit vector to the light  @param eye [m] world position to which casters are relative
+/// @param asked requested resolution, which is clamped to the limits; 0 planes: no stack
+/// @return false if there are no casters or no planes
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
                        const SliceResolution& asked, SliceStack& outStack, const SliceFit& fit = {});
 
 /// Fits shells around a glowing ball, from the nearest to the farthest caster. The distances of shells are
 /// multiples of a power of 2^(1/4) m.
-/// @param light [m] relative to the eye  @param radius [m] of the ball
+/// @param light [m] position of the ball relative to the eye  @param radius [m] radius of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
                     const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack,
                     const SliceFit& fit = {});

@@ -33,31 +33,33 @@ public:
 
     /// Builds the list of a frame. Planes are filled again if lights have changed, or if casters have changed
     /// and SliceSettings::refreshFrames have passed since the last filling.
-    /// @param casters revision of `in.casters` in the world
+    /// @param casters revision of the world positions of `in.casters`; equal revisions mean equal casters
+    /// @param isUsed false: the frame draws nothing and casts no shadow, so that no GPU memory is allocated
     /// @return OutOfMemory
     /// @param isUsed false: nothing is drawn and no shadow is cast, so that no GPU memory is allocated
     base::Status gather(const LightListInputs& in, uint64_t casters, bool isUsed = true);
 
-    /// Whether the planes belong to the casters of the last gather().
+    /// True if the planes have been filled with the casters of the last gather().
     bool isCurrent() const { return !isBehind_; }
 
-    /// Called instead of gather(): the frame has the same lights as the last frame.
+    /// Must be called instead of gather() if the frame has the same lights as the last frame.
     void keep() { isKept_ = true; }
 
     /// Sets the host's shadow map of this frame.
     /// @param origin [m] world position to which the coordinates of the map are relative
     void setSunShadow(const HostShadowMap& map, const glm::dvec3& origin);
 
-    /// Imports list and planes, and adds the passes that fill them. @return bindings for draws
+    /// Imports the list of lights and the planes, and adds the passes that fill the planes. @return bindings
+    /// for draws
     LightBindings addPasses(FrameGraph& graph);
 
-    void forget();  ///< call this if the passes of the frame have not run
+    void forget();  ///< must be called if the passes of the frame have not run
     void release(); ///< deletes buffer and planes
     bool hasPlanes() const { return atlas_.name() != 0; }
-    uint64_t bytes() const; ///< [byte] size of GPU memory
+    uint64_t bytes() const; ///< [byte] size of the GPU memory
     const LightList& list() const { return list_; }
-    uint32_t atlasTexture() const { return atlas_.name(); } ///< GL name; 0: no planes
-    /// Whether the planes are up to date with the last list.
+    uint32_t atlasTexture() const { return atlas_.name(); } ///< GL name of the atlas of planes; 0: no planes
+    /// True if the planes have the content for the last list.
     bool isFilled() const { return atlas_.name() != 0 && filled_ == wanted_; }
     /// Media shadow in a light of the last list. Without filled planes, the transmittance is 1.
     /// @param origin [m] world position to which the sampled positions are relative
@@ -78,20 +80,21 @@ private:
     LightList list_;
     glm::dvec3 eye_{0.0}; ///< [m] world position to which the list is relative
     std::pmr::vector<CasterBlock> casters_;
-    /// Casters with which the planes were filled; empty if planes are filled in every frame.
+    /// The casters with which the planes were filled; empty if planes are filled in every frame.
     std::pmr::vector<MediumCaster> held_;
-    std::pmr::vector<MediumCaster> shifted_; ///< scratch: the same, relative to the eye of the frame
+    std::pmr::vector<MediumCaster> shifted_; ///< scratch: held_ relative to the eye of the frame
     glm::dvec3 heldEye_{0.0};                ///< [m] world position to which `held_` is relative
     uint64_t heldRevision_ = 0;
     uint64_t givenRevision_ = 0; ///< revision of the casters of the last gather()
-    int age_ = 0;                ///< [frame] since `held_` was set
-    bool isBehind_ = false;      ///< the planes belong to held_, not to the present casters
+    int age_ = 0;                ///< [frame] number of frames since `held_` was set
+    bool isBehind_ = false;      ///< true: the planes belong to held_, not to the present casters
     GlBuffer lightBuffer_;
     GlTexture atlas_;
-    uint64_t filled_ = 0;    ///< key of the present content of the planes; 0: none
-    uint64_t wanted_ = 0;    ///< key of the content for this frame
+    /// Hash of the inputs of the present content of the planes; 0: the content is invalid.
+    uint64_t filled_ = 0;
+    uint64_t wanted_ = 0;    ///< hash of the inputs of the content for this frame
     uint32_t sunShadow_ = 0; ///< GL name of the host's shadow map
-    bool isKept_ = false;    ///< the list on the GPU is that of the last frame
+    bool isKept_ = false;    ///< true: the list on the GPU is that of the last frame
 };
 
 } // namespace fx::render

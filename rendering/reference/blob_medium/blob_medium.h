@@ -1,6 +1,6 @@
 /// @file blob_medium.h
-/// Reference medium: a sum of balls with the quartic kernel, in double precision. Results of GPU passes are
-/// compared with it.
+/// Reference medium: a sum of balls with the quartic kernel, in double precision. It serves to check results
+/// of GPU passes.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,13 +13,13 @@ namespace fx::render {
 struct RaySpan
 {
     double begin;
-    double end; ///< <= begin: the ray misses
+    double end; ///< [m] end of the range; if it is <= begin, the ray misses
 };
 
 struct Ray
 {
     glm::dvec3 origin;    ///< [m]
-    glm::dvec3 direction; ///< unit
+    glm::dvec3 direction; ///< unit vector
 };
 
 /// One ball of medium.
@@ -31,19 +31,20 @@ struct Blob
     glm::dvec3 source;   ///< [cd/m2] emitted light per optical depth
 };
 
-/// Sum of blobs. Each blob emits in proportion to its own extinction. Threads: any thread may call const
-/// functions.
+/// A medium that is a sum of blobs. Each blob emits in proportion to its own extinction. Threads: any thread
+/// may call const functions.
 class BlobMedium
 {
 public:
     explicit BlobMedium(std::vector<Blob> blobs);
 
-    /// Range of `ray` outside of which there is no medium.
+    /// Range of ray parameters outside of which there is no medium on `ray`.
     RaySpan span(const Ray& ray) const;
     double extinctionAt(const glm::dvec3& position) const; ///< [1/m] >= 0
-    glm::dvec3 sourceAt(const glm::dvec3& position) const; ///< [cd/m2] emitted light per optical depth
-    /// [1] >= 0. Optical depth between two parameters [m]. It is exact: a sum of clipped polynomials (formula
-    /// kernel-optical-depth).
+    /// [cd/m2] Emitted light per optical depth at a point.
+    glm::dvec3 sourceAt(const glm::dvec3& position) const;
+    /// [1] >= 0. Optical depth between the ray parameters `begin` and `end` [m]. It is exact: a sum of
+    /// clipped polynomials (formula kernel-optical-depth).
     double opticalDepth(const Ray& ray, double begin, double end) const;
 
 private:
@@ -51,7 +52,7 @@ private:
 };
 
 /// [cd/m2] Light that `medium` emits towards the origin of `ray` from the range [begin, end], by `steps`
-/// midpoint steps. It is a simple, slow and independent reference.
+/// midpoint steps. This is a simple, slow and independent reference.
 glm::dvec3 marchEmission(const BlobMedium& medium, const Ray& ray, double begin, double end, int steps);
 
 } // namespace fx::render

@@ -9,14 +9,15 @@
 
 namespace fx::render {
 
-/// [quantum] the sum of a 16K picture with all values 65504 needs 67 bits per channel
+/// [quantum] an integer of 128 bits, because the sum of a 16K picture with all values 65504 needs 67 bits per
+/// channel
 __extension__ typedef unsigned __int128 DazzleCount;
 
-/// Light of one channel value.
+/// One channel value as light above or below white.
 struct DazzleQuanta
 {
-    uint64_t overflow; ///< [quantum] value - white, or 0
-    uint64_t headroom; ///< [quantum] white - value, or 0
+    uint64_t overflow; ///< [quantum] max(value - white, 0)
+    uint64_t headroom; ///< [quantum] max(white - value, 0)
     uint64_t all;      ///< [quantum] value
 };
 
@@ -26,17 +27,19 @@ class DazzleCounter
 public:
     explicit DazzleCounter(float white);
 
-    /// Bits of the value clamped to 0 .. `white` * kDazzleLargest. NaN becomes 0, +inf becomes 65504 (or the
-    /// upper limit, if that is smaller). @param ioReplaced counts changed values
+    /// Clamps a float, given as bits, to 0 .. `white` * kDazzleLargest, and returns the bits of the result.
+    /// NaN becomes 0, +inf becomes 65504 (or the upper limit, if that is smaller). @param ioReplaced counts
+    /// changed values
     uint32_t sanitized(uint32_t bits, uint32_t& ioReplaced) const;
-    /// Quanta of a sanitized value; fractions of a quantum are dropped.
+    /// Converts a sanitized value to quanta; fractions of a quantum are dropped.
     DazzleQuanta count(uint32_t bits) const;
 
     const DazzleScale& scale() const { return scale_; }
 
 private:
     DazzleScale scale_;
-    double quantaPerUnit_; ///< a power of two, so that the product is exact
+    /// [quantum] Quanta per unit of a channel value; a power of two, so that the product is exact.
+    double quantaPerUnit_;
     uint32_t largest_;
     uint32_t infinity_;
 };
@@ -51,10 +54,11 @@ struct DazzleSum
 struct DazzleSums
 {
     DazzleSum channels[3]; ///< red, green, blue
-    uint32_t replaced = 0; ///< channel values that were not finite, negative or too large
+    /// Number of channel values that were replaced because they were not finite, negative or too large.
+    uint32_t replaced = 0;
 };
 
-/// Adds pixels of four floats to the sums. A picture may be added in several calls.
+/// Adds pixels of four floats to the sums. The pixels of a picture may be added in several calls.
 void addDazzleLight(std::span<const float> rgba, const DazzleCounter& counter, DazzleSums& ioSums);
 
 } // namespace fx::render

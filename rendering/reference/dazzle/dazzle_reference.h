@@ -1,6 +1,6 @@
 /// @file dazzle_reference.h
-/// The glare computed on the CPU, with 128-bit integers. It equals DazzlePass bit for bit, for every sensor
-/// law. It is the reference of the GPU programs and the implementation without a GPU.
+/// Computes the glare on the CPU, with 128-bit integers. The result equals that of DazzlePass bit for bit,
+/// for every sensor law. It is the reference of the GPU programs and the implementation without a GPU.
 #pragma once
 
 #include "rendering/passes/dazzle_pass.h"
@@ -10,16 +10,18 @@
 
 namespace fx::render {
 
-/// @param rgba     width * height pixels of four floats, row by row
-/// @param settings must be accepted by checkSensorLaw()
+/// Computes a picture with glare.
+/// @param rgba width * height pixels of four floats, row by row
+/// @param settings settings that checkSensorLaw() accepts
 /// @param ioHistory content of the history buffer of DazzlePass
-/// @return the picture with glare. For an empty picture, an empty one; the history does not change then
+/// @return the picture with glare. If the picture is empty, the result is empty and the history does not
+///         change
 std::vector<float> dazzleReference(std::span<const float> rgba, int width, int height,
                                    const DazzleSettings& settings, double deltaTime, bool resetHistory,
                                    DazzleHistory& ioHistory);
 
-/// Glare per overflow by equation (1) of formula sensor-law. Only operations are used that every processor
-/// and GPU rounds equally.
+/// Glare per overflow by equation (1) of formula sensor-law. It uses only operations that every processor and
+/// GPU rounds equally.
 /// @param over mean overflow per pixel in units of white, >= 0
 double dazzleGain(double over, const DazzleSettings& settings);
 

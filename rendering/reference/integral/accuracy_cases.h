@@ -36,7 +36,7 @@ public:
     const RayPacket<T>& packet(size_t i) const { return packets_[i]; }
     uint64_t hits() const;
 
-    /// Integrates all rays of the packets [begin, end). @param outLights one for each packet of the picture
+    /// Integrates all rays of the packets [begin, end). @param outLights light of each packet of the picture
     void integrate(PacketIntegrator<T>& integrator, size_t begin, size_t end,
                    PacketLight<T>* outLights) const;
 
@@ -48,30 +48,32 @@ private:
 /// A picture of 270 blobs of radius 0.3 m with random emission. Their centers are uniformly distributed in a
 /// ball of radius 1 m, whose diameter fills the width of the picture. Rays are parallel.
 /// @param opticalDepth [1] optical depth of the ray through the center
-/// @param width, height in pixels, multiples of 4
-/// @param every only each packet number k * every of the picture is used
+/// @param width, height [pixel] size of the picture, multiples of 4
+/// @param every only the packets with the numbers 0, every, 2 every, ... of the picture are used
 template <class T>
 PacketPicture<T> ballOfBlobs(double opticalDepth, uint32_t width, uint32_t height, uint32_t every = 1);
 
-/// Reference light [cd/m2] of each ray of a picture, by reference_integral.h.
+/// Reference light [cd/m2] of each ray of a picture, computed with reference_integral.h.
 std::vector<std::array<double, 3>> referenceLight(const PacketPicture<double>& picture,
                                                   const IntegralSettings& settings);
 
-/// Errors of all channels of all rays whose light exceeds 1e-6 times that of the brightest ray.
+/// Computes the errors of all channels of those rays whose light exceeds 1e-6 times that of the brightest
+/// ray.
 template <class T>
 IntegralError integralError(const PacketPicture<T>& picture, const IntegralSettings& settings,
                             const std::vector<std::array<double, 3>>& reference);
 
-/// Error of a test where all blobs emit 1, so that the exact light is 1 - e^-tau.
+/// Error of a test in which all blobs emit 1, so that the exact light is 1 - exp(-tau) for the optical depth
+/// tau.
 struct FurnaceError
 {
-    double largest = 0.0; ///< |I / (1 - e^-tau) - 1|
-    double excess = 0.0;  ///< largest I / (1 - e^-tau) - 1: energy gain
-    double atDepth = 0.0; ///< optical depth of the largest error
-    uint32_t atBlobs = 0; ///< number of blobs of the largest error
+    double largest = 0.0; ///< largest |I / (1 - exp(-tau)) - 1|, where I is the computed light
+    double excess = 0.0;  ///< largest I / (1 - exp(-tau)) - 1, which is a gain of energy
+    double atDepth = 0.0; ///< optical depth at which the error is largest
+    uint32_t atBlobs = 0; ///< number of blobs for which the error is largest
 };
 
-/// Tests optical depths 10^-3 to 10^5, 25 per decade, through 1 to 64 overlapping blobs.
+/// Tests rays of optical depth 10^-3 to 10^5, 25 values per decade, through 1 to 64 overlapping blobs.
 template <class T>
 FurnaceError furnaceError(const IntegralSettings& settings);
 

@@ -15,13 +15,13 @@
 
 namespace fx::render::integral {
 
-/// Memory aligned to a cache line, so that no vector load crosses a line. The content is lost when the array
-/// grows.
+/// An array whose memory is aligned to a cache line, so that no vector load crosses a line. The content is
+/// lost when the array grows.
 template <class T>
 class LineArray
 {
 public:
-    /// Returns room for `count` values, aligned to 64 bytes.
+    /// Returns memory for `count` values, aligned to 64 bytes.
     T* room(size_t count)
     {
         if (count > capacity_) {
@@ -41,31 +41,31 @@ private:
     size_t capacity_ = 0;
 };
 
-/// Scratch memory of a group with W rays. Lane arrays have W numbers for each blob or event.
+/// Scratch memory of a group of rays. Lane arrays have one number per ray for each blob or event.
 template <class T>
 struct GroupScratch
 {
     LineArray<T> center, chord2, events, perInterval;
-    LineArray<T> offset, square, margin; ///< of nearby blobs; room for two intervals
+    LineArray<T> offset, square, margin; ///< lane arrays of the nearby blobs, for two intervals
     std::vector<uint32_t> nearby;
     uint32_t nearbyCount[2] = {};
-    /// 4 numbers per blob: extinction and three sources, divided by radius^(2 degree)
+    /// four numbers for each blob: extinction and three sources, divided by radius^(2 degree)
     LineArray<T> weights;
     T largest = T(0), unit = T(1);        ///< largest radius of the last group, and the power of two below it
     T brightest = T(0), lightUnit = T(1); ///< largest source of the last group, and the power of two below it
     std::vector<T> first, last;           ///< by blob: least begin and largest end over all lanes
-    std::vector<T> low, high;             ///< by event: extremes over all lanes
+    std::vector<T> low, high;             ///< by event: least and largest value over all lanes
     std::vector<uint32_t> byFirst, byLast;
-    std::vector<uint64_t> candidates; ///< bit i: blob i may overlap the present interval
+    std::vector<uint64_t> candidates; ///< bit i is set if blob i may overlap the present interval
 };
 
 /// The blobs that overlap the present interval, in the order of summation, with terms that several sums use.
 template <class T>
 struct NearbyBlobs
 {
-    T* offset; ///< d of formula blob-polynomial
-    T* square; ///< g of formula blob-polynomial
-    T* margin; ///< > 0 if the lane's interval is within the blob
+    T* offset; ///< symbol d of formula blob-polynomial
+    T* square; ///< symbol g of formula blob-polynomial
+    T* margin; ///< > 0 in lanes whose interval is within the blob
     uint32_t* blob;
     uint32_t* count;
 };
@@ -79,18 +79,19 @@ struct BlobLanes
     const T* weights;
     const uint64_t* candidates;
     uint32_t words;
-    /// Two, because the light of an interval may be summed after the extinction of the next one.
+    /// Nearby blobs of two intervals, because the light of an interval may be summed after the extinction of
+    /// the next one.
     NearbyBlobs<T> nearby[2];
 };
 
-/// Inputs of the rays of a group. Lane arrays of blob k begin at k * stride.
+/// Inputs of the integral for the rays of a group. Lane arrays of blob k begin at k * stride.
 template <class T>
 struct GroupInput
 {
     uint32_t count; ///< number of blobs
     uint32_t stride;
-    T largest;   ///< [m] largest radius of all blobs of the caller, also of blobs that all rays miss
-    T brightest; ///< [cd/m2] largest source of the same blobs in any channel
+    T largest;   ///< [m] largest radius of all blobs of the caller, including blobs that all rays miss
+    T brightest; ///< [cd/m2] largest source of these blobs in any channel
     const T* center;
     const T* chord2;
     const T* nearest;
@@ -108,7 +109,7 @@ struct GroupOutput
     uint32_t* flags;
 };
 
-/// Data shared by all rays.
+/// Settings and quadrature rules that all rays share.
 template <class T>
 struct GroupRules
 {
@@ -122,7 +123,9 @@ struct GroupRules
 
     IntegralSettings settings;
     T stopDepth;
-    T caps[3]; ///< for kernels of degree 2, 3 and 4: steeper kernels need more nodes for the same accuracy
+    /// Largest optical depths of a part for kernels of degree 2, 3 and 4: steeper kernels need more nodes for
+    /// the same accuracy.
+    T caps[3];
     GaussRule<T> gauss3 = gaussRule<T>(3), gauss5 = gaussRule<T>(5), gauss8 = gaussRule<T>(8);
     std::vector<T> positive; ///< nodes from -1 to 1, see pieceNodes()
 };

@@ -1,5 +1,5 @@
 /// @file integral_scheme.h
-/// How the light along a ray is integrated: schemes, their names, and their default settings.
+/// Schemes to integrate the light along a ray, their names, and their default settings.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -14,21 +14,25 @@ namespace fx::render {
 
 enum class IntegralMethod : uint8_t
 {
-    /// Attenuation is linear in the ray parameter within a part; closed form (formula linear-attenuation).
+    /// attenuation is linear in the ray parameter within a part, so that the integral has a closed form
+    /// (formula linear-attenuation)
     Paper,
     Simpson, ///< Simpson's rule with exact optical depth
     Gauss,   ///< Gauss-Legendre nodes with exact optical depth (formula gauss-attenuation)
 
-    /// Source is linear in optical depth between nodes (formula depth-linear-source); bounds always hold.
+    /// the source is linear in optical depth between nodes (formula depth-linear-source); the result is
+    /// always within the bounds of the exact light
     Positive,
-    March,   ///< equal steps along the whole ray, with the density at their midpoints
-    Adaptive ///< Paper, with parts and end of the ray chosen by a bound of the remaining light
+    March, ///< equal steps along the whole ray, each with the density at its midpoint
+           /// Like Paper, except that a bound of the remaining light determines the parts and the end of the
+           /// ray.
+    Adaptive
 };
 
 /// Model of emission. Blob i has extinction rho_i(t) and emits source_i per unit of its optical depth.
 enum class SourceModel : uint8_t
 {
-    PerBlob, ///< sum over i of rho_i source_i: each blob emits in proportion to its own extinction
+    PerBlob, ///< sum over i of rho_i source_i, so that each blob emits in proportion to its own extinction
     /// (sum of rho_i) (sum of k_i source_i), as published; k_i is the kernel scaled to 1 at the center
     Product
 };
@@ -38,22 +42,22 @@ struct IntegralScheme
     IntegralMethod method = IntegralMethod::Gauss;
     /// Paper: parts, 1..64; Simpson: panels, 1..64; Gauss: nodes, 3, 5 or 8; Positive: pieces, 2..64
     uint32_t count = 5;
-    /// [1] Gauss: largest optical depth of a part; infinity: intervals are not divided. Kernels of degree 3
-    /// and 4 use a quarter and a tenth of it.
+    /// [1] Gauss: largest optical depth of a part of an interval; infinity: intervals are not divided.
+    /// Kernels of degree 3 and 4 use a quarter and a tenth of it.
     double cap = 1.0;
     double step = 0.01;       ///< [m] March: step length
     double tolerance = 0.001; ///< [1] Adaptive: error relative to the largest possible light of the ray
-    double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: never
+    double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: it never ends
 };
 
-/// 5 nodes, cap 1.
+/// The scheme gauss-5 with the cap 1.
 IntegralScheme defaultScheme();
-/// 8 nodes, cap 2.
+/// The scheme gauss-8 with the cap 2.
 IntegralScheme highScheme();
 
-/// Parses names such as paper-1, simpson-4, gauss-5, gauss-8, gauss-5-cap-0.5, gauss-5-cap-inf, positive-8,
-/// march-0.01, adaptive-0.001. As published, Paper never ends a ray early. The default cap of gauss-3 is 0.5,
-/// of gauss-5 1, of gauss-8 2.
+/// Parses the name of a scheme, such as paper-1, simpson-4, gauss-5, gauss-8, gauss-5-cap-0.5,
+/// gauss-5-cap-inf, positive-8, march-0.01, adaptive-0.001. As published, Paper never ends a ray early. The
+/// default cap of gauss-3 is 0.5, of gauss-5 1, of gauss-8 2.
 base::Result<IntegralScheme> parseScheme(std::string_view name);
 std::string schemeName(const IntegralScheme& scheme);
 /// Names of the schemes of the accuracy report, from coarse to fine within a method.
@@ -63,7 +67,7 @@ struct IntegralSettings
 {
     IntegralScheme scheme;
     SourceModel model = SourceModel::PerBlob;
-    uint32_t degree = 2; ///< 2..4; the kernel of all blobs is (1 - q^2)^degree
+    uint32_t degree = 2; ///< degree of the kernel (1 - q^2)^degree of all blobs, 2..4
 };
 
 } // namespace fx::render

@@ -1,9 +1,9 @@
 /// @file lane_numbers.h
 /// The arithmetic operations of the integral for scalars; pack-inl.h has them for SIMD vectors.
 ///
-/// The code of the integral (*.inl) is a template of a number type V: float, double, __float128, or a SIMD
-/// vector with one ray in each lane. All operations work on each lane separately and are not fused. So each
-/// lane has the same bits as the scalar code.
+/// The code of the integral (*.inl) consists of templates of a number type V: float, double, __float128, or a
+/// SIMD vector with one ray in each lane. All operations work on each lane separately and are not fused. So
+/// each lane has the same bits as the scalar code.
 #pragma once
 
 #include <array>
@@ -56,10 +56,10 @@ struct ExpConstants<double>
     static constexpr int kTerms = 13;
 };
 
-/// Below this argument, expOfMinus() needs no range reduction.
+/// For arguments below this, expOfMinus() needs no range reduction.
 constexpr float kSmallDepth = 0.34f;
 
-/// Entry k is 1 / k!, computed in double and rounded to T.
+/// Table of 1 / k! for k = 0..13, computed in double and rounded to T.
 template <class T>
 inline constexpr auto kPerFactorial = [] {
     std::array<T, 14> table{};
@@ -71,7 +71,7 @@ inline constexpr auto kPerFactorial = [] {
     return table;
 }();
 
-/// (3) of attenuation-exponential: e^r.
+/// e^r by equation (3) of formula attenuation-exponential.
 template <class T>
 inline T expSeries(T r)
 {
@@ -140,7 +140,7 @@ inline V smaller(V a, V b)
 {
     return b < a ? b : a;
 }
-/// Minimum, for sorting. For zeros of different sign, the sign of the result is unspecified.
+/// Minimum and maximum, for sorting. For zeros of different sign, the sign of the result is unspecified.
 template <class V>
 inline V minOf(V a, V b)
 {
@@ -195,7 +195,7 @@ inline V highest(V a)
 {
     return a;
 }
-/// e^-x for |x| < kSmallDepth, with the same bits as expOfMinus().
+/// Computes e^-x for |x| < kSmallDepth, with the same bits as expOfMinus().
 template <class V>
 inline V expOfSmall(V x)
 {

@@ -42,7 +42,8 @@ HWY_INLINE Pack<T> chooseLess(Pack<T> a, Pack<T> b, Pack<T> yes, Pack<T> no)
 {
     return Pack<T>(hn::IfThenElse(hn::Lt(a.v, b.v), yes.v, no.v));
 }
-/// Uses the same comparison as the scalar code, so that zeros of different sign give the same result.
+/// Minimum and maximum, with the same comparison as the scalar code, so that zeros of different sign give the
+/// same result.
 template <class T>
 HWY_INLINE Pack<T> larger(Pack<T> a, Pack<T> b)
 {
@@ -73,7 +74,7 @@ HWY_INLINE uint32_t countLess(Pack<T> a, Pack<T> b)
 {
     return uint32_t(hn::CountTrue(typename Pack<T>::Tag(), hn::Lt(a.v, b.v)));
 }
-/// Bit i: a < b in lane i.
+/// A mask as bits: bit i is set if a < b in lane i.
 template <class T>
 HWY_INLINE uint64_t bitsLess(Pack<T> a, Pack<T> b)
 {
@@ -94,8 +95,8 @@ HWY_INLINE T highest(Pack<T> a)
     return hn::GetLane(hn::MaxOfLanes(typename Pack<T>::Tag(), a.v));
 }
 #if HWY_TARGET != HWY_SCALAR
-/// Minimum or maximum of each pair of neighboring lanes: results from `a` in the lower half, from `b` in the
-/// upper.
+/// Minimum or maximum of each pair of neighboring lanes. The lower half of the result has those of `a`, the
+/// upper half those of `b`.
 template <bool kLowest, class T>
 HWY_INLINE Pack<T> foldLanes(Pack<T> a, Pack<T> b)
 {
@@ -104,8 +105,9 @@ HWY_INLINE Pack<T> foldLanes(Pack<T> a, Pack<T> b)
     const Pack<T> odd(hn::ConcatOdd(tag, b.v, a.v));
     return kLowest ? minOf(even, odd) : maxOf(even, odd);
 }
-/// Computes lowest() or highest() of each of `count` vectors, which are `stride` numbers apart. Reads up to
-/// kFoldedRows - 1 vectors past the last one, and writes up to one vector past the last result.
+/// Number of rows that foldRows() handles at once. foldRows() computes lowest() or highest() of each of
+/// `count` vectors, which are `stride` numbers apart. It reads up to kFoldedRows - 1 vectors past the last
+/// one, and writes up to one vector past the last result.
 constexpr uint32_t kFoldedRows = 8;
 template <class V, bool kLowest, class T>
 HWY_INLINE void foldRows(const T* rows, size_t stride, uint32_t count, T* out)
@@ -133,7 +135,7 @@ HWY_INLINE Pack<T> wholeAbove(Pack<T> a)
     return chooseLess(whole, a, whole + Lanes<Pack<T>>::all(T(1)), whole);
 }
 
-/// (3) of attenuation-exponential.
+/// e^r by equation (3) of formula attenuation-exponential.
 template <class T>
 HWY_INLINE Pack<T> expSeries(Pack<T> r)
 {
@@ -143,7 +145,7 @@ HWY_INLINE Pack<T> expSeries(Pack<T> r)
         sum = sum * r + Lanes<Pack<T>>::all(kPerFactorial<T>[k]);
     return sum;
 }
-/// Formula attenuation-exponential, with the same operations as the scalar code.
+/// The exponential e^-x of formula attenuation-exponential, with the same operations as the scalar code.
 template <class T>
 HWY_INLINE Pack<T> expOfMinus(Pack<T> x)
 {
@@ -159,7 +161,7 @@ HWY_INLINE Pack<T> expOfMinus(Pack<T> x)
     const auto power = hn::ShiftLeft<C::kMantissa>(hn::BitCast(bits, shifted.v)); // (4)
     return Pack<T>(hn::BitCast(tag, hn::Add(hn::BitCast(bits, sum.v), power)));   // (2)
 }
-/// expOfMinus() without range reduction.
+/// expOfMinus() for small arguments, without range reduction.
 template <class T>
 HWY_INLINE Pack<T> expOfSmall(Pack<T> x)
 {

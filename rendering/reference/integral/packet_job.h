@@ -7,7 +7,7 @@
 
 namespace fx::render::integral {
 
-/// The blobs of a packet that a group of its rays meets. The memory is kept.
+/// The blobs of a packet that a group of its rays meets. The memory is kept from group to group.
 template <class T>
 struct MetBlobs
 {
@@ -23,7 +23,7 @@ struct PacketJob
     MetBlobs<T>& met;
     const PacketRays<T>& rays;
     const RayPacket<T>& packet;
-    RayWork* work; ///< null: work is not counted
+    RayWork* work; ///< counters of the work; null: work is not counted
     PacketLight<T>& light;
 };
 
@@ -46,7 +46,7 @@ T brightestSource(const RayPacket<T>& packet)
     return brightest;
 }
 
-/// Input of the group of rays that begins at lane `lane`.
+/// The input for the group of rays that begins at lane number `lane` of the packet.
 template <class T>
 GroupInput<T> inputOf(const PacketJob<T>& job, uint32_t lane, T largest, T brightest)
 {
@@ -85,7 +85,7 @@ template <class T>
 void integrateRays(const PacketJob<T>& job);
 template <class T>
 uint64_t meetRays(const MeetJob<T>& job);
-/// Scalar path for processors without SIMD; uses the code of RayIntegrator.
+/// Implementation without SIMD, for processors that have no SIMD; it uses the code of RayIntegrator.
 template <class T>
 void integrateOneByOne(const PacketJob<T>& job);
 

@@ -22,7 +22,7 @@ struct GaussRule
     std::array<T, kPairs> node{};
     /// weight times node^k
     std::array<std::array<T, kPowers>, kPairs> weight{};
-    T centerWeight{}; ///< 0 for an even number of nodes
+    T centerWeight{}; ///< weight of the node 0; 0 for an even number of nodes
 };
 
 /// @formula gauss-legendre
@@ -61,10 +61,11 @@ std::pair<W, W> gaussNode(uint32_t n, uint32_t i)
     return {x, W(2) / ((W(1) - x * x) * slope * slope)}; // (4)
 }
 
-/// Type in which quadrature constants of T are computed.
+/// The type in which the quadrature constants for T are computed.
 template <class T>
 using Precise = std::conditional_t<(sizeof(T) < sizeof(long double)), long double, T>;
 
+/// The Gauss-Legendre rule with `n` nodes.
 /// @param n 3, 5 or 8
 template <class T>
 GaussRule<T> gaussRule(uint32_t n)
@@ -82,7 +83,7 @@ GaussRule<T> gaussRule(uint32_t n)
     return rule;
 }
 
-/// pieces + 1 nodes -cos(pi i / pieces) from -1 to 1. They are denser at the ends, where optical depth is
+/// The pieces + 1 nodes -cos(pi i / pieces) from -1 to 1. They are denser at the ends, where optical depth is
 /// least linear.
 template <class T>
 std::vector<T> pieceNodes(uint32_t pieces)

@@ -1,6 +1,6 @@
 /// @file ray_integrator.h
-/// The light along one ray through overlapping blobs. For many rays, ray_packet.h is faster and gives the
-/// same bits.
+/// Computes the light along one ray through overlapping blobs. For many rays, ray_packet.h is faster and
+/// gives the same bits.
 #pragma once
 
 #include "rendering/reference/integral/integral_scheme.h"
@@ -11,8 +11,8 @@
 
 namespace fx::render {
 
-/// Keeps its memory between rays. Each thread needs its own object. T is float or double; tests instantiate
-/// ray_integrator-inl.h for __float128.
+/// Integrates single rays. Memory is kept between rays; each thread needs its own object. T is float or
+/// double; tests instantiate ray_integrator-inl.h for __float128.
 template <class T>
 class RayIntegrator
 {

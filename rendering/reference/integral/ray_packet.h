@@ -1,6 +1,6 @@
 /// @file ray_packet.h
-/// The light along 16 neighboring rays at once. With every instruction set, each ray gets the same bits as
-/// from RayIntegrator.
+/// Computes the light along 16 neighboring rays at once. With every instruction set, each ray gets the same
+/// bits as from RayIntegrator.
 ///
 /// Use, for a tile of 4 x 4 pixels: find the blobs that rays of the tile may meet, in the order of their ids.
 /// Then call packet.clear(), meetBlobs() and integrate().
@@ -27,16 +27,16 @@ struct BallBlob
 {
     T center[3];  ///< [m]
     T radius;     ///< [m] > 0
-    T extinction; ///< [1/m] at the center
-    T source[3];  ///< [cd/m2] (1 - albedo) emission
+    T extinction; ///< [1/m] extinction at the center
+    T source[3];  ///< [cd/m2] emission times (1 - albedo)
 };
 
-/// Lane i of each array belongs to ray i. Unused lanes must repeat a used one.
+/// The rays of a packet. Lane i of each array belongs to ray i. Unused lanes must repeat a used one.
 template <class T>
 struct alignas(64) PacketRays
 {
     T origin[3][kPacketRays];    ///< [m]
-    T direction[3][kPacketRays]; ///< unit
+    T direction[3][kPacketRays]; ///< unit vector
     T nearest[kPacketRays];      ///< [m] as in RayWindow
     T farthest[kPacketRays];
     T background[3][kPacketRays];
@@ -47,9 +47,9 @@ struct alignas(64) PacketRays
 template <class T>
 struct RayPacket
 {
-    std::vector<T> center; ///< [m] as in RayBlob, one for each ray
-    std::vector<T> chord2; ///< [m2]; <= 0 for rays that miss
-    /// Data shared by all rays.
+    std::vector<T> center; ///< [m] for each ray: RayBlob::center
+    std::vector<T> chord2; ///< [m2] for each ray: RayBlob::chord2, which is <= 0 if the ray misses the blob
+    /// Properties of a blob that all rays share.
     struct Shared
     {
         T radius;
@@ -57,11 +57,11 @@ struct RayPacket
         T source[3];
         uint32_t id;
     };
-    std::vector<Shared> shared; ///< sorted by increasing id
+    std::vector<Shared> shared; ///< blobs, sorted by increasing id
 
     void clear();
-    /// Adds a blob and returns its index. Its lanes are zero, which means that rays miss it, until they are
-    /// written.
+    /// Adds a blob and returns its index. Its lanes are initially zero, which means that all rays miss the
+    /// blob.
     size_t add(const Shared& blob);
 };
 
@@ -80,7 +80,7 @@ struct alignas(64) PacketLight
 
 /// Appends the balls that at least one ray meets to `packet`, in the order of `candidates`. A candidate is an
 /// index in `balls`, which becomes the id of the blob. Ray parameters are measured from the origins of rays.
-/// Formula ray-ball-approach.
+/// Formula: ray-ball-approach.
 /// @return number of ray-blob hits
 template <class T>
 uint64_t meetBlobs(const PacketRays<T>& rays, std::span<const BallBlob<T>> balls,
@@ -97,11 +97,11 @@ public:
     PacketIntegrator(PacketIntegrator&&) noexcept;
     PacketIntegrator& operator=(PacketIntegrator&&) noexcept;
 
-    /// Computes the light of all rays of a packet. Reads nearest, farthest and background of `rays`;
-    /// meetBlobs() has already used origin and direction.
+    /// Computes the light of all rays of a packet. Reads only the members nearest, farthest and background of
+    /// `rays`; meetBlobs() has already used origin and direction.
     void integrate(const PacketRays<T>& rays, const RayPacket<T>& packet, PacketLight<T>& outLight);
 
-    /// Enables counters, which cost a few percent; off by default.
+    /// Switches counters of work on or off; off by default. They cost a few percent of time.
     void countWork(bool isOn);
     const RayWork& work() const;
     void clearWork();

@@ -1,6 +1,6 @@
 /// @file reference_integral.h
-/// The ray integral by adaptive quadrature of its definition. It is slow, but shares no polynomials,
-/// coefficients or schemes with the fast code, which is compared with it.
+/// The ray integral by adaptive quadrature of its definition. It is slow. It serves to check the fast code,
+/// with which it shares no polynomials, coefficients or schemes.
 #pragma once
 
 #include "rendering/reference/integral/quadrature.h"
@@ -35,8 +35,8 @@ template <class T, class Exp>
 class ReferenceIntegral
 {
 public:
-    /// @param degree of the kernel
-    /// @param exponential e^x for T
+    /// @param degree degree of the kernel
+    /// @param exponential function that returns e^x for the type T
     ReferenceIntegral(std::span<const RayBlob<T>> blobs, const RayWindow<T>& window, uint32_t degree,
                       bool isProduct, T tolerance, T (*squareRoot)(T), Exp exponential)
         : blobs_(blobs.begin(), blobs.end()), window_(window), degree_(degree), isProduct_(isProduct),
@@ -51,7 +51,7 @@ public:
             half_.push_back(blob.chord2 > T(0) ? squareRoot(blob.chord2) : T(0));
     }
 
-    /// Radiance of the three channels.
+    /// [cd/m2] Radiance in the three channels.
     std::array<T, 3> light()
     {
         std::vector<T> cuts;
@@ -76,7 +76,7 @@ public:
         return sum;
     }
 
-    /// Equation (1), between two ray parameters.
+    /// Optical depth between two ray parameters, by equation (1).
     T opticalDepth(T begin, T end) const
     {
         T sum = T(0);
@@ -146,7 +146,7 @@ private:
         }
         return sum;
     }
-    /// Equation (3).
+    /// Adds the light of an interval to `io`, by equation (3).
     void add(std::array<T, 3>& io, T begin, T end, T before, const std::array<T, 3>& whole, int level) const
     {
         const T middle = begin + (end - begin) / T(2);

@@ -42,28 +42,29 @@ public:
     double emissionDensity() const override;
 
 private:
-    /// Computes the members about emission. Called after all other members are computed.
+    /// Computes the members that concern emission. All other members must have been computed.
     void findEmission(double begin, double end);
 
     struct Chord
     {
-        double middle, inverseHalf; ///< [m] center of the chord; [1/m] 1 / half its length
+        double middle, inverseHalf; ///< [m] center of the chord; [1/m] inverse of half its length
         double peak;                ///< [1/m] s_i
         double weight;              ///< [1] s_i h_i
     };
-    /// Extinction of a chord [1/m].
+    /// [1/m] Extinction of a chord's ball at a ray parameter.
     static double extinctionOf(const Chord& chord, double parameter);
 
     const BlobPathMedium& medium_;
     RayHits hits_;
-    std::vector<Chord> chords_;      ///< one for each of `hits_`
-    double begin_ = 0.0, end_ = 0.0; ///< [m] ends of the part of the ray with medium
-    double before_ = 0.0;            ///< [1] sum of s_i h_i k(u(a))
+    std::vector<Chord> chords_;      ///< one chord for each of `hits_`
+    double begin_ = 0.0, end_ = 0.0; ///< [m] ends of that part of the ray in which there is medium
+    double before_ = 0.0;            ///< [1] sum of s_i h_i k(u(a)) in equation (2)
     double depth_ = 0.0;
     double emitted_ = 0.0;
-    std::vector<double> emittedBy_;                  ///< [cd/m2] by hit; empty if the medium emits nothing
+    /// [cd/m2] By hit: emission of the ball; empty if the medium emits nothing.
+    std::vector<double> emittedBy_;
     glm::dvec3 origin_{0.0};                         ///< [m] origin of the ray
-    double emissionBegin_ = 0.0, emissionEnd_ = 0.0; ///< [m] arguments of start()
+    double emissionBegin_ = 0.0, emissionEnd_ = 0.0; ///< [m] arguments of the last start()
 };
 
 } // namespace fx::render

@@ -32,31 +32,33 @@ class BlobPathMedium final : public PathMedium
 {
 public:
     /// @param eye [m] world position to which rays are relative
-    /// @param illuminance [lx] of other lights; emitters that are much fainter are not sampled directly
+    /// @param illuminance [lx] illuminance by other lights; emitters that are much fainter are not sampled
+    ///         directly
     /// @param details detail of the blobs; empty: blobs are smooth
-    /// @param pixel width of a pixel of the picture, for the detail
+    /// @param pixel width of a pixel of the picture, by which detail is limited
     BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
                    double illuminance = 0.0, const MediumDetails& details = {}, const PixelWidth& pixel = {});
     std::unique_ptr<MediumWalk> walk() const override;
-    /// Null with detail, because its optical depth has no closed form.
+    /// Null if there is detail, because its optical depth has no closed form.
     std::unique_ptr<DepthWalk> depthWalk() const override;
 
-    /// Probability that increases with the illuminance by the glowing balls, computed without attenuation.
+    /// Probability of sampling an emitting ball. It increases with the illuminance by the emitting balls,
+    /// computed without attenuation.
     double emissionChance(const glm::dvec3& position) const override;
-    /// Whether a ball emits enough light for direct sampling.
+    /// True if at least one ball emits enough light for direct sampling.
     bool shines() const { return !shines_.empty(); }
 
     /// Samples a ball in proportion to its emission without self-absorption, then a direction that hits it.
     glm::dvec3 emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const override;
 
-    /// Largest value over the cells of a grid: the sum over balls of the largest extinction of each ball in
-    /// the cell, times the largest factor of detail.
+    /// Upper bound of the extinction: the largest value over the cells of a grid. The value of a cell is the
+    /// sum over balls of the ball's largest extinction in the cell, times the largest factor of detail.
     double majorant() const override;
 
     /// Optical properties of one ball. Balls are in the order of the tree.
     struct Substance
     {
-        double extinction;     ///< [1/m] at the center
+        double extinction;     ///< [1/m] extinction at the center
         double inverseRadius2; ///< [1/m2]
         glm::dvec3 albedo;     ///< [1]
         glm::dvec3 source;     ///< [cd/m2] emitted light per optical depth
@@ -73,7 +75,7 @@ public:
         const glm::dvec3& source = substances_[place].source;
         return source.x + source.y + source.z;
     }
-    /// [1/sr] Probability density with which emissionDirection() at `position` chooses this ball and a
+    /// [1/sr] Probability density with which emissionDirection() at `position` samples this ball and a
     /// direction that hits it.
     double emissionDensity(uint32_t place, const glm::dvec3& position) const;
 
@@ -92,14 +94,15 @@ private:
     std::vector<Substance> substances_;
     DetailedMedium details_;
     bool hasOnePhase_ = true;
-    /// Computes the members about emission. @param illuminance [lx]
+    /// Computes the members that concern emission.
+    /// @param illuminance [lx] illuminance by other lights
     void findGlow(std::span<const MediumBlob> blobs, double illuminance);
 
     glm::dvec3 glowCenter_{0.0};
     double glowRadius2_ = 0.0; ///< [m2]
-    /// [m2] intensity [cd] of all balls over the illuminance [lx] of other lights
+    /// [m2] intensity [cd] of all balls divided by the illuminance [lx] by other lights
     double glowIntensity_ = 0.0;
-    /// [1] Cumulative probability of drawing each ball; empty: no ball emits.
+    /// [1] Cumulative probability of sampling each ball; empty: no ball emits.
     std::vector<double> shines_;
 };
 

@@ -11,9 +11,9 @@ struct MediumShape
 {
     enum class Kind
     {
-        Ball, ///< `extent.x` is the radius
-        Slab, ///< |y - center.y| <= extent.y, infinite in x and z
-        Box   ///< |p - center| <= extent in each coordinate
+        Ball, ///< ball with the radius `extent.x`
+        Slab, ///< points with |y - center.y| <= extent.y; infinite in x and z
+        Box   ///< points p with |p - center| <= extent in each coordinate
     };
     Kind kind = Kind::Ball;
     glm::dvec3 center{0.0}; ///< [m]
@@ -23,15 +23,17 @@ struct MediumShape
 class HomogeneousMedium final : public PathMedium
 {
 public:
-    /// @param point extinction, scattering, emission and phase of every point
-    /// @param knowsDepth false: depthWalk() is null, to test the estimator of transmittance
-    /// @param looseness >= 1, factor by which majorants are too large, so that null collisions occur
+    /// @param point extinction, scattering, emission and phase function at every point
+    /// @param knowsDepth false: depthWalk() returns null, which serves to test the estimator of transmittance
+    /// @param looseness factor by which majorants exceed the extinction, >= 1; if it is above 1, null
+    ///         collisions occur
     HomogeneousMedium(const MediumShape& shape, const MediumPoint& point, bool knowsDepth = true,
                       double looseness = 1.0)
         : shape_(shape), point_(point), knowsDepth_(knowsDepth), looseness_(looseness)
     {}
     std::unique_ptr<MediumWalk> walk() const override;
-    /// Null if the extinction differs between channels, or if knowsDepth is false.
+    /// Null if the extinction differs between channels, or if the argument knowsDepth of the constructor was
+    /// false.
     std::unique_ptr<DepthWalk> depthWalk() const override;
     double majorant() const override;
 

@@ -31,18 +31,18 @@ namespace fx::render {
 class Equiangular
 {
 public:
-    /// @param part [m] of the ray, first < second
+    /// @param part [m] first and last ray parameter of the part that is sampled; first < second
     Equiangular(const TraceRay& ray, const std::pair<double, double>& part, const LightPlace& light);
 
-    /// Whether the light is so near that the density varies much along the part.
+    /// True if the light is so near that the density varies much along the part.
     bool isNear() const { return isNear_; }
-    double parameter(double u) const;       ///< [m] @param u in [0, 1)
+    double parameter(double u) const;       ///< [m] sampled ray parameter. @param u random number in [0, 1)
     double density(double parameter) const; ///< [1/m]
 
 private:
     double begin_, end_;      ///< [m] ends of the part
     double nearest_, across_; ///< [m] c, d
-    double from_, turn_;      ///< [rad] A, B - A
+    double from_, turn_;      ///< [rad] angles A and B - A
     bool isNear_;
 };
 

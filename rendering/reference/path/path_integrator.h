@@ -1,5 +1,5 @@
 /// @file path_integrator.h
-/// Light along random paths of any length through media and over surfaces.
+/// Computes the light along random paths of any length through media and over surfaces.
 #pragma once
 
 #include "rendering/reference/path/path_lights.h"
@@ -14,11 +14,12 @@
 
 namespace fx::render {
 
-/// The scene of the path tracer. The caller owns the pointed-to objects. Coordinates are those of the rays.
+/// The scene of the path tracer. The caller owns the objects to which the members point. Coordinates are
+/// those of the rays.
 struct PathScene
 {
     const PathMedium* medium = nullptr; ///< may be null
-    /// May be null; `mesh` has the normals and colors of the triangles.
+    /// Triangles; may be null. `mesh` has their normals and colors.
     const TriangleScene* triangles = nullptr;
     OpaqueMesh mesh;
     std::span<const PathLight* const> lights;
@@ -32,37 +33,40 @@ struct PathSettings
     FlightEstimator flight = FlightEstimator::Depth;
     ShadowEstimator shadow = ShadowEstimator::Exact;
 
-    /// Number of flights at the beginning of a path in which a collision is forced. Such a flight is weighted
-    /// by the share of light that collides; the remaining share escapes to the sky. Used only for
-    /// FlightEstimator::Depth and flights that do not end at a surface.
+    /// Number of flights (free paths) at the beginning of a path in which a collision is forced. Such a
+    /// flight is weighted by the share of light that collides; the remaining share escapes to the sky. Used
+    /// only for FlightEstimator::Depth and flights that do not end at a surface.
     uint32_t forcedFlights = 1;
 
     /// [1] Threshold of Russian roulette: paths with a lower throughput end at random. It is relative to the
-    /// share of light after forced collisions. 0: no roulette.
+    /// share of light that remains after forced collisions. 0: no roulette.
     double roulette = 0.1;
 };
 
 struct PathResult
 {
     glm::dvec3 luminance{0.0}; ///< [cd/m2]
-    /// [1] 1 - transmittance of the camera ray, or 1 if it hits a surface; mean of the channels
+    /// [1] Opacity of the camera ray: 1 - transmittance, as a mean of the channels; or 1 if the ray hits a
+    /// surface.
     double opacity = 0.0;
-    bool sawBackground = false; ///< the camera ray hit no surface, so that the background is visible
-    /// [1] transmittance to the background, with sawBackground; `luminance` then has no light of the sky
+    bool sawBackground = false; ///< true: the camera ray hit no surface, so that the background is visible
+    /// [1] Transmittance to the background; valid if sawBackground is true. Then `luminance` does not include
+    /// light of the sky.
     glm::dvec3 throughput{0.0};
 };
 
-/// Traces paths. Each thread needs its own object.
+/// Traces random paths. Each thread needs its own object.
 class PathIntegrator
 {
 public:
-    /// @param scene its objects must outlive the integrator
+    /// @param scene scene whose objects must outlive the integrator
     PathIntegrator(const PathScene& scene, const PathSettings& settings);
 
-    /// Traces one path from the eye. @param begin [m] ray parameter
+    /// Traces one path from the eye.
+    /// @param begin [m] ray parameter at which the path begins
     PathResult trace(const TraceRay& ray, double begin, PathSampler& sampler);
 
-    /// Tentative collisions so far, as a measure of work
+    /// Number of tentative collisions so far, as a measure of work
     uint64_t collisions() const { return tracker_.collisions(); }
 
 private:
@@ -73,30 +77,33 @@ private:
     };
 
     SurfaceHit surface(const TraceRay& ray, double begin);
-    /// [lx] Illuminance of a light sample, attenuated by media and surfaces.
+    /// [lx] Illuminance by a light sample, attenuated by media and surfaces.
     glm::dvec3 arriving(const LightSample& sample, const glm::dvec3& position, PathSampler& sampler);
 
-    /// Light from light sources that is scattered at the end of a path segment.
+    /// Light of light sources that is scattered at the end of a path segment.
     glm::dvec3 lightAt(const Way& way, PathSampler& sampler);
-    /// [1/m] Probability density of a collision at a parameter of `way`, which must be the last flight by
-    /// depth.
+    /// [1/m] Probability density of a collision at a ray parameter of `way`, which must be the last flight
+    /// that was sampled by optical depth.
     double collisionDensity(const Way& way, double parameter) const;
-    /// Light from nearby light sources that is scattered anywhere on the segment. One point is sampled for
-    /// each light.
+    /// Light of nearby light sources that is scattered anywhere on a path segment. One point on the segment
+    /// is sampled for each light.
     glm::dvec3 lightOnWay(const Way& way, PathSampler& sampler);
     /// Light emitted by the medium that arrives at a point and is scattered there.
     /// @param density [1/sr] probability density of the next flight's direction, which equals the share of
     ///         light that is scattered to this direction
     template <class Density>
     glm::dvec3 emissionAt(const glm::dvec3& position, const Density& density, PathSampler& sampler);
-    /// Scatters at the end of a segment: returns the scattered light, and samples the next direction.
+    /// Scatters light at the end of a segment: returns the scattered light, and samples the next direction.
     glm::dvec3 scatter(const Way& way, PathSampler& sampler, FlightStart& outNext);
-    /// [1] Opacity of the camera ray up to infinity.
+    /// [1] Opacity along the camera ray, up to infinity.
     double opacity(const Way& way, PathSampler& sampler);
-    /// Russian roulette: ends paths of low throughput at random, and weights the surviving ones accordingly.
-    /// @param least [1] throughput below which it is applied
+    /// Applies Russian roulette: ends paths of low throughput at random, and increases the weight of the
+    /// others.
+    /// @param least [1] throughput below which paths may end
+    /// @return false if the path ends
     static bool survives(double least, glm::dvec3& io, PathSampler& sampler);
-    /// Reflects at a surface: adds the reflected light of light sources, and samples the next direction.
+    /// Reflects light at a surface: adds the reflected light of light sources, and samples the next
+    /// direction.
     void reflect(const SurfaceHit& hit, const TraceRay& ray, PathSampler& sampler, FlightStart& outNext,
                  glm::dvec3& io, glm::dvec3& outLuminance);
 

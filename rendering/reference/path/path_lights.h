@@ -16,11 +16,11 @@ namespace fx::render {
 /// A sampled direction towards a light.
 struct LightSample
 {
-    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
-    /// [m] distance of the light; objects beyond it do not block
+    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit vector towards the light
+    /// [m] distance of the light; objects beyond it do not block it
     double distance = std::numeric_limits<double>::infinity();
-    /// [lx] luminance over the probability density per solid angle. Its expected value is the illuminance of
-    /// a surface perpendicular to the light.
+    /// [lx] luminance divided by the probability density per solid angle. Its expected value is the
+    /// illuminance of a surface perpendicular to the light.
     glm::dvec3 illuminance{0.0};
 };
 
@@ -28,7 +28,7 @@ struct LightSample
 struct LightPlace
 {
     glm::dvec3 center{0.0}; ///< [m]
-    double radius = 0.0;    ///< [m] 0: a point
+    double radius = 0.0;    ///< [m] radius of the light; 0: a point light
 };
 
 /// A light that rays do not hit, so that it must be sampled. Coordinates are those of the rays. Threads: any
@@ -37,7 +37,8 @@ class PathLight
 {
 public:
     virtual ~PathLight() = default;
-    /// Samples a direction. @param u two numbers in [0, 1)
+    /// Samples a direction to the light.
+    /// @param u two random numbers in [0, 1)
     virtual LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const = 0;
 
     /// Position of the light; nothing for lights at infinity.
@@ -48,22 +49,24 @@ public:
 class SunLight final : public PathLight
 {
 public:
-    /// @param direction unit, towards its center  @param illuminance [lx] on a surface perpendicular to it
-    /// @param angularRadius [rad] 0..pi/2; 0: parallel light
+    /// @param direction unit vector towards the center of the disc
+    /// @param illuminance [lx] illuminance of a surface perpendicular to it
+    /// @param angularRadius [rad] angular radius of the disc, 0..pi/2; 0: parallel light
     SunLight(const glm::dvec3& direction, const glm::dvec3& illuminance, double angularRadius);
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
 
 private:
     glm::dvec3 direction_, illuminance_;
     double cosine_; ///< cosine of the angular radius
-    double scale_;  ///< [1] factor with which samples have the mean `illuminance_`
+    double scale_;  ///< [1] factor by which samples get the mean `illuminance_`
 };
 
 /// A ball with a surface of uniform luminance. From inside, the surface is visible in all directions.
 class BallPathLight final : public PathLight
 {
 public:
-    /// @param intensity [cd] in every direction  @param radius [m] > 0
+    /// @param intensity [cd] intensity in every direction
+    /// @param radius [m] > 0
     BallPathLight(const glm::dvec3& center, const glm::dvec3& intensity, double radius);
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
     std::optional<LightPlace> place() const override { return LightPlace{center_, radius_}; }
@@ -78,8 +81,8 @@ private:
 class SpotPathLight final : public PathLight
 {
 public:
-    /// @param direction unit, direction in which light travels
-    /// @param intensity [cd] inside of the inner angle
+    /// @param direction unit vector, direction in which light travels
+    /// @param intensity [cd] intensity inside of the inner angle
     /// @param inner, outer [rad] half angles, 0 <= inner <= outer <= pi; both pi: a point light
     SpotPathLight(const glm::dvec3& position, const glm::dvec3& direction, const glm::dvec3& intensity,
                   double inner, double outer);
@@ -96,7 +99,8 @@ private:
 class GlowPathLight final : public PathLight
 {
 public:
-    /// @param intensity [cd] in every direction  @param radius [m] extent, > 0
+    /// @param intensity [cd] intensity in every direction
+    /// @param radius [m] extent of the group, > 0
     GlowPathLight(const glm::dvec3& center, const glm::dvec3& intensity, double radius)
         : center_(center), intensity_(intensity), radius_(radius)
     {}
@@ -111,12 +115,13 @@ private:
 /// Converts a light of a scene. @param eye [m] world position to which rays are relative
 std::unique_ptr<PathLight> makePathLight(const SceneLight& light, const glm::dvec3& eye);
 
-/// Light from infinity in all directions.
+/// Light from all directions at infinite distance.
 class PathSky
 {
 public:
     virtual ~PathSky() = default;
-    /// [cd/m2] Luminance in the direction of a ray that escapes. @param direction unit
+    /// [cd/m2] Luminance in the direction of a ray that escapes.
+    /// @param direction unit vector
     virtual glm::dvec3 luminance(const glm::dvec3& direction) const = 0;
 };
 

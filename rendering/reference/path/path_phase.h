@@ -9,24 +9,29 @@
 
 namespace fx::render {
 
-/// A phase function, as a value type. Threads: any thread may call const functions.
+/// A phase function. Threads: any thread may call const functions.
 class PhaseFunction
 {
 public:
     static PhaseFunction isotropic() { return {}; }
     static PhaseFunction rayleigh();
+    /// The Henyey-Greenstein function.
     /// @param g mean cosine, -0.999..0.999
     static PhaseFunction henyeyGreenstein(double g);
-    /// @param share share of the first lobe, 0..1  @param first, second mean cosines
+    /// A weighted sum of two Henyey-Greenstein functions.
+    /// @param share weight of the first lobe, 0..1  @param first, second mean cosines of the lobes
     static PhaseFunction twoLobes(double first, double second, double share);
 
-    /// [1/sr] >= 0, integrates to 1 over all directions. @param cosine between the old and the new direction
+    /// [1/sr] Value of the phase function, >= 0; its integral over all directions is 1.
+    /// @param cosine cosine of the angle between the old and the new direction
     double at(double cosine) const;
-    /// Samples the cosine of a direction with the density at(). @param u in [0, 1)
+    /// Samples the cosine of the angle of scattering with the density at().
+    /// @param u random number in [0, 1)
     double cosine(double u) const;
     double meanCosine() const { return share_ * g_[0] + (1.0 - share_) * g_[1]; }
 
-    /// A direction with the given cosine to `direction`, rotated about it by `turn` in [0, 1) turns.
+    /// The direction that has the given cosine to `direction` and is rotated about it by `turn` turns, [0,
+    /// 1).
     static glm::dvec3 around(const glm::dvec3& direction, double cosine, double turn);
 
     bool operator==(const PhaseFunction&) const = default;

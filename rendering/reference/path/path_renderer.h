@@ -23,13 +23,13 @@ struct PathPictureSettings
 {
     int width = 640;       ///< [pixel] 1..16384
     int height = 360;      ///< [pixel] 1..16384
-    uint32_t samples = 64; ///< paths per pixel, 1..2^24; with `error` the largest number
-    /// [1] Wanted standard error of pixels, root mean square over a tile, in the unit of written values; 0:
-    /// all pixels have `samples` paths. A tile first traces kPilotSamples paths per pixel; their variance
-    /// gives the required number of paths. These pilot paths are not part of the picture, because a mean is
-    /// biased if its number of samples depends on the samples.
+    uint32_t samples = 64; ///< number of paths per pixel, 1..2^24; if `error` is not 0, the largest number
+    /// [1] Requested standard error of pixels, as a root mean square over a tile, in the unit of written
+    /// values. 0: all pixels have `samples` paths. A tile first traces kPilotSamples paths per pixel; their
+    /// variance gives the required number of paths. These pilot paths are not part of the picture, because a
+    /// mean is biased if its number of samples depends on the samples.
     double error = 0.0;
-    double exposure = 1.0;      ///< [m2/cd] written value per luminance
+    double exposure = 1.0;      ///< [m2/cd] exposure: written value divided by luminance
     double sunRadius = 0.00465; ///< [rad] angular radius of the sun, 0..pi/2
     uint64_t seed = 1;
     PathSettings path;
@@ -39,8 +39,9 @@ struct PathPictureSettings
 namespace path_channel {
 enum : uint32_t
 {
-    Color, ///< RGBA, linear, exposed; A is 1 in front of triangles and background, or the medium's opacity
-    Variance = 4, ///< RGB, variance of the mean: square of the standard error
+    /// RGBA, linear and exposed; A is 1 in front of triangles and background, otherwise the medium's opacity.
+    Color,
+    Variance = 4, ///< RGB: variance of the mean, which is the square of the standard error
     Samples = 7,  ///< number of paths of the pixel
     Count
 };
@@ -50,8 +51,8 @@ enum : uint32_t
 struct PathWork
 {
     uint64_t paths = 0;
-    uint64_t collisions = 0; ///< tentative collisions
-    uint64_t nonFinite = 0;  ///< paths whose result was not finite; they count as black
+    uint64_t collisions = 0; ///< number of tentative collisions
+    uint64_t nonFinite = 0;  ///< number of paths whose result was not finite; they count as black
 };
 
 class PathRenderer
@@ -70,18 +71,19 @@ public:
     /// Identifies the picture: a hash of all inputs of its pixels.
     uint64_t key() const { return key_; }
     uint32_t tileCount() const { return tiles_.tileCount(); }
-    /// Sets a tile from an earlier run. It is ignored if number or length are invalid.
+    /// Sets the values of a tile that an earlier run has rendered. They are ignored if tile number or length
+    /// are invalid.
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
     /// Renders the missing tiles.
-    /// @param journal receives each tile; may be null
+    /// @param journal receives each finished tile; may be null
     /// @return Interrupted if `callbacks` requested it, or the error of the journal
     base::Status render(TileJournal* journal, const RenderCallbacks& callbacks);
 
-    /// One channel (see path_channel), width x height, rows from the top.
+    /// The values of one channel (see path_channel), width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return tiles_.pixels(channel); }
     std::vector<float> interleaved(uint32_t first) const { return tiles_.interleaved(first); }
-    PathWork work() const; ///< work of this run only
-    /// [1] Standard error of written values, root mean square over all pixels and color channels.
+    PathWork work() const; ///< work of this run, without earlier runs
+    /// [1] Standard error of written values, as a root mean square over all pixels and color channels.
     double standardError() const;
 
 private:

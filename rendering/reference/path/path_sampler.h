@@ -34,8 +34,9 @@ public:
     PathSampler(uint64_t seed, uint32_t pixel, uint32_t sample) : seed_(seed), pixel_(pixel), sample_(sample)
     {}
 
-    std::array<double, 2> pair(); ///< each in [0, 1)
-    /// A number in [0, 1) without stratification, for frequent decisions, such as those of null collisions.
+    std::array<double, 2> pair(); ///< two random numbers in [0, 1)
+    /// A random number in [0, 1) without stratification. Used for frequent decisions, such as those of null
+    /// collisions.
     double number();
 
 private:
@@ -43,7 +44,7 @@ private:
     uint32_t pixel_, sample_;
     uint32_t pairs_ = 0, numbers_ = 0;
     std::array<uint32_t, 4> words_{};
-    uint32_t left_ = 0; ///< unused numbers in `words_`
+    uint32_t left_ = 0; ///< number of unused numbers in `words_`
 };
 
 } // namespace fx::render

@@ -1,5 +1,6 @@
 /// @file path_tracking.h
-/// Free paths through a medium, the light that the medium emits along them, and transmittances.
+/// Samples free paths through a medium, and computes the light that the medium emits along them and
+/// transmittances.
 #pragma once
 
 #include "rendering/reference/path/path_medium.h"
@@ -13,24 +14,24 @@
 
 namespace fx::render {
 
-/// How free paths are sampled.
+/// Method by which free paths are sampled.
 enum class FlightEstimator : uint8_t
 {
-    Depth, ///< by inverting the optical depth if it has a closed form, otherwise by local majorants
+    Depth, ///< inverts the optical depth if it has a closed form; otherwise uses local majorants
 
-    LocalMajorants, ///< by null collisions, with a majorant for each segment of MediumWalk
+    LocalMajorants, ///< samples null collisions, with a majorant for each segment of MediumWalk
 
-    /// Plain delta tracking [WMHL65], with which the others are compared. It uses one majorant for the whole
-    /// medium, also for shadow rays. Absorption ends paths at random.
+    /// Plain delta tracking [WMHL65], which serves for comparison. It uses one majorant for the whole medium,
+    /// also for shadow rays. Absorption ends paths at random.
     Analog
 };
 
-/// How the transmittance towards lights is computed.
+/// Method by which the transmittance towards lights is computed.
 enum class ShadowEstimator : uint8_t
 {
-    Exact, ///< closed form of the medium if available, otherwise ratio tracking
-    Ratio, ///< ratio tracking: product of the probabilities of null collisions [NSJ14]
-    Delta  ///< 1 if a free path is longer than the distance to the light, otherwise 0
+    Exact, ///< uses the closed form of the medium if there is one; otherwise ratio tracking
+    Ratio, ///< uses ratio tracking: the product of the probabilities of null collisions [NSJ14]
+    Delta  ///< uses 1 if a sampled free path is longer than the distance to the light, otherwise 0
 };
 
 /// Input of a free path.
@@ -39,14 +40,14 @@ struct FlightStart
     TraceRay ray;
     double begin = 0.0;                                   ///< [m] ray parameter
     double end = std::numeric_limits<double>::infinity(); ///< [m]
-    /// a collision is forced; requires flights by depth
+    /// true: a collision is forced; requires flights by depth
     bool isForced = false;
 
-    /// [1/sr] Probability density of the direction, if light at the begin was also sampled with
+    /// [1/sr] Probability density of the direction, if light at the begin of the path was also sampled with
     /// PathMedium::emissionDirection(); otherwise 0.
     double density = 0.0;
-    /// Number of points on the path at which each of two methods samples the emission; 0: one point, one
-    /// method.
+    /// Number of points on the path at which each of two methods samples the emission; 0: only one method
+    /// samples, at one point.
     uint32_t seenEmission = 0;
 };
 
@@ -54,7 +55,7 @@ struct FlightStart
 struct Flight
 {
     bool isScattered = false;
-    double distance = 0.0; ///< [m] ray parameter of the scattering
+    double distance = 0.0; ///< [m] ray parameter at which the light is scattered
     PhaseFunction phase;
     double colliding = 1.0; ///< [1] share of light that collides, if the collision was forced
     double passing = 0.0;   ///< [1] share of light that escapes, if the collision was forced
@@ -107,28 +108,28 @@ struct Flight
 class MediumTracker
 {
 public:
-    /// @param medium may be null; must outlive the tracker
+    /// @param medium medium, which must outlive the tracker; null: empty space
     MediumTracker(const PathMedium* medium, FlightEstimator flight, ShadowEstimator shadow);
 
     /// Samples one free path.
     /// @param io throughput; it is multiplied by the transmittance and the scattering weight
-    /// @param outLuminance [cd/m2] the light that the medium emits along the path is added
+    /// @param outLuminance [cd/m2] light; that which the medium emits along the path is added
     Flight fly(const FlightStart& start, PathSampler& sampler, glm::dvec3& io, glm::dvec3& outLuminance);
 
-    /// Transmittance of the medium between two parameters, exact or as an unbiased estimate.
+    /// Transmittance of the medium between two ray parameters, exact or as an unbiased estimate.
     glm::dvec3 transmittance(const TraceRay& ray, double begin, double end, PathSampler& sampler);
 
-    /// The path of the last fly(); null if flights are not by depth.
+    /// The ray of the last fly(), with its optical depth; null if flights are not sampled by depth.
     const DepthWalk* lastWay() const { return depthWalk_.get(); }
 
-    /// Emitted light [cd/m2] from a direction of PathMedium::emissionDirection(); 0 if flights are not by
-    /// depth.
+    /// [cd/m2] Emitted light from a direction of PathMedium::emissionDirection(), divided by the sum of the
+    /// densities of both methods that sample this direction. 0 if flights are not sampled by depth.
     /// @param density [1/sr] probability density with which the phase function samples this direction, see
     ///         FlightStart::density
-    /// @return light divided by the sum of both densities
     glm::dvec3 emissionFrom(const TraceRay& ray, double end, double density, PathSampler& sampler);
 
-    uint64_t collisions() const { return collisions_; } ///< tentative collisions so far, as a measure of work
+    /// Number of tentative collisions so far, as a measure of work.
+    uint64_t collisions() const { return collisions_; }
 
 private:
     Flight flyByDepth(const FlightStart& start, PathSampler& sampler, glm::dvec3& io,
@@ -138,8 +139,8 @@ private:
 
     ShadowEstimator shadow_;
     std::unique_ptr<MediumWalk> walk_, shadowWalk_;
-    std::unique_ptr<DepthWalk> depthWalk_, emissionWalk_; ///< null: flights by collisions
-    /// [1/m] majorant for the whole medium; 0: local majorants
+    std::unique_ptr<DepthWalk> depthWalk_, emissionWalk_; ///< null if flights are sampled by collisions
+    /// [1/m] majorant for the whole medium; 0: local majorants are used
     double majorant_ = 0.0;
     uint64_t collisions_ = 0;
 };

@@ -1,5 +1,5 @@
 /// @file blob_light.h
-/// Scattered light of blobs, from the illumination at their centers.
+/// Computes the light that blobs scatter, from the illumination at their centers.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"

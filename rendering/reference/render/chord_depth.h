@@ -1,5 +1,5 @@
 /// @file chord_depth.h
-/// Optical depth of blobs along a ray, computed from the chords in RayHits.
+/// Computes the optical depth of blobs along a ray, from the chords in RayHits.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"
@@ -18,7 +18,8 @@ struct BlobChord
         peak = blob.extinction * q2 * q2;
     }
 
-    /// u at parameter `t`, clamped to -1..1; 1 if the chord has no length due to rounding.
+    /// The value of u at the ray parameter `t`, clamped to -1..1; 1 if the chord has no length due to
+    /// rounding.
     double place(double t) const { return half > 0.0 ? std::clamp((t - nearest) / half, -1.0, 1.0) : 1.0; }
     /// Integral of (1 - u^2)^2 from 0 to place(t).
     double bracket(double t) const
@@ -31,7 +32,7 @@ struct BlobChord
     {
         return peak * half * (bracket(end) - bracket(begin));
     }
-    /// [1/m] Extinction at parameter `t`.
+    /// [1/m] Extinction at the ray parameter `t`.
     double extinction(double t) const
     {
         const double u = place(t);
@@ -42,7 +43,7 @@ struct BlobChord
     double nearest, half, peak;
 };
 
-/// Optical depth of all hits between two ray parameters.
+/// Optical depth of all hit blobs between two ray parameters.
 inline double opticalDepthOf(const MediumView& medium, const RayHits& hits, double begin, double end)
 {
     double sum = 0.0;

@@ -1,5 +1,6 @@
 /// @file detailed_ray.h
-/// Light and optical depth along a ray through fields with detail, for which there is no closed form.
+/// Computes light and optical depth along a ray through fields with detail, for which there is no closed
+/// form.
 #pragma once
 
 #include "rendering/reference/render/chord_depth.h"
@@ -42,10 +43,10 @@ class DetailedRay
 public:
     enum class Wanted : uint8_t
     {
-        Depth, ///< optical depth only
+        Depth, ///< the optical depth only
         Light  ///< optical depth, light, coverage and distance
     };
-    /// @param medium must be built and must outlive the object
+    /// @param medium medium, which must be built and must outlive the object
     DetailedRay(const MediumView& medium, Wanted wanted, double tolerance);
 
     /// Integrates a ray. The functions from opticalDepth() to distance() return the results.
@@ -54,21 +55,21 @@ public:
 
     double opticalDepth() const { return depth_; }
     double opticalDepth(double from, double to) const { return depthTo(to) - depthTo(from); }
-    const glm::dvec3& light() const { return sent_.light; }       ///< [cd/m2] emitted
-    const glm::dvec3& coverage() const { return sent_.coverage; } ///< [1] opacity of fire, smoke, dust
+    const glm::dvec3& light() const { return sent_.light; }       ///< [cd/m2] emitted light
+    const glm::dvec3& coverage() const { return sent_.coverage; } ///< [1] opacities of fire, smoke and dust
     /// [cd/m2] Light scattered by blobs of a layer, see blob_light.h.
     const glm::dvec3& scattered(base::MediaLayer layer) const { return sent_.scattered[size_t(layer)]; }
     /// [m] mean distance of the visible medium, +infinity without medium: formula seen-depth (1).
     double distance() const;
 
-    /// Evaluates the detail at a ray parameter, for share().
+    /// Evaluates the detail at a ray parameter. The results are available from share().
     void look(double parameter);
-    /// [1] Eroded extinction of a blob over its smooth extinction, at the parameter of look().
+    /// [1] Eroded extinction of a blob divided by its smooth extinction, at the parameter passed to look().
     /// @param hit index in `hits`
     double share(size_t hit) const { return mix_.share(hits_->place[hit]); }
 
 private:
-    /// Light towards the eye: per meter of the ray, or of the whole ray.
+    /// Light that reaches the eye: per meter of the ray, or from the whole ray.
     struct Sent
     {
         glm::dvec3 light{0.0}, coverage{0.0};
@@ -84,7 +85,7 @@ private:
         double extinction = 0.0; ///< [1/m]
         Sent sent;
     };
-    /// Half of a piece for which (2) and (3) hold.
+    /// Half of a piece of the ray for which equations (2) and (3) hold.
     struct Piece
     {
         double begin, end;       ///< [m]
@@ -110,7 +111,7 @@ private:
     TraceRay ray_{};
     const RayHits* hits_ = nullptr;
     std::vector<BlobChord> chords_;
-    std::vector<Sample> samples_; ///< ends and midpoints of the first pieces
+    std::vector<Sample> samples_; ///< samples at the ends and midpoints of the first pieces
     std::vector<Piece> pieces_;
     double perLength_ = 0.0; ///< [1/m] 1 / L
     double brightest_ = 0.0; ///< [cd/m2] J

@@ -18,14 +18,14 @@ struct MediumBlob
 {
     glm::dvec3 center{0.0};    ///< [m] world
     double radius = 0.0;       ///< [m] > 0
-    double crossSection = 0.0; ///< [m2] > 0, integral of its extinction over space
+    double crossSection = 0.0; ///< [m2] integral of the ball's extinction over space, > 0
     glm::dvec3 albedo{0.0};    ///< [1]
     glm::dvec3 source{0.0};    ///< [cd/m2] emitted light per optical depth
-    double anisotropy = 0.0;   ///< [1] Henyey-Greenstein g of scattering
+    double anisotropy = 0.0;   ///< [1] mean cosine g of the Henyey-Greenstein phase function
     /// [1] share of the opacity that belongs to the layer Fire
     double fireShare = 0.0;
     base::MediaLayer layer = base::MediaLayer::Smoke; ///< layer of the remaining opacity
-    uint64_t instance = 0;                            ///< instance of the scene to which it belongs
+    uint64_t instance = 0;                            ///< instance of the scene to which the ball belongs
     glm::dvec3 velocity{0.0};                         ///< [m/s] world
     double temperature = 0.0;                         ///< [K]; the emitted light is in `source`
     uint64_t id = 0;                                  ///< id of the ball in its group of the snapshot
@@ -45,7 +45,7 @@ struct MediumList
 ///
 /// source = (1 - albedo) black body + emission. The detail of fields is included. The noise of single balls
 /// (`detailAmount`) exists in GPU passes only and is omitted.
-/// @param interpolation 0 older .. 1 newer
+/// @param interpolation moment between the older (0) and the newer (1) snapshot
 MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation);
 
 } // namespace fx::render

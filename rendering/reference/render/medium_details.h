@@ -20,7 +20,8 @@ struct MediumDetails
     /// Data that all blobs of a group share.
     struct Group
     {
-        GroupDetail detail;     ///< relative to `origin`, world axes
+        /// Parameters of the detail, for positions relative to `origin`, along world axes.
+        GroupDetail detail;
         glm::dvec3 origin{0.0}; ///< [m] world
     };
     /// Data of one ball.
@@ -29,33 +30,36 @@ struct MediumDetails
         int32_t group = -1;                 ///< index in `groups`; -1: the ball has no detail
         std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
         float temperature = 0.0f;           ///< [K]
-        float thinning = 0.0f;              ///< [1] v of field-detail
+        float thinning = 0.0f;              ///< [1] symbol v of formula field-detail
     };
     std::vector<Group> groups;
-    std::vector<Ball> balls;         ///< one for each ball of the list; empty without detail
-    int octaves = kMaxDetailOctaves; ///< 1..kMaxDetailOctaves
+    std::vector<Ball> balls;         ///< detail of each ball of the list; empty if there is no detail
+    int octaves = kMaxDetailOctaves; ///< number of octaves of noise, 1..kMaxDetailOctaves
 
     bool isGiven() const { return !groups.empty(); }
 };
 
-/// Width of a pixel as a function of distance. Octaves of noise finer than two pixels are faded out.
+/// Width of a pixel as a function of distance. Octaves of noise whose period is less than two pixels are
+/// faded out.
 struct PixelWidth
 {
-    glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit, the axis of the view
-    double perDepth = 0.0;              ///< [1] width of a pixel per distance along the axis
-    double constant = 0.0;              ///< [m] added to the width
+    glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit vector, view axis
+    double perDepth = 0.0;              ///< [1] width of a pixel divided by the distance along the axis
+    double constant = 0.0;              ///< [m] constant part of the width
 
     PixelWidth() = default;
     PixelWidth(const ReferenceCamera& camera, int height);
-    double at(const glm::dvec3& point) const; ///< [m] width of a pixel at `point` [m], relative to the eye
+    /// [m] Width of a pixel at a point [m] that is relative to the eye.
+    double at(const glm::dvec3& point) const;
 };
 
-/// Details of a medium with its balls in the order of a tree. Threads: any thread may call const functions.
+/// The detail of a medium, with its balls in the order of a tree. Threads: any thread may call const
+/// functions.
 class DetailedMedium
 {
 public:
     DetailedMedium() = default;
-    /// @param tree tree of the balls; a "place" is an index in its order
+    /// @param tree tree of the balls; a "place" is an index in the order of the tree
     DetailedMedium(const MediumDetails& details, const BallTree& tree, const glm::dvec3& eye,
                    const PixelWidth& pixel);
 
@@ -67,13 +71,14 @@ public:
     double lumpSize(size_t group) const;
 
     /// Evaluates the detail of a group at a point.
-    /// @param extinction [1/m] > 0, sum over the balls of the group
-    /// @param carried [cell], thinning [1] means over the balls, weighted by extinction
+    /// @param extinction [1/m] extinction of all balls of the group at the point, > 0
+    /// @param carried, thinning [cell], [1] means over the balls of the group, weighted by extinction
     MediumDetail at(size_t group, double extinction, const std::array<glm::dvec3, 2>& carried,
                     double thinning, const glm::dvec3& point) const;
     /// [cd/m2] Black-body luminance at the temperature of a ball.
     const glm::vec3& thermal(uint32_t place) const { return thermal_[place]; }
-    /// [1/m] Upper bound of the eroded extinction where the smooth extinction is at most `most` [1/m].
+    /// [1/m] Upper bound of the eroded extinction at points where the smooth extinction is at most `most`
+    /// [1/m].
     double maxErodedExtinction(size_t group, double most) const;
     double mostGain(size_t group) const; ///< [1] largest factor by which detail multiplies extinction
 
@@ -81,7 +86,7 @@ private:
     struct Group
     {
         GroupDetail detail;
-        glm::dvec3 origin; ///< [m] relative to the eye
+        glm::dvec3 origin; ///< [m] origin of the group's coordinates, relative to the eye
     };
     std::vector<Group> groups_;
     std::vector<MediumDetails::Ball> balls_; ///< by place
@@ -90,34 +95,37 @@ private:
     int octaves_ = kMaxDetailOctaves;
 };
 
-/// Sums over the balls at one point, by group, and the resulting detail. Each thread needs its own object.
+/// Sums properties of the balls at one point, by group, and evaluates the resulting detail. Each thread needs
+/// its own object.
 class DetailMix
 {
 public:
     explicit DetailMix(const DetailedMedium& medium) : medium_(medium) {}
 
     void clear();
-    /// Adds a ball. @param extinction [1/m] of the ball at the point
+    /// Adds a ball.
+    /// @param extinction [1/m] extinction of the ball at the point
     void add(uint32_t place, double extinction);
-    /// Evaluates the detail at the point. Call it after all balls are added.
+    /// Evaluates the detail at the point. Must be called after all balls are added.
     void finish(const glm::dvec3& point);
-    /// [1] Factor of the extinction of a ball.
+    /// [1] Factor by which detail multiplies the extinction of a ball.
     double share(uint32_t place) const
     {
         const int32_t group = medium_.groupOf(place);
         return group < 0 ? 1.0 : sums_[size_t(group)].detail.share;
     }
-    /// [1] Factor of the temperature of a ball.
+    /// [1] Factor by which detail multiplies the temperature of a ball.
     float temperature(uint32_t place) const
     {
         const int32_t group = medium_.groupOf(place);
         return group < 0 ? 1.0f : sums_[size_t(group)].detail.temperature;
     }
     /// [cd/m2] Emitted light of a ball per optical depth, with detail.
-    /// @param source the same without detail
+    /// @param source emitted light without detail
     glm::dvec3 source(uint32_t place, const glm::dvec3& source, const glm::dvec3& albedo) const;
 
-    /// [1/m] Upper bound of the eroded extinction of all added balls, if add() was called with upper bounds.
+    /// [1/m] Upper bound of the eroded extinction of all added balls. Requires that add() was called with
+    /// upper bounds.
     double maxErodedExtinction() const;
 
 private:
@@ -130,7 +138,7 @@ private:
     };
     const DetailedMedium& medium_;
     std::vector<Sum> sums_; ///< by group
-    double smooth_ = 0.0;   ///< [1/m] sum over balls without detail
+    double smooth_ = 0.0;   ///< [1/m] sum of the extinctions of balls without detail
 };
 
 } // namespace fx::render

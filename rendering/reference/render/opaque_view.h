@@ -18,11 +18,11 @@ namespace fx::render {
 /// Radiance of rays that hit no triangle. The caller owns `image`.
 struct OpaqueBackground
 {
-    glm::vec3 luminance{0.0f};        ///< [cd/m2] at the zenith, used if `image` is empty
-    glm::vec3 horizon{0.0f};          ///< [cd/m2] at and below the horizon, used if `image` is empty
-    int width = 0, height = 0;        ///< [pixel] of `image`
+    glm::vec3 luminance{0.0f}; ///< [cd/m2] luminance at the zenith, used if `image` is empty
+    glm::vec3 horizon{0.0f};   ///< [cd/m2] luminance at and below the horizon, used if `image` is empty
+    int width = 0, height = 0; ///< [pixel] size of `image`
     std::span<const glm::vec3> image; ///< [cd/m2] top row first
-    bool panorama = false;            ///< true: equirectangular around the eye; false: fills the picture
+    bool panorama = false; ///< true: `image` is equirectangular around the eye; false: it fills the picture
 };
 
 /// The opaque part of a scene.
@@ -33,10 +33,10 @@ struct OpaqueScene
     Lighting lighting;
     std::vector<SceneLight> lamps;
     std::vector<EffectLight> lights; ///< lights of the effects
-    /// Those of `lights` that are not emitted by a medium. The path tracer uses only these, because its media
-    /// emit the light of the others.
+    /// Those of `lights` that particles emit, and not a medium. The path tracer uses only these, because it
+    /// computes the light of emitting media by itself.
     std::vector<EffectLight> particleLights;
-    /// There are no surfaces and no background: the picture is transparent behind the medium.
+    /// True: there are no surfaces and no background, so that the picture is transparent behind the medium.
     bool isEmpty = false;
 };
 
@@ -54,11 +54,12 @@ struct OpaqueSample
 using Illuminance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
 
 /// Shades surfaces like rendering/stage, but with exact shadow rays instead of a shadow map. Media cast no
-/// shadow on surfaces, and lamps are points at their centers. A given Illuminance replaces this shading.
+/// shadow on surfaces, and lamps are points at their centers. An Illuminance that is passed to sample()
+/// replaces this shading.
 class OpaqueView
 {
 public:
-    /// @param scene its spans must stay valid
+    /// @param scene scene, whose spans must stay valid
     /// @param eye [m] world position to which rays are relative
     void build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks);
 
@@ -68,7 +69,7 @@ public:
     bool hasMesh() const { return !triangles_.empty(); }
     const BallTree& tree() const { return triangles_.tree(); }
 
-    /// Radiance of a ray, and the distance of the surface that it hits.
+    /// Radiance along a ray, and the distance of the surface that it hits.
     /// @param x, y position in the picture, 0..1 from the upper left
     /// @param hits hits of the ray in tree(); ignored without a mesh
     /// @param begin [m] ray parameter where the ray begins
@@ -77,13 +78,15 @@ public:
     OpaqueSample sample(const TraceRay& ray, double x, double y, const RayHits& hits, double begin,
                         RayHits& scratch, const Illuminance& illuminance = {}) const;
 
-    /// [m] Distance along the ray to the first triangle, +infinity if there is none. @param scratch memory
+    /// [m] Distance along the ray to the first triangle, +infinity if there is none.
+    /// @param scratch memory that is overwritten
     double distance(const TraceRay& ray, RayHits& scratch) const
     {
         return hasMesh() ? triangles_.trace(ray, 0.0, scratch).distance
                          : std::numeric_limits<double>::infinity();
     }
-    /// Whether a triangle intersects the ray before `distance` [m]. @param scratch memory
+    /// True if a triangle intersects the ray before `distance` [m].
+    /// @param scratch memory that is overwritten
     bool blocks(const TraceRay& ray, double distance, RayHits& scratch) const
     {
         return this->distance(ray, scratch) < distance;

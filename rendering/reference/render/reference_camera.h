@@ -15,9 +15,10 @@ struct ReferenceCamera
     glm::dvec3 up{0.0, 1.0, 0.0};       ///< unit
     glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit
     bool orthographic = false;
-    /// Half of the picture's height: tangent of half the angle of view, or [m] if orthographic.
+    /// Half of the picture's height: the tangent of half the angle of view; or, if orthographic, a length
+    /// [m].
     double halfHeight = 0.5;
-    double nearDistance = 0.1; ///< [m] of the near plane along the view axis, >= 0
+    double nearDistance = 0.1; ///< [m] distance of the near plane along the view axis, >= 0
 
     /// A camera at `position` that looks to `target`. The two must differ, and `upwards` must not be parallel
     /// to the view axis.

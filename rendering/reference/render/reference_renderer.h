@@ -2,10 +2,9 @@
 /// Renders a picture by the ray integral, with tiles on several threads and a journal of finished tiles.
 ///
 /// A pixel is the integral of emission and absorption along its ray, through all blobs in double (or float),
-/// up to the nearest triangle. Effects of GPU passes for appearance are omitted: noise of single balls,
-/// multiple scattering, shimmer, glare. Single scattering of the light of sun, lamps, fires and sky is
-/// optional. The picture has the same bits for any number of threads, any instruction set, and in one run or
-/// in several.
+/// up to the nearest triangle. These effects of GPU passes are omitted: noise of single balls, multiple
+/// scattering, shimmer, glare. Single scattering of the light of sun, lamps, fires and sky is optional. The
+/// picture has the same bits for any number of threads, any instruction set, and in one run or in several.
 #pragma once
 
 #include "rendering/reference/render/reference_scene.h"
@@ -29,16 +28,17 @@ public:
     uint64_t key() const { return key_; }
     uint32_t tileCount() const { return tiles_.tileCount(); }
 
-    /// Sets a tile from an earlier run. It is ignored if number or length are invalid.
+    /// Sets the values of a tile that an earlier run has rendered. They are ignored if tile number or length
+    /// are invalid.
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
     /// Renders the missing tiles.
-    /// @param journal receives each tile; may be null
+    /// @param journal receives each finished tile; may be null
     /// @return Interrupted if `callbacks` requested it, or the error of the journal
     base::Status render(TileJournal* journal, const RenderCallbacks& callbacks);
 
-    /// One channel (see reference_channel), width x height, top row first.
+    /// The values of one channel (see reference_channel), width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return tiles_.pixels(channel); }
-    /// Four channels from `first` on, interleaved by pixel.
+    /// The values of the four channels from `first` on, interleaved by pixel.
     std::vector<float> interleaved(uint32_t first) const { return tiles_.interleaved(first); }
     const ReferenceWork& work() const { return work_; }
 
@@ -52,7 +52,7 @@ private:
     TiledPicture tiles_;
     ReferenceWork work_;
 
-    std::mutex mutex_; ///< guards `idle_`
+    std::mutex mutex_; ///< guards the member `idle_`
     std::vector<std::unique_ptr<TileRenderer>> idle_;
 };
 

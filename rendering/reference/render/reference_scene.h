@@ -27,11 +27,11 @@ struct ReferenceScene
 };
 
 /// Hashes the inputs of the picture number by number, because structs have padding. Words are distributed
-/// over four chains, because each word of a chain depends on the one before it.
+/// over four chains that run in parallel, because within a chain each word must wait for the one before it.
 class KeyHash
 {
 public:
-    /// Version of the arithmetic: it is increased when equal inputs give another picture.
+    /// Version of the arithmetic. It is increased when equal inputs give a different picture.
     static constexpr uint64_t kVersion = 4;
 
     void add(double x) { addWord(std::bit_cast<uint64_t>(x)); }
@@ -58,14 +58,16 @@ private:
     size_t next_ = 0;
 };
 
-/// Hashes the scene. The same bits for any number of threads.
+/// Hashes the scene. The result has the same bits for any number of threads.
 void addScene(KeyHash& io, const ReferenceScene& scene, base::TaskRunner& tasks);
 
-/// @return InvalidArgument for a size of a picture outside 1..16384, or a blob, a light or a camera with
-/// impossible numbers
+/// Checks the scene and the size of the picture.
+/// @return InvalidArgument if the size is outside of 1..16384, or if a blob, a light or the camera has
+///         impossible values
 base::Status checkScene(const ReferenceScene& scene, int width, int height);
 
-/// The camera with axes exactly as long as formulas assume. @param camera checked
+/// A copy of the camera whose axes have exactly the lengths that formulas assume.
+/// @param camera camera that checkScene() accepts
 ReferenceCamera withUnitAxes(const ReferenceCamera& camera);
 
 } // namespace fx::render

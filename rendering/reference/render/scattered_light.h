@@ -1,5 +1,5 @@
 /// @file scattered_light.h
-/// Single scattering of the light of a scene in a medium, by shadow rays from points along each ray.
+/// Computes single scattering of the light of a scene in a medium, by shadow rays from points along each ray.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"
@@ -47,9 +47,9 @@ namespace fx::render {
 class ScatteredLight
 {
 public:
-    using Layers = std::array<glm::dvec3, 3>; ///< by MediaLayer
+    using Layers = std::array<glm::dvec3, 3>; ///< light by MediaLayer
 
-    /// @param medium, opaque, lights must outlive the object
+    /// @param medium, opaque, lights objects that must outlive this one
     ScatteredLight(const MediumView& medium, const OpaqueView& opaque, const SceneLights& lights)
         : medium_(medium), lights_(lights), shadow_(medium, opaque),
           detailed_(medium, DetailedRay::Wanted::Depth, kDetailTolerance)
@@ -60,7 +60,7 @@ public:
     Layers along(const TraceRay& ray, const RayHits& hits, double begin, double end);
 
 private:
-    /// The ray whose light is summed.
+    /// The ray along which light is summed.
     struct Ray
     {
         const TraceRay& ray;
@@ -73,7 +73,7 @@ private:
         double from, to;
     };
     static constexpr double kDetailTolerance = 1e-3;
-    static constexpr size_t kDistant = size_t(-1); ///< stands for sun and sky instead of a lamp
+    static constexpr size_t kDistant = size_t(-1); ///< index that stands for sun and sky instead of a lamp
 
     void findEvents(const Ray& ray, double end);
     double opticalDepth(const Ray& ray, double from, double to) const;
@@ -82,17 +82,17 @@ private:
     void addPart(const Ray& ray, const Interval& part, Layers& io);
     void addLampPart(const Ray& ray, const Interval& part, size_t lamp, Layers& io);
     void addNode(const Ray& ray, double t, double length, size_t lamp, Layers& io);
-    /// [cd/m2 per optical depth of scattering] Light at the current node that is scattered to the eye.
+    /// [cd/m2 per optical depth of scattering] The light at the current node that is scattered to the eye.
     glm::dvec3 inflow(const glm::dvec3& look, float anisotropy) const;
 
     const MediumView& medium_;
     const SceneLights& lights_;
     ShadowRay shadow_;
-    DetailedRay detailed_; ///< the ray whose light is summed, for media with detail
+    DetailedRay detailed_; ///< optical depth along the ray, for media with detail
     std::vector<double> events_;
     SceneLights::Course course_;
-    std::vector<ArrivingLight> arriving_; ///< lights at the current node
-    size_t firstOfSky_ = 0;               ///< index in `arriving_`
+    std::vector<ArrivingLight> arriving_; ///< light from each direction at the current node
+    size_t firstOfSky_ = 0;               ///< index in `arriving_` of the first direction of the sky
     uint32_t node_ = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file scene_lights.h
-/// The light of a scene at a point, without attenuation, as a list of directions.
+/// Computes the light of a scene at a point, without attenuation, as a list of directions.
 #pragma once
 
 #include "rendering/reference/render/opaque_view.h"
@@ -16,10 +16,10 @@ namespace fx::render {
 /// Light from one direction.
 struct ArrivingLight
 {
-    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
-    glm::dvec3 illuminance{0.0};         ///< [lx] on a surface perpendicular to the light
-    double distance = 1e30;              ///< [m] distance of the light; objects beyond it do not block
-    /// [sr] solid angle that the direction represents; 0: light without extent
+    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit vector towards the light
+    glm::dvec3 illuminance{0.0};         ///< [lx] illuminance of a surface perpendicular to the light
+    double distance = 1e30;              ///< [m] distance of the light; objects beyond it do not block it
+    /// [sr] solid angle that the direction represents; 0: the light has no extent
     double solidAngle = 0.0;
 };
 
@@ -53,26 +53,28 @@ class SceneLights
 public:
     static constexpr int kMaxSkyRings = 64;
 
-    /// @param skyRings 1..kMaxSkyRings: each hemisphere has `skyRings` rings of 2 skyRings directions
+    /// Builds the list of lights.
+    /// @param skyRings number of rings of directions in each hemisphere, 1..kMaxSkyRings; each ring has 2
+    ///         skyRings directions
     void build(const OpaqueScene& scene, const glm::dvec3& eye, int skyRings);
 
     bool hasSun() const { return sun_.illuminance != glm::dvec3(0.0); }
     const ArrivingLight& sun() const { return sun_; }
 
-    /// Number of lamps: the lights of the scene's list, then those of glowing groups.
+    /// Number of lamps: first the lights in the list of the scene, then those of glowing groups.
     size_t lampCount() const { return lamps_.size(); }
     /// Appends the light of a lamp at a point: one direction for a point light, a spot or a glowing group,
     /// many for a ball. A glowing group illuminates like a point light. But inside of its extent its light is
     /// finite, and nothing within its extent blocks it.
-    /// @param turn [1] 0..1, see appendCone()
+    /// @param turn [1] rotation of the directions, 0..1, see appendCone()
     void appendLamp(size_t lamp, const glm::dvec3& point, double turn, std::vector<ArrivingLight>& out) const;
 
-    /// How the light of a lamp varies along a ray.
+    /// Variation of the light of a lamp along a ray.
     struct Course
     {
-        double nearest;           ///< [m] ray parameter closest to the lamp
+        double nearest;           ///< [m] ray parameter of the point nearest to the lamp
         double distance;          ///< [m] distance of this point from the lamp, at least the lamp's extent
-        std::vector<double> cuts; ///< [m] ascending ray parameters at which the light is not smooth
+        std::vector<double> cuts; ///< [m] ray parameters at which the light is not smooth, ascending
     };
     void course(size_t lamp, const TraceRay& ray, Course& out) const;
 
@@ -100,17 +102,18 @@ public:
     /// @param density n is this factor times `skyRings` of build()
     void appendSky(const glm::dvec2& shift, int density, std::vector<ArrivingLight>& out) const;
     bool hasSky() const { return sky_ != glm::dvec3(0.0) || ground_ != glm::dvec3(0.0); }
-    const glm::dvec3& sky() const { return sky_; }       ///< [cd/m2] above the horizon
-    const glm::dvec3& ground() const { return ground_; } ///< [cd/m2] below it
+    const glm::dvec3& sky() const { return sky_; }       ///< [cd/m2] luminance above the horizon
+    const glm::dvec3& ground() const { return ground_; } ///< [cd/m2] luminance below the horizon
 
 private:
     struct Lamp
     {
         glm::dvec3 position, intensity;
-        double radius;       ///< [m] radius of a ball, or extent of a glowing group
-        bool isGroup;        ///< a glowing group
-        glm::dvec3 axis;     ///< unit, of a spot
-        double inner, outer; ///< [1] cosines of a spot's angles; -2 and below: light in all directions
+        double radius;   ///< [m] radius of a ball, or extent of a glowing group
+        bool isGroup;    ///< true: the lamp is a glowing group
+        glm::dvec3 axis; ///< unit vector, direction of a spot
+        /// [1] Cosines of a spot's inner and outer angle; -2 and below: light in all directions.
+        double inner, outer;
         double ownReach = 0; ///< [m] see EffectLight
     };
     void appendBall(const Lamp& lamp, const glm::dvec3& point, double turn,

@@ -1,5 +1,5 @@
 /// @file seen_depth.h
-/// Distance of the visible medium along a ray.
+/// Computes the mean distance of the visible medium along a ray.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"
@@ -28,23 +28,25 @@ namespace fx::render {
 ///
 struct MediumDepth
 {
-    double distance;     ///< [m] z; +infinity without visible medium
-    double opticalDepth; ///< [1] of the whole visible ray; exact
+    double distance;     ///< [m] mean distance z; +infinity without visible medium
+    double opticalDepth; ///< [1] optical depth of the whole visible ray; exact
 };
 
-/// Each thread needs its own object.
+/// Computes distance and optical depth along rays. Each thread needs its own object.
 class SeenDepth
 {
 public:
+    /// Computes distance and optical depth of the medium along a ray.
     /// @param hits blobs of `medium` that the ray meets between its parameters `begin` and `end`
     MediumDepth along(const MediumView& medium, const RayHits& hits, double begin, double end);
 
     static constexpr int kSteps = 64;
 
 private:
-    /// [1] by step: optical depth, from a to its midpoint, of blobs that contain the midpoint
+    /// [1] by step: optical depth, from the begin of the medium to the step's midpoint, of blobs that contain
+    /// this midpoint
     std::array<double, kSteps> depth_;
-    /// [1] by step: optical depth of blobs that end before its midpoint
+    /// [1] by step: optical depth of blobs that end before the step's midpoint
     std::array<double, kSteps + 1> passed_;
 };
 

@@ -1,5 +1,6 @@
 /// @file seen_outputs.h
-/// Outputs of a ray (view_output): instance and motion of the visible medium, and the distance of its begin.
+/// Computes the outputs of a ray (view_output): instance and motion of the visible medium, and the distance
+/// at which it begins.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -32,7 +33,7 @@ struct InstanceShare
 /// Adds `share` to the entry of `instance`, or appends a new entry.
 void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 
-/// The outputs are defined in docs/howto/outputs.md.
+/// Computes the outputs of rays, as defined in docs/howto/outputs.md.
 ///
 /// A ray is divided into steps. In step k, let d_k be the optical depth of a ball and D_k that of all balls,
 /// and T_k the transmittance up to the step. The share of the ball in the visible opacity is
@@ -41,17 +42,20 @@ void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 class SeenOutputs
 {
 public:
-    static constexpr double kSeenDepth = 0.01; ///< [1] optical depth at which the first depth is measured
+    /// [1] Optical depth at which a medium begins to be visible; the first depth is the distance at which it
+    /// is reached.
+    static constexpr double kSeenDepth = 0.01;
     static constexpr int kSteps = 256;
 
     struct Seen
     {
         double first = std::numeric_limits<double>::infinity(); ///< [m] first depth
-        glm::dvec2 motion{0.0};                                 ///< [pixel] right and up, times `share`
-        double share = 0.0;                                     ///< [1] opacity
+        glm::dvec2 motion{0.0}; ///< [pixel] motion to the right and upwards, times `share`
+        double share = 0.0;     ///< [1] opacity of the ray
     };
 
-    /// @param eye [m] eye of the picture  @param width, height of the picture [pixel]
+    /// @param eye [m] position of the eye of the picture
+    /// @param width, height [pixel] size of the picture
     SeenOutputs(const MediumView& medium, const glm::dvec3& eye, const ReferencePast& past, int width,
                 int height)
         : medium_(medium), past_(past), moved_(eye - past.camera.eye), width_(width), height_(height)
@@ -59,9 +63,9 @@ public:
 
     /// Computes the outputs of a ray.
     /// @param hits blobs that the ray meets between its parameters `begin` and `end`
-    /// @param detailed has traced the same ray; null: blobs are smooth
-    /// @param window position of the ray in the picture [pixel], right and up
-    /// @param ioShares the visible share of each instance is added to its entry
+    /// @param detailed object that has traced the same ray; null: blobs are smooth
+    /// @param window [pixel] position of the ray in the picture, to the right and upwards
+    /// @param ioShares visible shares by instance; the shares of this ray are added
     Seen along(const TraceRay& ray, const RayHits& hits, double begin, double end, DetailedRay* detailed,
                const glm::dvec2& window, std::vector<InstanceShare>& ioShares);
 
@@ -70,7 +74,7 @@ private:
     double firstDepth() const;
     void fillSteps();
     void weigh();
-    /// Window position in the previous frame; `place` is relative to the previous eye.
+    /// [pixel] Window position in the previous frame of a point that is relative to the previous eye.
     glm::dvec2 windowBefore(const glm::dvec3& place) const;
 
     const MediumView& medium_;
@@ -79,8 +83,8 @@ private:
     int width_, height_;
     std::vector<BlobChord> chords_;
     std::vector<double> depths_;  ///< [1] optical depth of each hit in each step
-    std::vector<double> shares_;  ///< [1] share of each hit
-    std::vector<double> moments_; ///< [m] mean distance of each hit, times its share
+    std::vector<double> shares_;  ///< [1] visible share of each hit
+    std::vector<double> moments_; ///< [m] mean distance of each hit times its visible share
     DetailedRay* detailed_ = nullptr;
     double begin_ = 0.0, end_ = 0.0, whole_ = 0.0;
 };

@@ -1,5 +1,5 @@
 /// @file shadow_ray.h
-/// Attenuation of light on its way to a point, by the medium and the triangles of a scene.
+/// Computes the attenuation of light on its way to a point, by the medium and the triangles of a scene.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -10,11 +10,12 @@
 
 namespace fx::render {
 
-/// Each thread needs its own object, because it keeps memory from ray to ray.
+/// Computes the attenuation along shadow rays. Each thread needs its own object, because memory is kept from
+/// ray to ray.
 class ShadowRay
 {
 public:
-    /// @param medium, opaque must outlive the object
+    /// @param medium, opaque objects that must outlive this one
     ShadowRay(const MediumView& medium, const OpaqueView& opaque)
         : medium_(medium), opaque_(opaque), detailed_(medium, DetailedRay::Wanted::Depth, kDetailTolerance)
     {}
@@ -31,7 +32,7 @@ public:
         return std::exp(-detailed_.opticalDepth());
     }
     /// Transmittance of medium and surfaces between the ray's origin and `distance` [m]; 0 if a triangle
-    /// blocks it.
+    /// blocks the ray.
     double visibility(const TraceRay& ray, double distance)
     {
         return opaque_.blocks(ray, distance, hits_) ? 0.0 : transmittance(ray, distance);
@@ -40,7 +41,7 @@ public:
     double toSurface(const TraceRay& ray) { return opaque_.distance(ray, hits_); }
 
 private:
-    /// Large, because each value is a mean over many shadow rays.
+    /// Tolerance for media with detail. It is large, because each result is a mean over many shadow rays.
     static constexpr double kDetailTolerance = 0.01;
 
     const MediumView& medium_;

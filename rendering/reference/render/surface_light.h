@@ -1,5 +1,5 @@
 /// @file surface_light.h
-/// Illuminance of the triangles of a scene, with shadows of media and of other triangles.
+/// Computes the illuminance of the triangles of a scene, with shadows of media and of other triangles.
 #pragma once
 
 #include "rendering/reference/render/scene_lights.h"
@@ -34,13 +34,14 @@ namespace fx::render {
 class SurfaceLight
 {
 public:
-    /// @param medium, opaque, lights must outlive the object
+    /// @param medium, opaque, lights objects that must outlive this one
     SurfaceLight(const MediumView& medium, const OpaqueView& opaque, const SceneLights& lights)
         : shadow_(medium, opaque), lights_(lights)
     {}
 
-    /// [lx] Illuminance by all lights. @param position slightly above the surface
-    /// @param normal unit, on the visible side
+    /// [lx] Illuminance by all lights.
+    /// @param position point slightly above the surface
+    /// @param normal unit normal on the visible side
     glm::dvec3 at(const glm::dvec3& position, const glm::dvec3& normal);
 
 private:

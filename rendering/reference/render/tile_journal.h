@@ -21,26 +21,28 @@ namespace fx::render {
 class TileJournal
 {
 public:
-    /// Receives a tile of an earlier run.
+    /// A function that receives a tile of an earlier run.
     using Restore = std::function<void(uint32_t tile, std::span<const float> values)>;
 
-    /// @param path path of the journal  @param key identifies the picture: a hash of all inputs of its pixels
+    /// @param path path of the journal
+    /// @param key identifies the picture: a hash of all inputs of its pixels
     TileJournal(std::string path, uint64_t key) : path_(std::move(path)), key_(key) {}
     ~TileJournal();
     TileJournal(const TileJournal&) = delete;
     TileJournal& operator=(const TileJournal&) = delete;
 
     /// Begins a new journal and replaces an existing one.
-    /// @return Io if it cannot be written, or if another TileJournal has the file open, which is then not
+    /// @return Io if the file cannot be written, or if another TileJournal has opened it; then it is not
     ///         changed
     base::Status start();
     /// Continues an existing journal, or begins one if there is none.
-    /// @return InvalidArgument if the file belongs to another picture; it is then not changed. Io as start()
+    /// @return InvalidArgument if the file belongs to another picture; then it is not changed. Io as for
+    ///         start()
     base::Status resume(const Restore& restore);
     /// Adds a finished tile. After a failure, the journal ends with the last complete tile, and no more tiles
     /// are added.
     base::Status append(uint32_t tile, std::span<const float> values);
-    /// Deletes the journal. Call this when the picture has been written.
+    /// Deletes the journal. Must be called when the picture has been written.
     void remove();
 
 private:
@@ -48,15 +50,16 @@ private:
     base::Status failed(const char* what) const;
     base::Status writeHeader();
     base::Status writeAll(const std::vector<char>& bytes);
-    /// Passes all complete records to `restore`. @return [byte] length of the part with complete records
+    /// Passes all complete records to `restore`.
+    /// @return [byte] length of the part of the file that has complete records
     uint64_t readRecords(const Restore& restore);
 
     std::string path_;
     uint64_t key_;
     int descriptor_ = -1;
-    uint64_t length_ = 0; ///< [byte] size of the complete tiles
+    uint64_t length_ = 0; ///< [byte] length of the part of the file that has complete records
     bool isBroken_ = false;
-    std::mutex mutex_; ///< guards append()
+    std::mutex mutex_; ///< guards the members during append()
 };
 
 } // namespace fx::render

@@ -18,29 +18,32 @@
 
 namespace fx::render {
 
-/// How single scattering in the medium is computed.
+/// Method by which single scattering in the medium is computed.
 enum class ScatteringMode : uint8_t
 {
     None,
-    Centers, ///< by the illumination at the centers of blobs, see blob_light.h
-    /// by shadow rays from points along each ray, see scattered_light.h; surfaces also have shadow rays
+    Centers, ///< uses the illumination at the centers of blobs, see blob_light.h
+    /// uses shadow rays from points along each ray, see scattered_light.h; surfaces also have shadow rays
     Single
 };
 
 struct ReferenceSettings
 {
-    int width = 640;       ///< [pixel] 1..16384
-    int height = 360;      ///< [pixel] 1..16384
-    int samples = 1;       ///< [1] 1..16; a pixel is the mean of samples x samples rays
-    double exposure = 1.0; ///< [m2/cd] written value per luminance
-    bool isSingle = false; ///< integrate in float instead of double
+    int width = 640;  ///< [pixel] 1..16384
+    int height = 360; ///< [pixel] 1..16384
+    /// [1] Square root of the number of rays per pixel, 1..16; a pixel is the mean of its rays.
+    int samples = 1;
+    double exposure = 1.0; ///< [m2/cd] exposure: written value divided by luminance
+    bool isSingle = false; ///< true: integrate in float instead of double
     ScatteringMode scattering = ScatteringMode::None;
-    int skyRings = 3; ///< 1..64: ScatteringMode::Single samples the sky in 4 skyRings^2 directions
+    /// Number of rings of directions, 1..64: ScatteringMode::Single samples the sky in 4 skyRings^2
+    /// directions.
+    int skyRings = 3;
     IntegralSettings integral;
-    /// [1] 1e-6..0.1, tolerance e of formula detailed-ray-integral
+    /// [1] tolerance e of formula detailed-ray-integral, 1e-6..0.1
     double detailTolerance = 1e-3;
-    bool outputs = false; ///< also compute the channels from reference_channel::InstanceId on
-    ReferencePast past;   ///< previous frame, for motion
+    bool outputs = false; ///< true: also compute the channels from reference_channel::InstanceId on
+    ReferencePast past;   ///< camera and time of the previous frame, for motion
 
     uint32_t channels() const;
 };
@@ -49,16 +52,16 @@ struct ReferenceSettings
 namespace reference_channel {
 enum : uint32_t
 {
-    Color, ///< RGBA, linear, exposed; A is 1 in front of opaque surfaces, otherwise the medium's opacity
+    Color, ///< RGBA, linear and exposed; A is 1 in front of opaque surfaces, otherwise the medium's opacity
     Background = 4, ///< RGBA of the opaque scene
     Fire = 8,       ///< RGBA premultiplied
     Smoke = 12,
     Dust = 16,
     Depth = 20,   ///< [m] mean distance of the visible medium, +infinity without medium
-    OpticalDepth, ///< [1] of the medium
+    OpticalDepth, ///< [1] optical depth of the medium
     Count,
-    InstanceId =
-        Count,  ///< [1] MediumBlob::instance with the largest share, exact below 2^24; 0 without medium
+    /// [1] MediumBlob::instance of the instance with the largest share, exact below 2^24; 0 without medium.
+    InstanceId = Count,
     MotionX,    ///< [pixel] motion to the right since the previous frame
     MotionY,    ///< [pixel] motion upwards since the previous frame
     FirstDepth, ///< [m] distance at which media begin to be visible, +infinity without medium
@@ -85,8 +88,8 @@ struct ReferencePicture
 struct ReferenceWork
 {
     uint64_t rays = 0;
-    uint64_t hits = 0;      ///< blobs that rays met
-    uint64_t nonFinite = 0; ///< pixel values that were not finite and were replaced
+    uint64_t hits = 0;      ///< number of blobs that rays met
+    uint64_t nonFinite = 0; ///< number of pixel values that were replaced because they were not finite
 
     ReferenceWork& operator+=(const ReferenceWork& other);
 };
@@ -99,7 +102,7 @@ public:
     ~TileRenderer();
 
     /// Writes ReferenceSettings::channels() floats for each pixel of `block`, row by row from the top.
-    /// @param shouldStop called repeatedly between rays; may be empty
+    /// @param shouldStop called repeatedly between rays; rendering stops when it returns true; may be empty
     /// @return false if rendering was stopped; `out` is then invalid
     bool render(const PixelBlock& block, std::span<float> out, const std::function<bool()>& shouldStop);
 
@@ -127,7 +130,7 @@ private:
     DetailedRay detailed_;
     ScatteredLight scattered_;
     SurfaceLight surfaceLight_;
-    Illuminance illuminance_; ///< uses `surfaceLight_`; empty: shading as in rendering/stage
+    Illuminance illuminance_; ///< calls `surfaceLight_`; empty: shading as in rendering/stage
     std::vector<Sample> samples_;
     RayHits hits_;
     RayHits shadowHits_;

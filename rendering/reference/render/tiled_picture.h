@@ -17,35 +17,37 @@ namespace fx::render {
 /// Callbacks of a long render. They are called from any thread.
 struct RenderCallbacks
 {
-    std::function<void(uint32_t done, uint32_t total)> progress; ///< may be empty; one call at a time
-    /// Returns true to stop; may be empty; called often, by several threads at once.
+    /// Receives the numbers of finished tiles and of all tiles; one call at a time; may be empty.
+    std::function<void(uint32_t done, uint32_t total)> progress;
+    /// Returns true to stop rendering. It is called often, by several threads at once; may be empty.
     std::function<bool()> shouldStop;
 };
 
 class TiledPicture
 {
 public:
-    /// Renders the pixels of `block`, row by row from the top, with all channels of a pixel together. Called
-    /// by several threads.
+    /// A function that renders the pixels of `block`, row by row from the top, with all channels of a pixel
+    /// together. It is called by several threads.
     /// @return false if rendering was stopped; `out` is then not used
     using RenderTile = std::function<bool(const PixelBlock& block, std::span<float> out)>;
 
     /// Starts a picture without tiles.
-    /// @param edge [pixel] side of a tile; a killed process loses the tiles in progress
+    /// @param edge [pixel] side of a tile; if the process is killed, the tiles in progress are lost
     void start(int width, int height, int edge, uint32_t channels);
     uint32_t tileCount() const { return tilesX_ * tilesY_; }
 
-    /// Sets a tile from an earlier run. It is ignored if number or length are invalid.
+    /// Sets the values of a tile that an earlier run has rendered. They are ignored if tile number or length
+    /// are invalid.
     void restore(uint32_t tile, std::span<const float> values);
     /// Renders the missing tiles.
-    /// @param journal receives each tile; may be null
+    /// @param journal receives each finished tile; may be null
     /// @return Interrupted if `callbacks` requested it, or the error of the journal
     base::Status render(base::TaskRunner& tasks, const RenderTile& renderTile, TileJournal* journal,
                         const RenderCallbacks& callbacks);
 
-    /// One channel, width x height, top row first.
+    /// The values of one channel, width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return planes_[channel]; }
-    /// Four channels from `first` on, interleaved by pixel.
+    /// The values of the four channels from `first` on, interleaved by pixel.
     std::vector<float> interleaved(uint32_t first) const;
 
 private:
@@ -60,7 +62,7 @@ private:
     std::vector<std::vector<float>> planes_;
     std::vector<uint8_t> isDone_;
 
-    std::mutex mutex_; ///< guards the members below and the callbacks
+    std::mutex mutex_; ///< guards the members below, and calls of the callbacks
     uint32_t done_ = 0;
     base::Status status_;
 };

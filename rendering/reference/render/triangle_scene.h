@@ -1,5 +1,5 @@
 /// @file triangle_scene.h
-/// Opaque triangles: intersection and occlusion of rays.
+/// Computes the intersection of rays with opaque triangles, and their occlusion.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"
@@ -20,14 +20,14 @@ struct OpaqueMesh
 {
     glm::dvec3 origin{0.0};               ///< [m] world position to which the vertices are relative
     std::span<const glm::vec3> positions; ///< [m]
-    std::span<const glm::vec3> normals;   ///< unit
+    std::span<const glm::vec3> normals;   ///< unit vectors
     std::span<const glm::vec3> colors;    ///< [0, 1] linear albedo
 };
 
 /// The first intersection of a ray with a triangle.
 struct SurfaceHit
 {
-    /// [m] ray parameter; infinite: no intersection
+    /// [m] ray parameter of the intersection; infinite: there is none
     double distance = std::numeric_limits<double>::infinity();
     uint32_t triangle = 0;
     double u = 0.0, v = 0.0; ///< [1] weights of the second and third vertex
@@ -35,7 +35,8 @@ struct SurfaceHit
     bool isHit() const { return distance < std::numeric_limits<double>::infinity(); }
 };
 
-/// [1] Rays that leave a surface begin above it by this factor times the distance from the previous origin.
+/// [1] Rays that leave a surface begin above it, at this factor times the distance of the surface from the
+/// previous origin.
 constexpr double kSurfaceLift = 1e-6;
 
 /// Interpolates an attribute of the vertices at `hit`.
@@ -46,8 +47,8 @@ inline glm::dvec3 interpolate(std::span<const glm::vec3> column, const SurfaceHi
            hit.v * glm::dvec3(column[first + 2]);
 }
 
-/// Finds triangles with a tree of their bounding balls. Coordinates are relative to the origin passed to
-/// build().
+/// Intersects rays with triangles, by a tree of their bounding balls. Coordinates are relative to the origin
+/// passed to build().
 class TriangleScene
 {
 public:
@@ -56,10 +57,11 @@ public:
     bool empty() const { return tree_.count() == 0; }
     const BallTree& tree() const { return tree_; }
 
-    /// The nearest intersection after the parameter `begin` with the triangles whose balls are in `hits`.
-    /// Triangles are two-sided.
+    /// The nearest intersection after the ray parameter `begin` with those triangles whose balls are in
+    /// `hits`. Triangles are two-sided.
     SurfaceHit nearest(const TraceRay& ray, const RayHits& hits, double begin) const;
-    /// The nearest intersection with all triangles. @param scratch memory, kept from call to call
+    /// The nearest intersection of a ray with all triangles.
+    /// @param scratch memory that is overwritten, and kept from call to call
     SurfaceHit trace(const TraceRay& ray, double begin, RayHits& scratch) const;
 
 private:
@@ -71,7 +73,7 @@ private:
     void meet(const Triangle& triangle, const TraceRay& ray, double begin, SurfaceHit& io) const;
 
     BallTree tree_;
-    std::vector<Triangle> triangles_; ///< without degenerate ones, in the order of the mesh
+    std::vector<Triangle> triangles_; ///< triangles in the order of the mesh, without degenerate ones
 };
 
 } // namespace fx::render

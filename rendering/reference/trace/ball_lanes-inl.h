@@ -57,7 +57,7 @@ HWY_INLINE hn::Mask<PlaceTag> placeMask(DoubleMask mask)
     return hn::LoadMaskBits(PlaceTag(), bits);
 }
 
-/// Stores the selected lanes contiguously. Memory after them may be overwritten.
+/// Stores the selected lanes contiguously. Memory behind them may be overwritten.
 template <class Tag, class T>
 HWY_INLINE void storeSelected(Tag tag, hn::Vec<Tag> v, hn::Mask<Tag> selected, T* to)
 {
@@ -86,7 +86,7 @@ HWY_INLINE Balls loadBalls(const double* x, const double* y, const double* z, co
     return {hn::LoadU(tag, x), hn::LoadU(tag, y), hn::LoadU(tag, z), hn::LoadU(tag, radius)};
 }
 
-/// The same ray in every lane.
+/// One ray, copied to every lane.
 struct RayLanes
 {
     HWY_INLINE explicit RayLanes(const TraceRay& ray)
@@ -102,7 +102,7 @@ struct RayLanes
 struct Chords
 {
     DoubleVector nearest; ///< [m] ray parameter of the point nearest to the center
-    DoubleVector square;  ///< [m2] square of half the chord; <= 0: the ray misses the ball
+    DoubleVector square;  ///< [m2] square of half the chord; if it is <= 0, the ray misses the ball
 };
 
 /// @formula ball-chord
@@ -140,7 +140,7 @@ HWY_INLINE Chords chordsOf(const Balls& balls, const RayLanes& ray)
     return chords;
 }
 
-/// Appends the balls that the infinite line meets. `out` must have room for a whole vector.
+/// Appends the balls that the infinite line of the ray meets. `out` must have room for a whole vector.
 HWY_INLINE void appendHits(const Balls& balls, PlaceVector places, const RayLanes& ray, RayHits& out)
 {
     const DoubleTag tag;
@@ -169,8 +169,8 @@ inline void cutHits(double begin, double end, RayHits& io)
     io.setSize(kept);
 }
 
-/// Computes entry points of hits, and removes hits that lie completely before `begin` or after `end`. Square
-/// roots dominate the cost; they are computed for hits only.
+/// Computes the entry points of hits, and removes hits that lie completely before `begin` or after `end`.
+/// Square roots dominate the cost; they are computed for hits only.
 HWY_INLINE void finishHits(double begin, double end, RayHits& io)
 {
     const DoubleTag tag;

@@ -32,12 +32,12 @@ struct TraceBall
 class BallTree
 {
 public:
-    static constexpr uint32_t kWidth = 8; ///< number of balls of a leaf, and of children of a node
+    static constexpr uint32_t kWidth = 8; ///< number of balls in a leaf, and number of children of a node
 
-    /// Eight balls. Unused elements have a large negative radius, so that no test finds them.
+    /// Eight balls. Unused elements have a large negative radius, so that no ray hits them.
     struct alignas(64) Leaf
     {
-        double x[kWidth]; ///< [m] relative to the tree's origin
+        double x[kWidth]; ///< [m] position relative to the tree's origin
         double y[kWidth];
         double z[kWidth];
         double radius[kWidth]; ///< [m]
@@ -46,18 +46,19 @@ public:
     /// Boxes of eight children, enlarged slightly, so that rounding in float never misses an intersection.
     struct alignas(64) Node
     {
-        float center[3][kWidth]; ///< [m] relative to the tree's origin
-        float extent[3][kWidth]; ///< [m] half the side; a large negative value for missing children
+        float center[3][kWidth]; ///< [m] center relative to the tree's origin
+        float extent[3][kWidth]; ///< [m] half of the box's side; a large negative value for missing children
     };
 
-    /// @param origin [m] origin of rays and results, preferably the eye, so that the picture does not depend
-    ///         on the position of the scene in the world
+    /// Builds the tree.
+    /// @param origin [m] origin of rays and results. It should be the eye, so that the picture does not
+    ///         depend on the position of the scene in the world
     void build(std::span<const TraceBall> balls, const glm::dvec3& origin, base::TaskRunner& tasks);
 
     uint32_t count() const { return count_; }
     const glm::dvec3& origin() const { return origin_; }
-    /// Index in the list passed to build() of the ball at a place, that is an index in the order of the tree.
-    /// Place 8 i + k is element k of leaf i.
+    /// The index, in the list passed to build(), of the ball at a place. A place is an index in the order of
+    /// the tree; place 8 i + k is element k of leaf i.
     uint32_t ballAt(uint32_t place) const { return order_[place].index; }
     std::span<const Leaf> leaves() const { return leaves_; }
     /// Number of levels; 0 without balls. The highest level has one node. Child k of node i is node 8 i + k

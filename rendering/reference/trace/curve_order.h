@@ -32,12 +32,12 @@ namespace fx::render {
 struct CurveBatch
 {
     static constexpr size_t kRoom = 256;
-    size_t count = 0;                                  ///< number of cells, at most kRoom
+    size_t count = 0;                                  ///< number of cells in use, at most kRoom
     std::array<std::array<uint32_t, kRoom>, 3> cell{}; ///< x_i of each cell
     std::array<uint64_t, kRoom> place{};               ///< k of each cell
 };
 
-/// Computes the positions of the cells on the curve. The content of `cell` is lost.
+/// Computes the positions of the cells along the curve. The content of `cell` is overwritten.
 void curvePlaces(CurveBatch& io);
 
 /// A key and the index of its element.
@@ -48,7 +48,7 @@ struct KeyedIndex
 };
 
 /// Sorts by key. Equal keys keep their order, so that the result does not depend on the number of workers.
-/// @param scratch resized to the same length
+/// @param scratch memory that is overwritten; it gets the same length
 void sortByKey(std::vector<KeyedIndex>& io, std::vector<KeyedIndex>& scratch, base::TaskRunner& tasks);
 
 } // namespace fx::render

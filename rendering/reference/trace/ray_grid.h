@@ -14,10 +14,10 @@ namespace fx::render {
 struct TraceRay
 {
     glm::dvec3 origin;    ///< [m]
-    glm::dvec3 direction; ///< unit
+    glm::dvec3 direction; ///< unit vector
 };
 
-/// Rectangle of pixels, or of positions between them: pixel (i, j) covers [i, i + 1) x [j, j + 1).
+/// A rectangle of pixels, or of positions in the picture: pixel (i, j) covers [i, i + 1) x [j, j + 1).
 struct PixelRect
 {
     double x0, y0, x1, y1;
@@ -29,13 +29,13 @@ struct RayGrid
     glm::dvec3 origin{0.0};  ///< [m] origin of the ray through the corner (0, 0)
     glm::dvec3 originX{0.0}; ///< [m] change of origin per pixel to the right
     glm::dvec3 originY{0.0}; ///< [m] change of origin per pixel down
-    /// Direction of the ray through (0, 0); its component along the view axis is 1.
+    /// Direction of the ray through (0, 0), not normalized: its component along the view axis is 1.
     glm::dvec3 direction{0.0};
     glm::dvec3 directionX{0.0}; ///< change of direction per pixel to the right
     glm::dvec3 directionY{0.0}; ///< change of direction per pixel down
 
     /// The ray through position (x, y).
-    /// @param outLengthPerDepth receives the ray parameter per distance along the view axis
+    /// @param outLengthPerDepth receives the ray parameter divided by the distance along the view axis
     TraceRay ray(double x, double y, double* outLengthPerDepth = nullptr) const;
 };
 
@@ -44,13 +44,14 @@ struct TileFrustum
 {
     struct Plane
     {
-        glm::dvec3 normal{0.0}; ///< unit, inwards
+        glm::dvec3 normal{0.0}; ///< unit vector that points inwards
         double offset = 0.0;    ///< [m]
     };
     static constexpr uint32_t kPlanes = 6;
-    std::array<Plane, kPlanes> planes; ///< left, right, top, bottom, near, far
+    std::array<Plane, kPlanes> planes; ///< the half-spaces left, right, top, bottom, near, far
 };
 
+/// The half-spaces that contain the rays through a rectangle.
 /// @param farthest [m] ray parameter beyond which hits are ignored; may be +inf
 TileFrustum frustumOf(const RayGrid& grid, const PixelRect& rect, double farthest);
 

@@ -1,5 +1,5 @@
 /// @file ray_hits.h
-/// The balls that one ray meets.
+/// List of the balls that one ray meets.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,17 @@
 
 namespace fx::render {
 
-/// Columns with one entry per ball, sorted by ascending place until sort() is called. A place is an index in
-/// the order of the tree. The columns are longer than size(), so that whole vectors can be stored.
+/// The hits of a ray, as columns with one entry per ball, sorted by ascending place until sort() is called. A
+/// place is an index in the order of the tree. The columns are longer than size(), so that whole vectors can
+/// be stored.
 class RayHits
 {
 public:
-    static constexpr size_t kSlack = 8; ///< number of entries after the last one that may be overwritten
+    static constexpr size_t kSlack = 8; ///< number of entries behind the last one that may be overwritten
 
     size_t size() const { return size_; }
     void clear() { size_ = 0; }
-    /// Makes room for `more` entries and the slack.
+    /// Makes room for `more` further entries and for kSlack entries behind them.
     void reserve(size_t more)
     {
         if (size_ + more + kSlack > place.size())
@@ -27,8 +28,9 @@ public:
     /// Sorts by `enter`, then by `place`, so that the result does not depend on the order of insertion.
     void sort();
 
-    std::vector<double> enter;       ///< [m] ray parameter of the entry; may be before the ray's begin
-    std::vector<double> nearest;     ///< [m] ray parameter of the point nearest to the center
+    /// [m] Ray parameter at which the ray enters the ball; may be before the ray's begin.
+    std::vector<double> enter;
+    std::vector<double> nearest;     ///< [m] ray parameter of the point nearest to the ball's center
     std::vector<double> chordSquare; ///< [m2] square of half the chord, > 0
     std::vector<uint32_t> place;     ///< place of the ball
 

@@ -1,5 +1,5 @@
 /// @file ray_query.h
-/// The balls that a single ray meets, for rays that are not part of a tile, such as shadow rays.
+/// Finds the balls that a single ray meets. Used for rays that are not part of a tile, such as shadow rays.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"

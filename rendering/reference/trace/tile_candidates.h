@@ -1,6 +1,6 @@
 /// @file tile_candidates.h
 /// Candidate balls of all rays of a tile. A large tile traverses the tree. Smaller tiles filter the list of
-/// the large tile. A ray tests the list of its tile. Lists are in the order of the tree.
+/// the large tile. A ray is tested against the list of its tile. Lists are in the order of the tree.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"
@@ -12,7 +12,8 @@
 
 namespace fx::render {
 
-/// Columns of candidates, padded after size() with entries that no ray hits. The memory is kept.
+/// The candidates of a tile, as columns that are padded after size() with entries that no ray hits. The
+/// memory is kept from tile to tile.
 class TileCandidates
 {
 public:
@@ -34,7 +35,7 @@ public:
     // For tile_candidates.cpp:
     enum Column
     {
-        X, ///< [m] relative to the tree's origin
+        X, ///< [m] position relative to the tree's origin
         Y,
         Z,
         Radius, ///< [m]

@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-/// The pixels [x0, x1) x [y0, y1).
+/// A block of pixels: [x0, x1) x [y0, y1).
 struct PixelBlock
 {
     int x0, y0, x1, y1;
@@ -21,15 +21,15 @@ struct PixelBlock
 /// Begin and end of rays.
 struct RayLimits
 {
-    double nearDepth = 0.0;                                    ///< [m] begin, as distance along the view axis
-    double farthest = std::numeric_limits<double>::infinity(); ///< [m] end, as ray parameter
+    double nearDepth = 0.0; ///< [m] begin of rays, as a distance along the view axis
+    double farthest = std::numeric_limits<double>::infinity(); ///< [m] end of rays, as a ray parameter
 };
 
-/// Keeps its memory from call to call. Each thread needs its own object.
+/// Visits the rays of a block of pixels. Memory is kept from call to call. Each thread needs its own object.
 class TileWalk
 {
 public:
-    static constexpr int kLargest = 32; ///< [pixel] side of the tiles that traverse the tree
+    static constexpr int kLargest = 32; ///< [pixel] side of the tiles that find their candidates in the tree
 
     /// Divides `block` into blocks of at most `edge` x `edge` pixels, and calls leaf(block, candidates) once
     /// for each. Candidates are all balls that rays through the area of the block can meet.
@@ -65,8 +65,8 @@ public:
     }
 
 private:
-    static constexpr int kLevels = 6; ///< tile sizes 32, 16, 8, 4, 2, 1
-    static constexpr size_t kFew = 8; ///< lists of at most this size are not filtered
+    static constexpr int kLevels = 6; ///< number of tile sizes: 32, 16, 8, 4, 2, 1
+    static constexpr size_t kFew = 8; ///< lists of at most this length are not filtered
 
     static PixelRect rectOf(const PixelBlock& block)
     {

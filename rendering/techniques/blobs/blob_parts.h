@@ -1,5 +1,5 @@
 /// @file blob_parts.h
-/// Parts of the description of the blob technique: lights and scalability levels.
+/// Parts of the description of the blob technique: its lights and its scalability levels.
 #pragma once
 
 #include "rendering/lights/effect_lights.h"
@@ -7,7 +7,7 @@
 
 namespace fx::render {
 
-/// Lights of glowing media, by formula light-of-media.
+/// The lights of glowing media, computed by formula light-of-media.
 extern const LightSource kBlobLights;
 
 extern const ScalabilitySettings kBlobScalability;

@@ -1,5 +1,5 @@
 /// @file blob_radiance.h
-/// The light that a group of balls sends out, by lines through the group.
+/// Computes the light that a group of balls emits, along lines through the group.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -10,16 +10,16 @@
 
 namespace fx::render {
 
-/// Source of one ball of a group of the kind "blob". [cd/m2]
+/// [cd/m2] Emitted light per optical depth of one ball of a group of the kind "blob".
 glm::vec3 blobSource(const base::SnapshotGroup& group, size_t ball);
 
-/// [m2] area that a ball of medium seems to have: formula light-of-media (1).
+/// [m2] Effective area of a ball of medium, by equation (1) of formula light-of-media.
 float blobArea(float crossSection, float radius);
 
-/// Mean intensity of the group over all directions, with what its balls hide of each other and with its
-/// detail: formula light-of-media (2) to (4). Equal input gives equal bits; it changes as smoothly as the
-/// balls move.
-/// @param group number of a group of the kind "blob"
+/// Intensity of the group, as a mean over all directions, by equations (2) to (4) of formula light-of-media.
+/// It includes the occlusion of balls by each other, and detail. Equal input gives equal bits. If the balls
+/// move smoothly, the intensity changes smoothly.
+/// @param group index of a group of the kind "blob"
 /// @return [cd] in the space of the group: not multiplied by the square of its scale
 glm::vec3 blobIntensity(const base::FrameSnapshot& snapshot, size_t group);
 

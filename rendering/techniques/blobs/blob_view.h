@@ -42,18 +42,18 @@ private:
     GlDevice& device_;
     FrameBuilder builder_;
     BlobSource blobs_;
-    BlobSource takenBlobs_; ///< blobs of impostors that are rendered in this frame
+    BlobSource takenBlobs_; ///< source of the blobs of those impostors that are rendered in this frame
     DrawBatch takenBatch_;
     ImpostorSource impostors_;
-    GlBuffer blobBuffer_;  ///< persistent, so that its content is reused in the next frame
-    GlBuffer lightBuffer_; ///< lights of the blobs; also persistent
+    GlBuffer blobBuffer_;  ///< buffer of blobs; persistent, so that the next frame can reuse its content
+    GlBuffer lightBuffer_; ///< buffer of the lights of blobs; also persistent
     GlBuffer impostorBuffer_;
-    GlTexture impostorAtlas_;      ///< created with the first impostor
-    bool isKept_ = false;          ///< lists and buffers are those of the last frame
+    GlTexture impostorAtlas_;      ///< created when the first impostor is rendered
+    bool isKept_ = false;          ///< true: lists and buffers are those of the last frame
     uint32_t blobsUnused_ = 0;     ///< consecutive frames without blobs
     uint32_t impostorsUnused_ = 0; ///< consecutive frames without impostors
-    uint32_t restingFrames_ = 0;   ///< consecutive frames at rest
-    ResourceId overdraw_;          ///< count of the last frame; invalid: not counted
+    uint32_t restingFrames_ = 0;   ///< number of consecutive calls of rest()
+    ResourceId overdraw_;          ///< output of OverdrawPass; invalid: fragments are not counted
     int layerWidth_ = 0, layerHeight_ = 0;
 };
 

@@ -38,7 +38,7 @@ private:
     base::Status add(Rows& rows, const ParticleFrameInputs& inputs, const UploadRevisions& of,
                      const base::AssetTable* assets, GatheredFrame& io);
     void addCasters(const GatherInputs& in, std::pmr::vector<MediumCaster>& io) const;
-    /// By group of the newer snapshot: 1 if it is drawn as part of a merged group.
+    /// By group of the newer snapshot: 1 if the group is drawn as part of a merged group.
     std::span<const uint8_t> taken() const
     {
         return isMerged_ ? merger_.taken() : std::span<const uint8_t>();
@@ -51,7 +51,7 @@ private:
     std::pmr::vector<ParticleBatch> batches_;
     BatchSource source_;
     bool isKept_ = false;
-    bool isMerged_ = true; ///< small groups are merged
+    bool isMerged_ = true; ///< true: small groups are merged
 };
 
 } // namespace fx::render

@@ -13,8 +13,9 @@
 
 namespace fx::sim {
 
-__extension__ typedef __int128 WideInt;           ///< holds rate times time exactly
-__extension__ typedef unsigned __int128 WideWord; ///< holds the product of a 96-bit fraction and 2^32
+__extension__ typedef __int128 WideInt; ///< integer that can hold the product of a rate and a time exactly
+/// integer that can hold the product of a 96-bit fraction and 2^32
+__extension__ typedef unsigned __int128 WideWord;
 
 /// Receives births from BirthSchedule in the order of their indices. Keeps the births of a window of time.
 class BirthLog
@@ -27,16 +28,16 @@ public:
     void addRate(uint64_t first, uint64_t count, base::Ticks begin, WideInt sought, WideInt one,
                  WideInt rate);
     void addBurst(uint64_t first, uint64_t count, base::Ticks tick);
-    /// The log has no entries for births before `next`.
+    /// Removes all entries. The next birth that is added has the index `next`.
     void clear(uint64_t next);
-    /// Removes runs that ended before `tick`, and moves front().
+    /// Removes runs of births that ended before `tick`, and advances front().
     void forget(base::Ticks tick);
 
-    uint64_t front() const { return front_; } ///< the oldest birth kept by the last forget()
+    uint64_t front() const { return front_; } ///< index of the oldest birth that is kept
     uint64_t next() const { return next_; }
     bool empty() const { return front_ == next_; }
     size_t runs() const { return runs_.size(); }
-    /// @param index front() <= index < next()
+    /// Tick of a birth. @param index front() <= index < next()
     base::Ticks tickOf(uint64_t index) const;
     /// The tick of each of the births [first, first + out.size()).
     void ticksOf(uint64_t first, std::span<base::Ticks> out) const;
@@ -44,7 +45,8 @@ public:
     void publish(base::Ticks now, std::span<base::GpuBirthRun> out) const;
 
 private:
-    /// Birth number j at tick + j * stride + the whole part of rest + j * fraction, both in 2^-96.
+    /// A run of births. Birth number j of the run has the tick: tick + j * stride + the whole part of (rest +
+    /// j * fraction), with rest and fraction in units of 2^-96.
     struct Run
     {
         uint64_t first;
@@ -68,7 +70,7 @@ private:
                 WideInt rate) const;
     size_t runOf(uint64_t index) const;
 
-    std::pmr::vector<Run> runs_; ///< ascending, without gaps, up to next_
+    std::pmr::vector<Run> runs_; ///< in ascending order, without gaps, up to next_
     uint64_t front_ = 0;
     uint64_t next_ = 0;
 };

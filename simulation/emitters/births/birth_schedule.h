@@ -51,7 +51,7 @@
 
 namespace fx::sim {
 
-/// Births of a step: their total number, and the number of stored ones, which come first.
+/// Number of births of a step. The stored births are the first ones of the step.
 struct BirthCount
 {
     uint64_t total = 0;
@@ -62,8 +62,8 @@ struct BirthCount
 struct BirthWindow
 {
     base::Ticks begin;
-    base::Ticks end;      ///< the next window begins here
-    double intensity = 1; ///< multiplies rate and burst counts
+    base::Ticks end;      ///< end of the interval, at which the next window begins
+    double intensity = 1; ///< factor on rate and burst counts
     bool emitting = true; ///< false: births of the window are discarded
 };
 
@@ -71,7 +71,7 @@ struct BirthWindow
 struct EvenBirths
 {
     base::Ticks tick = kForever; ///< tick of the next birth
-    base::Ticks stride = 0;      ///< whole ticks between births
+    base::Ticks stride = 0;      ///< number of whole ticks between births
     uint64_t rest = 0;           ///< remainder of the division for `tick`
     uint64_t more = 0;           ///< increase of `rest` from birth to birth
     uint64_t rate = 1;           ///< q, the divisor
@@ -92,20 +92,22 @@ struct EvenBirths
 class BirthSchedule
 {
 public:
-    /// @param emission its `start` delays rate and bursts; endless bursts end with its duration
+    /// Creates the schedule of an emitter.
+    /// @param emission births; `start` delays rate and bursts, and endless bursts end with the duration
     BirthSchedule(const Emission& emission, std::pmr::memory_resource* memory);
 
     /// Sets the random phase. Called before the first advance.
     void setPhase(float phase);
     /// Sets the random key of bursts with a probability below 1. Called before the first advance.
     void setSeed(uint64_t seed, uint32_t solverIndex);
-    /// Sets the log that receives all births at constant rates; null for none. It must outlive its use.
+    /// Sets the log to which all births at constant rates are added; null for none. The log must outlive its
+    /// use.
     void setLog(BirthLog* log) { log_ = log; }
-    /// Gives all births of the window in order. Births that do not fit into `out` are counted and use up an
-    /// index.
+    /// Writes all births of the window to `out`, in order. Births that do not fit are counted, and each uses
+    /// up an index.
     BirthCount advance(const BirthWindow& window, std::span<Birth> out);
-    /// As above, but births are passed to `take` whenever `room` is full and at the end, up to `most` of
-    /// them.
+    /// As the function above, but passes births to `take` whenever `room` is full and at the end of the
+    /// window, up to `most` births.
     /// @param take called as take(std::span<const Birth>)
     template <class Take>
     BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, Take&& take)
@@ -116,9 +118,9 @@ public:
         base::Ticks end;
         return advanceTo(window, {room, most, call, &take}, end);
     }
-    /// As above, but stops after about `wanted` births, at least one.
+    /// As the function above, but stops after about `wanted` births, at least one.
     /// @param outReached begin of the next window: the end of this one or earlier, possibly between births of
-    ///         the same tick
+    ///          the same tick
     template <class Take>
     BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, uint64_t wanted,
                        base::Ticks& outReached, Take&& take)
@@ -141,7 +143,7 @@ public:
     /// not change. Empty unless births then have a constant rate of at least 1e-3 /s.
     std::optional<EvenBirths> evenBirths(base::Ticks tick, double intensity, bool emitting) const;
     base::Ticks end() const { return end_; } ///< end of the rate
-    /// True when nothing can be born from `tick` on.
+    /// Whether there are no births from `tick` on.
     bool exhausted(base::Ticks tick) const;
     /// Lower bound of the time of the next birth after `tick`, the end of the last window, as long as the
     /// host's parameters do not change.
@@ -156,12 +158,12 @@ private:
     struct ScheduledBurst
     {
         base::Ticks tick;     ///< tick of the first cycle
-        base::Ticks interval; ///< between cycles
+        base::Ticks interval; ///< [tick] time between cycles
         uint64_t cycles;
         uint32_t count;
         float probability;
-        uint64_t next = 0;  ///< next cycle
-        uint32_t given = 0; ///< births of that cycle so far
+        uint64_t next = 0;  ///< index of the next cycle
+        uint32_t given = 0; ///< number of births of the next cycle that have been passed on
 
         base::Ticks nextTick() const
         {
@@ -182,14 +184,15 @@ private:
     struct Outlet
     {
         std::span<Birth> room;
-        uint64_t most;                                    ///< maximum number of births to pass on
-        void (*take)(void* user, std::span<const Birth>); ///< null: births stay in `room`
+        uint64_t most; ///< maximum number of births to pass on
+        /// function that receives births; null: births stay in `room`
+        void (*take)(void* user, std::span<const Birth>);
         void* user;
         uint64_t wanted = UINT64_MAX; ///< number of births after which the window may end early
     };
     struct Writer;
 
-    /// Skipped windows without births, whose progress has not been added yet.
+    /// Windows without births that have been skipped and not yet been added to the progress.
     struct Quiet
     {
         base::Ticks from = 0;

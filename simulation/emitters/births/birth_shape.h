@@ -31,6 +31,7 @@ struct BirthPlace
     glm::vec3 direction; ///< unit
 };
 
+/// Computes the initial position and direction of a particle from random numbers.
 /// @param place four uniform numbers for the position
 /// @param heading four uniform numbers for the direction
 BirthPlace sampleBirth(const EmitterSettings& def, const std::array<float, 4>& place,

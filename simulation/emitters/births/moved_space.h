@@ -42,19 +42,19 @@ public:
     void begin(const base::Placement& placement);
     /// Begins a step, at the end of which the instance has moved by `share` of the way to `placement`.
     void moveTo(const base::Placement& placement, float share = 1.0f);
-    /// Sets the placement without a path to it.
+    /// Sets the placement without motion in between.
     void jumpTo(const base::Placement& placement);
-    /// True when the placement equals that at the end of the last step.
+    /// Whether the placement equals that at the end of the last step.
     bool stands(const base::Placement& placement) const;
 
     const base::Placement& home() const { return home_; }
-    /// Applies (1) to (3) to a birth by rate or burst.
+    /// Transforms position and velocity of a birth by rate or burst to H, by (1) to (3).
     void carry(float share, float seconds, float inherit, glm::vec3& ioPosition, glm::vec3& ioVelocity) const;
-    /// Transforms a point at the begin of the step: (1) at t = 0.
+    /// Transforms a point from the instance's space to H at the begin of the step, by (1) at t = 0.
     glm::vec3 placed(const glm::vec3& point) const;
-    /// Transforms a vector at the end of the step: (3) at t = 1.
+    /// Transforms a vector from the instance's space to H at the end of the step, by (3) at t = 1.
     glm::vec3 turned(const glm::vec3& vector) const;
-    /// Rotates a vector from the axes of the world to those of H.
+    /// Rotates a vector from the axes of the world to the axes of H.
     glm::vec3 fromWorld(const glm::vec3& vector) const { return glm::conjugate(home_.rotation) * vector; }
 
     void save(StateWriter& writer) const;
@@ -72,7 +72,7 @@ private:
     static glm::vec3 turnedBy(const Pose& pose, const glm::vec3& v);
 
     base::Placement home_;
-    base::Placement last_; ///< end of the last step
+    base::Placement last_; ///< placement at the end of the last step
     Pose begin_;           ///< A
     Pose end_;             ///< B
 };

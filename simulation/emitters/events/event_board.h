@@ -12,14 +12,15 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kMinEventBirths =
-    4096; ///< births by events that an emitter of any capacity tries in a step
+/// An emitter attempts at most max(capacity, kMinEventBirths) births caused by events in a step.
+constexpr uint32_t kMinEventBirths = 4096;
 
 /// Requests for births in one emitter.
 struct EventRequests
 {
-    std::span<const EventBirth> births; ///< in the order of processing; only those that fit
-    uint64_t asked = 0;                 ///< number of all requested births, including those that do not fit
+    /// requested births in the order of processing, without those that do not fit
+    std::span<const EventBirth> births;
+    uint64_t asked = 0; ///< number of all requested births
 };
 
 /// Keeps for each emitter only as many requests as its capacity allows: the first ones in processing order,
@@ -28,6 +29,7 @@ struct EventRequests
 class EventBoard
 {
 public:
+    /// Creates a board for one step.
     /// @param number     unique number of the board in its world
     /// @param capacityOf called with the index of a solver; returns the capacity of the solver
     template <class F>
@@ -74,7 +76,7 @@ public:
         }
         return true;
     }
-    /// The sorted requests; requires order().
+    /// The sorted requests for `target`. order() must have returned true.
     EventRequests read(uint32_t target) const
     {
         const Note& note = notes_[target];
@@ -87,13 +89,13 @@ private:
         std::span<EventBirth> kept; ///< the first `size` elements are a heap, whose front is processed last
         size_t size;
         size_t ordered;  ///< number of requests at the end that are already sorted
-        uint64_t wanted; ///< births of the kept requests
-        uint64_t asked;  ///< births of all posted requests
+        uint64_t wanted; ///< number of births of the kept requests
+        uint64_t asked;  ///< number of births of all posted requests
         uint64_t room;   ///< maximum number of attempted births
 
         std::span<EventBirth>::iterator end() const { return kept.begin() + ptrdiff_t(size); }
     };
-    static constexpr uint64_t kOrdered = 2; ///< [unit] of base::WorkBudget, for each request
+    static constexpr uint64_t kOrdered = 2; ///< [unit of base::WorkBudget] work of sorting one request
     void grow(Note& note)
     {
         const std::span<EventBirth> larger =

@@ -44,23 +44,22 @@ namespace fx::sim {
 /// without brightness. For a medium: its albedo.
 glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
 
-/// maximum in one step, over obstacles, the host's geometry and the ground
+/// Maximum number of contacts of a particle in one step with obstacles, the host's geometry and the ground.
 constexpr uint32_t kMaxParticleContacts = 10;
 
 /// The kinds of events and the properties of particles that the rules of an emitter need.
 class EventInterest
 {
 public:
+    /// Collects the needs of `rules`.
     /// @param longest [tick] upper bound of the age of particles
     EventInterest(std::span<const EventRule> rules, base::Ticks longest);
 
     bool in(EventKind kind) const { return kinds_[size_t(kind)]; }
     bool inColor() const { return colors_; } ///< whether a rule needs the color of the particle
-    std::span<const base::Ticks> ages() const
-    {
-        return ages_;
-    } ///< ascending, without duplicates, at most kMaxEventAges
-    /// Index of the first age greater than `age`.
+    /// Ages at which rules apply; ascending, without duplicates, at most kMaxEventAges.
+    std::span<const base::Ticks> ages() const { return ages_; }
+    /// Index in ages() of the first age greater than `age`.
     uint32_t firstAfter(base::Ticks age) const
     {
         return uint32_t(std::upper_bound(ages_.begin(), ages_.end(), age) - ages_.begin());
@@ -70,9 +69,9 @@ public:
     {
         return 3 + uint32_t(ages_.size()) + (in(EventKind::Collision) ? kMaxParticleContacts : 0);
     }
-    /// True when `rule` applies to an event.
+    /// Whether `rule` applies to an event.
     bool answers(const EventRule& rule, const ParticleEvent& event) const;
-    /// True when a rule may apply to the contact.
+    /// Whether a rule may apply to the contact.
     bool counts(const TileContact& contact) const
     {
         return contact.speed >= (contact.isLast ? leastLastSpeed_ : leastSpeed_);

@@ -26,19 +26,21 @@ namespace fx::sim {
 struct PoolEntry
 {
     PooledEmitter* emitter;
-    uint32_t user;      ///< identifies the emitter for the owner of the pool
+    uint32_t user;      ///< number by which the owner of the pool identifies the emitter
     uint64_t seed;      ///< seed of its instance
-    base::Ticks offset; ///< its local time minus the pool's
+    base::Ticks offset; ///< local time of the emitter minus the time of the pool
     EvenBirths births;  ///< local time
     base::Ticks end;    ///< local time from which there are no births
 };
 
-/// Threads: one at a time (the scene thread); large publications run in parallel on the task runner.
+/// A pool of emitters. Threads: one at a time (the scene thread); large publications run in parallel on the
+/// task runner.
 class EmitterPool
 {
 public:
-    /// @param pull [m/s2] of all members, see AppearanceJob
-    /// @param revision increases whenever a member is added or removed
+    /// Creates an empty pool.
+    /// @param pull [m/s2] acceleration of all members, see AppearanceJob
+    /// @param revision is incremented whenever a member is added or removed
     EmitterPool(std::shared_ptr<const ParticleProgram> program, const glm::vec3& pull, uint64_t& revision,
                 std::pmr::memory_resource* memory);
 
@@ -55,8 +57,8 @@ public:
     }
     uint64_t offered() const { return offered_; } ///< number of the step of the last offer
 
-    /// Adds an emitter with its particles, at the pool's time `now`.
-    /// @return the member; kNoMember, without changes, when memory is exhausted
+    /// Adds an emitter with its particles, at the time `now` of the pool.
+    /// @return number of the member; kNoMember, without changes, when memory is exhausted
     uint32_t admit(const PoolEntry& entry, base::Ticks now);
     static constexpr uint32_t kNoMember = ~0u;
     /// Removes a member and its particles.
@@ -92,22 +94,22 @@ private:
         PooledEmitter* emitter = nullptr; ///< null: free
         uint64_t seed = 0;
         EvenBirths births;   ///< the pool's time
-        base::Ticks end = 0; ///< tick from which there are no births
+        base::Ticks end = 0; ///< time of the pool from which there are no births
         uint64_t next = 0;   ///< birth index
         uint64_t front = 0;  ///< oldest living index
         base::Ticks frontUntil = 0;
         uint32_t nextRow = 0; ///< row of the next birth in the member's own store
         uint32_t frontRow = 0;
-        uint32_t rows = 0; ///< occupied rows in its own store
+        uint32_t rows = 0; ///< number of occupied rows in the member's own store
         uint32_t highWater = 0;
         uint32_t user = 0;
         uint64_t dropped = 0;
-        base::Ticks offset = 0; ///< local time minus the pool's
+        base::Ticks offset = 0; ///< local time of the member minus the time of the pool
     };
 
     size_t placeOfName(uint32_t name) const { return placeOf(name >> 8, name & 0xFF); }
     size_t placeOf(uint32_t member, uint32_t row) const { return size_t(member) * each_ + row; }
-    /// Whether the particle with this serial number is alive at `tick`; then `outRow` is its row.
+    /// Whether the particle with a serial number is alive at `tick`. If it is, `outRow` receives its row.
     bool lives(uint64_t serial, base::Ticks tick, uint32_t& outRow) const;
     void makeRoom(uint32_t member, uint64_t rows);
     void rebuild(uint64_t rows);
@@ -122,21 +124,23 @@ private:
 
     std::shared_ptr<const ParticleProgram> program_;
     glm::vec3 pull_;
-    uint32_t each_; ///< rows of the own store of each member
+    uint32_t each_; ///< number of rows of the own store of each member
     uint64_t& revision_;
     std::pmr::memory_resource* memory_;
-    ParticleStore store_;         ///< a ring of all births; its indices are serial numbers
-    std::vector<uint32_t> owner_; ///< by row: member and row of its own store, see base::PooledRows
-    std::vector<uint64_t> index_; ///< by row: birth index in the member
-    /// by row of the member's own store: serial number of its last particle, or kNoParticle
+    ParticleStore store_; ///< ring of all births of the pool; its indices are serial numbers
+    /// for each row: its member, and the row in the member's own store, see base::PooledRows
+    std::vector<uint32_t> owner_;
+    std::vector<uint64_t> index_; ///< for each row: birth index of the particle in its member
+    /// For each row of each member's own store: serial number of the last particle in that row, or
+    /// kNoParticle.
     std::vector<uint64_t> serial_;
-    std::vector<base::Ticks> wake_; ///< by member: first tick at which a step has births or deaths
-    std::vector<uint32_t> counts_;  ///< by member: count of its group
+    std::vector<base::Ticks> wake_; ///< for each member: first tick at which a step has births or deaths
+    std::vector<uint32_t> counts_;  ///< for each member: number of elements of its group
     std::vector<Member> members_;
     std::vector<uint32_t> free_;
     std::vector<uint32_t> due_;
-    std::vector<PooledBirth> births_; ///< pending births, from store_.next() on
-    uint64_t number_ = 0;             ///< number of this order of rows, see base::PooledRows::writer
+    std::vector<PooledBirth> births_; ///< pending births; the first one has the index store_.next()
+    uint64_t number_ = 0;             ///< revision of the order of rows, see base::PooledRows::writer
     uint64_t rowsInUse_ = 0;
     uint32_t taken_ = 0; ///< number of members
     base::Ticks now_ = 0;

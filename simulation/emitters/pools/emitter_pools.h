@@ -11,20 +11,20 @@
 
 namespace fx::sim {
 
-/// A request of an emitter, which has been stepped to `now`, to join a pool.
+/// Request of an emitter to join a pool. The emitter has been stepped to `now`.
 struct PoolRequest
 {
     uint32_t user;      ///< see PoolEntry
     uint64_t step;      ///< number of that step
     base::Ticks now;    ///< pool's time
-    base::Ticks offset; ///< local time minus the pool's
+    base::Ticks offset; ///< local time of the emitter minus the time of the pool
 };
 
 /// [tick] Longest step of pools. In longer steps, emitters are stepped separately, because ages must fit into
 /// 32 bits.
 constexpr base::Ticks kLongestPoolStep = base::kTicksPerSecond / 16;
 
-/// Threads: one at a time.
+/// The pools of all emitters of a world. Threads: one at a time.
 class EmitterPools
 {
 public:
@@ -34,13 +34,13 @@ public:
     uint64_t revision() const { return revision_; }
     bool empty() const { return pools_.empty() || members() == 0; }
     uint32_t members() const;
-    base::Ticks now() const { return now_; } ///< end of the last step
+    base::Ticks now() const { return now_; } ///< time at which the last step ended
     /// Publishes all pools that have members.
     void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
     size_t indexOf(const EmitterPool& pool) const; ///< index among the pools with members
 
-    /// The pool that an emitter may join now: a pool with members, or a new one if enough emitters request it
-    /// in this step. Null without such a pool or without memory.
+    /// Returns the pool that an emitter may join now: a pool that already has members, or a new one if enough
+    /// emitters request it in this step. Null if there is no such pool, or without memory.
     EmitterPool* offer(const std::shared_ptr<const ParticleProgram>& program, const glm::vec3& pull,
                        uint64_t step);
     /// @param outLeft see EmitterPool::step()

@@ -28,8 +28,8 @@ public:
     /// Copies the state from the pool and leaves it; the emitter is then stepped separately. Does nothing
     /// without a pool.
     virtual void leavePool() = 0;
-    virtual const EmitterPool* pool() const = 0; ///< pool that computes it; null for none
-    virtual uint32_t member() const = 0;         ///< its number in the pool
+    virtual const EmitterPool* pool() const = 0; ///< pool that computes the emitter; null for none
+    virtual uint32_t member() const = 0;         ///< number of the emitter in the pool
     /// As Solver::publish(), but `spawnBatch` may fill the columns later. @return false, without any change,
     /// if the emitter does not support this
     virtual bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
@@ -39,7 +39,8 @@ public:
     virtual const ParticleProgram& program() const = 0;
     virtual uint32_t highWater() const = 0; ///< maximum number of rows in use after a step
     virtual uint64_t dropped() const = 0;   ///< number of births whose row was occupied
-    /// Sets the state that is not in the store. The pool has already written the rows of local time `now`.
+    /// Sets the state that is not in the store when the emitter leaves a pool. The pool has already written
+    /// the rows at local time `now`.
     virtual void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped) = 0;
     /// Counts births that were dropped because their row was occupied.
     virtual void refuse(uint64_t births, StepCounters& counters) = 0;

@@ -14,17 +14,18 @@
 
 namespace fx::sim {
 
-/// Threads: one at a time (the scene thread); large publications run in parallel on the task runner.
+/// A batch of births and publications of small emitters. Threads: one at a time (the scene thread); large
+/// publications run in parallel on the task runner.
 class SpawnBatch
 {
 public:
     explicit SpawnBatch(std::pmr::memory_resource* memory);
 
     // ---- a step ----
-    static constexpr size_t kMaxDeferredBirths =
-        256; ///< largest number of deferred births of one emitter; more fill vectors without a batch
+    /// Largest number of births of one emitter that are deferred. More births fill vectors without a batch.
+    static constexpr size_t kMaxDeferredBirths = 256;
     /// Defers `births` of `emitter`, at most kMaxDeferredBirths and at most its rows, and the end of its
-    /// step. close() executes both at the latest.
+    /// step. They are executed by close() at the latest.
     void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
     /// Whether the end of the emitter's step is deferred.
     bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
@@ -32,7 +33,8 @@ public:
     void forget();
     /// Computes the deferred births.
     void makeBirths();
-    /// Computes all pending births and ends the steps of their emitters. Must precede any access to them.
+    /// Computes all pending births and ends the steps of their emitters. It must be called before any access
+    /// to these emitters.
     void close();
 
     // ---- a publication ----
@@ -48,7 +50,7 @@ public:
         part.group = snapshot_->groupCount() - 1;
         return part.job;
     }
-    /// @return [unit] of base::WorkBudget spent
+    /// Completes the groups of the publication. @return [unit of base::WorkBudget] work spent
     uint64_t endPublication();
 
 private:
@@ -70,7 +72,9 @@ private:
     std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
     StepCounters* counters_ = nullptr;
 
-    static constexpr size_t kMaxParts = 64; ///< parts and their inputs fit into the L1 and L2 caches
+    /// maximum number of parts that are computed together; they and their inputs fit into the L1 and L2
+    /// caches
+    static constexpr size_t kMaxParts = 64;
     std::array<AppearancePart, kMaxParts> parts_;
     size_t partCount_ = 0;
     uint64_t rows_ = 0; ///< number of rows of the publication

@@ -15,15 +15,15 @@ namespace fx::sim {
 
 enum class ObstacleKind : uint8_t
 {
-    Plane,       ///< through `position` with the normal `axis`; matter below it
+    Plane,       ///< plane through `position` with the normal `axis`; matter is below it
     Sphere,      ///< sphere of radius size.x
-    Box,         ///< box of half extents size; its +Y is along `axis`
+    Box,         ///< box with the half extents `size`, whose +Y points along `axis`
     Mesh,        ///< `field`
-    HeightField, ///< `heights` above the plane through `position`, without rotation
+    HeightField, ///< height field `heights` above the plane through `position`, without rotation
     Ground,      ///< the instance's ground plane, if enabled
     Scene,       ///< the host's geometry, if set
-    Hook,        ///< StepContext::contactHook, if the host has set one
-    Depth,       ///< surfaces in the depth texture of a view; only on the GPU, no contacts on the CPU
+    Hook,        ///< the host's contact callback StepContext::contactHook, if set
+    Depth,       ///< surfaces in the depth texture of a view; only the GPU computes these contacts
 };
 
 enum class ContactResponse : uint8_t
@@ -36,14 +36,14 @@ enum class ContactResponse : uint8_t
 struct CollisionDef
 {
     ObstacleKind kind = ObstacleKind::Plane;
-    glm::vec3 position{0.0f};         ///< [m] center, or origin of the mesh or grid
-    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< direction, of any length > 0
+    glm::vec3 position{0.0f};         ///< [m] position of the center, or of the origin of a mesh or grid
+    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< direction of the axis, of any length > 0
     glm::vec3 size{1.0f};             ///< [m]
-    bool isHollow = false;            ///< sphere and box: particles are kept inside
+    bool isHollow = false;            ///< for spheres and boxes: true keeps particles inside
     float margin = 0.0f; ///< [m] distance that particles keep from planes, spheres, boxes, heights and depth
-    float thickness = 0.5f;                     ///< [m] Depth: assumed thickness of surfaces along the ray
+    float thickness = 0.5f; ///< [m] for ObstacleKind::Depth: assumed thickness of surfaces along the ray
     std::shared_ptr<const DistanceField> field; ///< distance field of the mesh
-    std::shared_ptr<const FieldGrid> heights;   ///< [m] one channel, one node along y
+    std::shared_ptr<const FieldGrid> heights;   ///< [m] heights: one channel, one node along y
 
     ContactResponse response = ContactResponse::Bounce;
     float restitution = 0.5f; ///< [1] 0..1 share of the normal speed that is kept

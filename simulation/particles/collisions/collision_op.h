@@ -13,6 +13,7 @@
 
 namespace fx::sim {
 
+/// Creates the module for all obstacles of an emitter.
 /// @param defs obstacles; only the first kMaxObstacles are used
 std::unique_ptr<TileOp> makeCollisionOp(std::span<const CollisionDef> defs);
 

@@ -21,16 +21,16 @@ struct ContactLeg
 struct LegContact
 {
     bool found = false;
-    float share = 1.0f;     ///< [1] share of the leg's seconds before the contact
+    float share = 1.0f;     ///< [1] share of the leg's duration before the contact
     glm::vec3 place{0.0f};  ///< [m]
-    glm::vec3 normal{0.0f}; ///< unit, pointing to the side on which particles may be
+    glm::vec3 normal{0.0f}; ///< unit vector towards the side on which particles may be
 };
 
 /// Distance of a point to the nearest obstacle.
 struct Clearance
 {
     float distance;   ///< [m] negative inside of matter
-    glm::vec3 normal; ///< unit, pointing to the side on which particles may be, or 0
+    glm::vec3 normal; ///< unit vector towards the side on which particles may be, or 0
 };
 
 } // namespace fx::sim

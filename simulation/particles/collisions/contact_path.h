@@ -55,11 +55,12 @@ struct ContactState
     bool isHit = false;
     bool isKilled = false;
     bool isStuck = false;
-    float contact = 1.0f; ///< [1] share of the step at the first contact, or at the killing contact
+    /// [1] share of the step before the first contact, or before the contact that kills the particle
+    float contact = 1.0f;
 };
 
-constexpr int kMaxContacts = 8;      ///< maximum for one particle in one step
-constexpr size_t kMaxObstacles = 16; ///< maximum for one emitter
+constexpr int kMaxContacts = 8;      ///< maximum number of contacts of one particle in one step
+constexpr size_t kMaxObstacles = 16; ///< maximum number of obstacles of one emitter
 
 /// Contacts that begin in a step, selected by rule (2) of event-ticks.
 struct ContactList
@@ -68,8 +69,9 @@ struct ContactList
     uint32_t count = 0;
 };
 
+/// Follows the path of a particle through a step and responds to its contacts.
 /// @param state state at the end of the step without contacts
-/// @param seconds length of the step, > 0
+/// @param seconds [s] length of the step, > 0
 /// @param list receives the contacts; null: none are collected
 ContactState followPath(std::span<const ObstacleEntry> obstacles, const StepContext& step,
                         const glm::vec3& from, const ContactState& state, float seconds,

@@ -41,12 +41,13 @@ class GpuModules;
 
 namespace fx::sim {
 
-/// Immutable. [any thread]; allocates nothing.
+/// An obstacle of particles. Immutable. [any thread]; allocates nothing.
 class Obstacle
 {
 public:
     virtual ~Obstacle() = default;
-    /// False if the obstacle does not exist in this step, for example without geometry of the host.
+    /// Whether the obstacle exists in this step; false, for example, if it is the host's geometry and none is
+    /// set.
     virtual bool isThere(const StepContext&) const { return true; }
     virtual Clearance clearance(const StepContext& step, const glm::vec3& p) const = 0;
     virtual LegContact meet(const StepContext& step, const ContactLeg& leg) const = 0;
@@ -61,11 +62,11 @@ public:
         } form = Everywhere;
         glm::vec3 center{0.0f}; ///< center of the ball, or normal of the plane
         float size = 0.0f;      ///< [m] radius, or distance of the plane from the origin along its normal
-        bool isHollow = false;  ///< points inside of the ball may be close to the surface
+        bool isHollow = false;  ///< true: points inside of the ball may be close to the surface
     };
     virtual Outline outline(const StepContext&) const { return {}; }
-    /// As GpuModuleSource::describe(). The module's numbers are followed by response, restitution and
-    /// friction.
+    /// Describes the obstacle for the GPU as GpuModuleSource::describe() does. The numbers of the obstacle
+    /// are followed by its response, restitution and friction.
     virtual bool describe(base::GpuModules&) const { return false; }
 };
 

@@ -35,7 +35,9 @@ public:
     explicit AliasTable(std::span<const double> weights);
 
     uint32_t size() const { return uint32_t(rows_.size()); }
-    /// Returns an item. @param u in [0, 1), with 48 random bits for large tables @param coin in [0, 1)
+    /// Draws an item with a probability proportional to its weight.
+    /// @param u uniform in [0, 1), with 48 random bits for large tables
+    /// @param coin uniform in [0, 1)
     uint32_t draw(double u, float coin) const
     {
         const uint32_t last = size() - 1;

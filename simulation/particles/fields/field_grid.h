@@ -46,9 +46,9 @@ namespace fx::sim {
 
 constexpr uint32_t kMaxGridNodesPerAxis = 4096;
 constexpr size_t kMaxGridNodes = size_t(1) << 24;
-constexpr uint64_t kMaxGridBytes = uint64_t(kMaxGridNodes) * 12 + 1024; ///< maximum size of a file
+constexpr uint64_t kMaxGridBytes = uint64_t(kMaxGridNodes) * 12 + 1024; ///< [byte] maximum size of a file
 
-/// Immutable once it is shared. [any thread]
+/// A regular grid of numbers or vectors. Immutable once it is shared. [any thread]
 struct FieldGrid
 {
     glm::uvec3 nodes{1u};
@@ -65,10 +65,11 @@ struct FieldGrid
     glm::vec3 high() const { return low + cell * glm::vec3(nodes - 1u); } ///< [m] last node
 };
 
-/// Parses a file. @return Parse (with the byte offset), TooLarge, InvalidArgument (a number is not finite)
+/// Parses the bytes of a grid file. @return Parse (with the byte offset), TooLarge, InvalidArgument (a number
+/// is not finite)
 base::Result<std::shared_ptr<const FieldGrid>> parseFieldGrid(std::string_view bytes);
 
-/// The bytes of a file that parseFieldGrid() reads as `grid`.
+/// Formats a grid as the bytes of a file that parseFieldGrid() reads.
 std::string writeFieldGrid(const FieldGrid& grid);
 
 } // namespace fx::sim

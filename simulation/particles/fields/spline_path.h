@@ -36,8 +36,9 @@ constexpr size_t kMaxSplinePoints = 256;
 class SplinePath
 {
 public:
-    /// @param points at least two
-    /// @param isClosed the last point is joined to the first
+    /// Computes a spline through points.
+    /// @param points at least two points
+    /// @param isClosed true: the last point is joined to the first
     SplinePath(std::span<const glm::vec3> points, bool isClosed);
 
     struct Place
@@ -45,21 +46,21 @@ public:
         glm::vec3 position; ///< [m]
         glm::vec3 tangent;  ///< unit
     };
-    /// The point after the share `u` in [0, 1) of the length.
+    /// The point at the share `u` in [0, 1) of the total length.
     Place at(float u) const;
     double length() const { return length_.back(); } ///< [m]
 
 private:
     struct Segment
     {
-        glm::dvec3 c[4]; ///< coefficients of s^0 .. s^3
+        glm::dvec3 c[4]; ///< coefficients of the polynomial, from s^0 to s^3
     };
     size_t segments() const { return segments_.size(); }
     double speed(size_t segment, double s) const;
     double pieceLength(size_t segment, double from, double to) const;
 
     std::vector<Segment> segments_;
-    std::vector<double> length_; ///< [m] up to the end of each piece, beginning with 0
+    std::vector<double> length_; ///< [m] length of the path up to the end of each piece, beginning with 0
 };
 
 } // namespace fx::sim

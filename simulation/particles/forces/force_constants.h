@@ -22,7 +22,7 @@ struct AttractorConstants
     }
 
     float softening; ///< [m2] square of e
-    float reach;     ///< [m2] square of the largest distance
+    float reach;     ///< [m2] square of AttractorDef::reach
     float factor;    ///< S R^n
 };
 
@@ -40,7 +40,7 @@ struct VortexConstants
     float along;   ///< [m3/s] R^2 U
 };
 
-/// Position of the grid of a vector field, for formula trilinear-vectors.
+/// Placement of the grid of a vector field, for formula trilinear-vectors.
 struct VectorFieldConstants
 {
     explicit VectorFieldConstants(const VectorFieldDef& def)
@@ -48,7 +48,7 @@ struct VectorFieldConstants
           perCell(glm::vec3(1.0f) / (def.scale * def.grid->cell))
     {}
 
-    glm::vec3 low;     ///< [m] of the first node
+    glm::vec3 low;     ///< [m] position of the first node
     glm::vec3 perCell; ///< [1/m]
 };
 

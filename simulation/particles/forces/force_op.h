@@ -36,8 +36,9 @@ private:
     Kernel kernel_;
 };
 
-/// @param describe see GpuModuleSource  @param kernel see FX_FORCE_KERNEL; the limit on instruction sets is
-///        applied before the call
+/// Creates the module of a force.
+/// @param describe see GpuModuleSource::describe()
+/// @param kernel see FX_FORCE_KERNEL; the limit on instruction sets is applied before the kernel is called
 template <class Def>
 std::unique_ptr<TileOp> makeForceOp(const Def& def, const TileBound& bound,
                                     typename ForceOp<Def>::Describe describe,
@@ -46,8 +47,8 @@ std::unique_ptr<TileOp> makeForceOp(const Def& def, const TileBound& bound,
     return std::make_unique<ForceOp<Def>>(def, bound, describe, kernel);
 }
 
-/// For makeForceOp(): calls an exported kernel, `void FUNCTION(const Def&, Tile&)`, of the instruction set in
-/// use.
+/// Argument `kernel` of makeForceOp(). It calls an exported kernel, `void FUNCTION(const Def&, Tile&)`,
+/// compiled for the instruction set in use.
 #define FX_FORCE_KERNEL(FUNCTION)                                                                            \
     [](const auto& def, Tile& tile) { HWY_DYNAMIC_DISPATCH(FUNCTION)(def, tile); }
 

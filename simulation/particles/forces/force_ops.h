@@ -11,15 +11,17 @@
 namespace fx::sim {
 
 std::unique_ptr<TileOp> makeGustOp(const GustDef& def);
-/// @param coefficient [1/m] >= 0: acceleration -q |v - u| (v - u) against the air
+/// Quadratic drag: the acceleration is -q |v - u| (v - u) for a particle of velocity v in air of velocity u.
+/// @param coefficient [1/m] q, >= 0
 std::unique_ptr<TileOp> makeQuadraticDragOp(float coefficient);
 std::unique_ptr<TileOp> makeVortexOp(const VortexDef& def);
-/// A kill radius is not included; it is implemented as a sphere by makeCollisionOp().
+/// Creates the force of an attractor without its kill radius. makeCollisionOp() implements the kill radius as
+/// a sphere.
 std::unique_ptr<TileOp> makeAttractorOp(const AttractorDef& def);
 std::unique_ptr<TileOp> makeVectorFieldOp(const VectorFieldDef& def);
 std::unique_ptr<TileOp> makeConformOp(const ConformDef& def);
 
-/// Smooth noise between -1 and 1 as a function of `phase`, 0 on average. The components `axis` 0..2 are
+/// Smooth noise between -1 and 1 as a function of `phase`, with mean 0. The noise of the axes 0, 1 and 2 is
 /// independent.
 float gustNoise(uint64_t seed, uint32_t solverIndex, double phase, int axis);
 

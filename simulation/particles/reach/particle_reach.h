@@ -13,31 +13,31 @@
 
 namespace fx::sim {
 
-/// [m] Upper bound of distances, see SolverDef::reachFrom().
+/// [m] Upper bound of the distances of particles from the origin, see SolverDef::reachFrom().
 float reachOf(const EmitterSettings& def, const ReachConditions& conditions, const BirthReach& births,
               std::span<BirthReach> ioOthers);
 
-/// Box that contains all drawn geometry of particles up to the age `seconds`, for all random numbers.
+/// Box that contains everything that is drawn of particles up to the age `seconds`, for all random numbers.
 /// @param low, high [m/s2] range of accelerations, component by component
-/// @param secondsBack [s] time since the previous snapshot; particles born since then are drawn at their
-///                    extrapolated positions at that time
+/// @param secondsBack [s] time since the previous snapshot; particles born since then are drawn at that time
+///          too, at extrapolated positions
 base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const glm::vec3& high,
                          float seconds, float secondsBack);
 
 /// Ranges of conditions, apart from modules, since the birth of the oldest particle.
 struct ConditionsRange
 {
-    ReachConditions strongest; ///< strongest conditions, and the length of that time
-    glm::vec3 low{0.0f};       ///< [m/s2] range of the pull of gravity and wind, see AppearanceJob
+    ReachConditions strongest; ///< strongest conditions, and the duration that they cover
+    glm::vec3 low{0.0f}; ///< [m/s2] range of the acceleration by gravity and wind, see AppearanceJob::pull
     glm::vec3 high{0.0f};
     float lowGround = 0.0f; ///< [m] range of the height of the ground plane, -infinity for none
     float highGround = 0.0f;
     float secondsBack = kLongestStep; ///< [s] see boundsOfAll()
-    bool meetsGround = false;         ///< particles stay above the ground
-    bool meetsOthers = false;         ///< contacts may deflect them in any direction
+    bool meetsGround = false;         ///< whether particles are kept above the ground
+    bool meetsOthers = false;         ///< whether contacts may deflect particles in any direction
 };
 
-/// As boundsOfAll(), for particles that modules move; infinite when unknown.
+/// As boundsOfAll(), for particles whose motion is changed by modules; infinite when unknown.
 base::Bounds boundsOfStepped(const EmitterSettings& def, const ConditionsRange& conditions);
 
 } // namespace fx::sim

@@ -38,7 +38,7 @@ struct MeshSampler
     struct Triangle
     {
         glm::vec3 corner;  ///< [m] a
-        glm::vec3 side[2]; ///< [m] b - a, c - a
+        glm::vec3 side[2]; ///< [m] edges b - a and c - a
         glm::vec3 normal;  ///< unit
     };
     std::vector<Triangle> triangles;
@@ -47,14 +47,17 @@ struct MeshSampler
 
 struct VolumeSampler
 {
-    glm::vec3 low{0.0f};          ///< [m] the first node
-    glm::vec3 cell{1.0f};         ///< [m]
-    std::vector<glm::vec3> nodes; ///< [1] position in cells from the first node; only nodes with a density
+    glm::vec3 low{0.0f};  ///< [m] position of the first node
+    glm::vec3 cell{1.0f}; ///< [m]
+    /// [1] positions of the nodes with a density above 0, in cells from the first node
+    std::vector<glm::vec3> nodes;
     AliasTable table;
 };
 
+/// Prepares sampling of the triangles of a mesh.
 /// @return the error of checkMesh(), InvalidArgument (no triangle with an area)
 base::Result<std::shared_ptr<const MeshSampler>> makeMeshSampler(const TriangleMesh& mesh);
+/// Prepares sampling of a density.
 /// @return InvalidArgument (not one channel, no density above 0)
 base::Result<std::shared_ptr<const VolumeSampler>> makeVolumeSampler(const FieldGrid& density);
 

@@ -43,18 +43,19 @@ struct ShapePlace
     glm::vec3 direction; ///< unit
 };
 
+/// Computes the initial position and direction of a particle from random numbers.
 /// @param place four uniform numbers for the position
 /// @param heading four uniform numbers for the direction
 ShapePlace sampleShape(const ShapeDef& def, const std::array<float, 4>& place,
                        const std::array<float, 4>& heading);
 
-/// [1] Growth of the cone's radius per height.
+/// [1] Growth of the radius of the cone per unit of height.
 double slopeOf(const ShapeDef& def);
 
 /// Module that samples the shape for many births at once.
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def);
 
-/// Definition of a shape made by makeShapeOp(); null for other shapes.
+/// Definition of a shape that makeShapeOp() created; null for other shapes.
 const ShapeDef* shapeOf(const ShapeOp& shape);
 
 } // namespace fx::sim

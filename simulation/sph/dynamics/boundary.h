@@ -30,7 +30,7 @@ std::array<BoundaryAxis<T>, 3> boundaryAxes(const Domain& domain)
     return axes;
 }
 
-/// True when `x` is outside of the domain on this axis.
+/// Whether `x` is outside of the domain on this axis.
 template <class T>
 bool hasLeft(const BoundaryAxis<T>& axis, T x)
 {
@@ -39,8 +39,8 @@ bool hasLeft(const BoundaryAxis<T>& axis, T x)
     return x < axis.low || (axis.kind == AxisKind::Periodic ? x >= axis.high : x > axis.high);
 }
 
-/// Moves `x` back into the domain, periodically or by reflection. True if the velocity on this axis is
-/// reversed.
+/// Moves `x` back into the domain, periodically or by reflection. @return whether the velocity on this axis
+/// is reversed
 template <class T>
 bool bringBack(const BoundaryAxis<T>& axis, T& x)
 {

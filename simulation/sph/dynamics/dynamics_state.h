@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-constexpr double kEndless = 1e30; ///< [s] step of a particle that no criterion limits
+constexpr double kEndless = 1e30; ///< [s] time step of a particle that no criterion limits
 
 /// After heat input or new particles, step criteria underestimate the changes of the flow. Therefore the
 /// first step is shortened by this factor, and each further step may be twice as long. Fitted by the energy
@@ -23,30 +23,30 @@ constexpr double kEndless = 1e30; ///< [s] step of a particle that no criterion 
 /// 3.0e-3 for 1/8.
 constexpr float kFirstSteps = 0.25f;
 
-/// Heat that is released at a later time.
+/// Heat that will be released at a later time.
 struct DelayedHeat
 {
-    double seconds; ///< [s] from the beginning of the next frame
+    double seconds; ///< [s] time from the beginning of the next frame to the release
     double joules;
     uint32_t id;
-    uint32_t isGiven; ///< 1 between the release and the end of the frame
+    uint32_t isGiven; ///< 1 from the release until the end of the frame, otherwise 0
 };
 
 /// Neighbor lists of all particles and their validity. They are kept from frame to frame.
 struct ListState
 {
     bool valid = false;
-    double margin = 0;  ///< [1] margin with which the lists were built
+    double margin = 0;  ///< [1] search margin with which the lists were built
     double moved = 0;   ///< [1] largest displacement of a particle since the build, in units of its support
-    double growth = 0;  ///< [1] largest growth of a support since the build
-    double perStep = 0; ///< [1] `moved` of the last sub-step
+    double growth = 0;  ///< [1] largest relative growth of a support since the build
+    double perStep = 0; ///< [1] increase of `moved` in the last sub-step
 };
 
 /// A call of advance() that continues in further calls.
 struct Advance
 {
     bool isOpen = false;
-    double left = 0;  ///< [s] remaining of the requested time
+    double left = 0;  ///< [s] part of the requested time that remains
     double frame = 0; ///< [s] length of the open frame; 0 between frames
     AdvanceReport report;
 };
@@ -67,56 +67,58 @@ struct DynamicsState
     GasDynamicsDef def;
     DensityRules densityRules;
     ForceRules forceRules;
-    double pressureScale = 1; ///< [1] of GasDynamics::setPressureScale
+    double pressureScale = 1; ///< [1] factor of GasDynamics::setPressureScale()
     double soundScale = 1;    ///< [1] its square root
 
     uint32_t count = 0;
     GasColumns<T> gas;
     base::Column<uint32_t> slot; ///< slot of each id
-    bool fresh = false;          ///< some particles have no density yet
-    /// Accelerations are outdated, because the caller changed the particles.
+    bool fresh = false;          ///< true: some particles have no density yet
+    /// true: accelerations are outdated, because the caller changed particles
     bool stale = false;
-    bool shaken = false;    ///< heat or new particles were added, so the first steps must be short
-    bool heatedNow = false; ///< heat was released at this tick
+    bool shaken = false;    ///< true: heat or particles were added, so the first steps must be short
+    bool heatedNow = false; ///< true: heat was released at the present tick
     std::pmr::vector<DelayedHeat> delayed; ///< sorted by time
 
     ParticleTree<T> tree;
     bool treeIsSorted = false;
-    bool mustRecoverTree = false; ///< restored: the tree must be rebuilt from sortedX..sortedSupport
+    /// true after restoring a state: the tree must be rebuilt from sortedX..sortedSupport
+    bool mustRecoverTree = false;
     NeighborLists<T> lists;
     ListState listState;
-    bool listsServeActive = false; ///< every active slot has a list
-    /// positions and supports of the last sort, to repeat it
+    bool listsServeActive = false; ///< true: every active slot has a list
+    /// positions [m] and supports [m] of the last sort, from which it can be repeated
     base::Column<T> sortedX, sortedY, sortedZ, sortedSupport;
-    base::Column<T> nowX, nowY, nowZ; ///< [m] positions now, for the tree
-    /// values at the build of `listState`, while it is valid
+    base::Column<T> nowX, nowY, nowZ; ///< [m] present positions, from which the tree is refitted
+    /// positions [m] and supports [m] when `listState` was built; meaningful while it is valid
     base::Column<T> listX, listY, listZ, listSupport;
-    /// Records of the particles for their neighbors, at the present time.
+    /// Records of the particles at the present time, as read by the loops over pairs.
     base::Column<GasRecord<T>> records;
     base::Column<uint32_t> recordRound; ///< number of the prediction that wrote each record
     uint32_t round = 0;                 ///< number of the last prediction
-    bool recordsAreComplete = false;    ///< all records belong to the last prediction
+    bool recordsAreComplete = false;    ///< true: the last prediction has written all records
 
-    uint64_t now = 0;              ///< [tick] of the frame
+    uint64_t now = 0;              ///< [tick] present time within the frame
     double tick = 0;               ///< [s] length of a tick
-    base::Column<uint32_t> active; ///< slots whose step ends now, ascending
+    base::Column<uint32_t> active; ///< slots of the particles whose step ends now (active slots), ascending
     uint32_t activeCount = 0;
-    base::Column<uint32_t> blockCounts; ///< active slots of each block of kBlock slots
-    base::Column<uint64_t> blockEnds;   ///< [tick] earliest end after `now` of a step in each block
+    base::Column<uint32_t> blockCounts; ///< number of active slots in each block of kBlock slots
+    base::Column<uint64_t> blockEnds;   ///< [tick] earliest end, after `now`, of a step in each block
     base::Column<T> blockSpeeds;        ///< [1/s2] largest (|v| / H)^2 in each block
-    base::Column<uint64_t> blockNow;    ///< [tick] time of nowX..nowZ of each block
+    base::Column<uint64_t> blockNow;    ///< [tick] time that nowX..nowZ of each block refer to
     base::Column<uint8_t> blockChanged; ///< 1 if steps in the block have changed since the last prediction
-    std::atomic<uint64_t> nextEnd{0};   ///< [tick] earliest end of the next steps
+    std::atomic<uint64_t> nextEnd{0};   ///< [tick] earliest end of a step after `now`
     double fastest = 0;                 ///< [1/s] largest |v| / H
 
     base::Column<uint8_t> wantsReach;
-    base::Column<uint32_t> wanting; ///< active slots that need larger lists, ascending
+    base::Column<uint32_t> wanting; ///< active slots that need longer lists, ascending
     base::Column<uint32_t> neighbors;
     base::Column<uint32_t> pairs;
     base::Column<T> heating;
     base::Column<T> signalSpeed;
     base::Column<T> fastestNeighbor;
-    base::Column<uint8_t> levelLimit; ///< level of the longest step that the neighborhood allows
+    /// for each particle: level of the longest step that its neighborhood allows
+    base::Column<uint8_t> levelLimit;
 
     std::atomic<uint64_t> clamped{0};
     uint64_t pairSum = 0;
@@ -124,7 +126,7 @@ struct DynamicsState
     Advance advance;
 };
 
-/// Maximum and minimum over values of several threads; the result does not depend on the order of calls.
+/// Maximum and minimum of values from several threads; the result does not depend on the order of calls.
 template <class N>
 void raiseTo(std::atomic<N>& largest, N value)
 {
@@ -149,10 +151,11 @@ T pushOf(const DynamicsState<T>& s, T correction, T pressure, T density)
     return T(s.pressureScale) * correction * drawn / (density * density);
 }
 
-/// [m] Largest support that periodic sides and pairs of walls allow.
+/// [m] Largest support for which periodic axes and pairs of walls are wide enough.
 double largestInDomain(const GasDynamicsDef& def);
 
-constexpr uint32_t kBlock = 1024; ///< slots of a block in sums and searches over all particles
+/// number of slots of a block, the unit of sums and searches over all particles
+constexpr uint32_t kBlock = 1024;
 
 /// Makes the next prediction process the block of `slot`. Thread-safe.
 template <class T>

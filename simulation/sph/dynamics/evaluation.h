@@ -11,7 +11,8 @@ namespace fx::sim {
 template <class T>
 void evaluateDensity(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Computes densities of `slots` from the existing lists. True when a support must grow beyond its list.
+/// Computes densities of `slots` from the existing lists. @return whether a support must grow beyond the
+/// range of its list
 template <class T>
 bool sumDensities(DynamicsState<T>& state, std::span<const uint32_t> slots, double reach,
                   base::TaskRunner& tasks);

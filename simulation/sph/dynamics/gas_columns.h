@@ -12,9 +12,9 @@
 
 namespace fx::sim {
 
-/// All arrays are indexed by slot. During a frame every particle has its own step: velocity and entropy refer
-/// to the middle of the step, the position to the tick `drifted`, and all other columns to `begin`. Between
-/// frames all columns refer to the same time, and the ticks are 0.
+/// All columns of the gas, indexed by slot. During a frame every particle has its own step: velocity and
+/// entropy refer to the middle of the step, the position to the tick `drifted`, and all other columns to
+/// `begin`. Between frames all columns refer to the same time, and the ticks are 0.
 template <class T>
 struct GasColumns
 {
@@ -32,33 +32,34 @@ struct GasColumns
             f(*column);
     }
 
-    base::Column<uint32_t> id;        ///< index with which the particle was added
-    base::Column<T> x, y, z;          ///< [m]
-    base::Column<T> vx, vy, vz;       ///< [m/s]
-    base::Column<T> mass;             ///< [kg]
-    base::Column<T> entropy;          ///< K of state-equation
-    base::Column<T> ax, ay, az;       ///< [m/s2]
-    base::Column<T> entropyRate;      ///< [K/s]
-    base::Column<T> support;          ///< [m] 0 before the first density
-    base::Column<T> density;          ///< [kg/m3]
-    base::Column<T> correction;       ///< [1] f of the density loop
-    base::Column<T> divergence;       ///< [1/s]
-    base::Column<T> expansion;        ///< [1/s] of the density loop, -drho/dt / rho of the sum
-    base::Column<T> divergenceBefore; ///< [1/s] at the evaluation before the last
+    base::Column<uint32_t> id;   ///< index with which the particle was added; it never changes
+    base::Column<T> x, y, z;     ///< [m]
+    base::Column<T> vx, vy, vz;  ///< [m/s]
+    base::Column<T> mass;        ///< [kg]
+    base::Column<T> entropy;     ///< K of state-equation
+    base::Column<T> ax, ay, az;  ///< [m/s2]
+    base::Column<T> entropyRate; ///< [K/s]
+    base::Column<T> support;     ///< [m] radius of the kernel's support; 0 before the density is known
+    base::Column<T> density;     ///< [kg/m3]
+    base::Column<T> correction;  ///< [1] correction f for varying support, see gas-density
+    base::Column<T> divergence;  ///< [1/s]
+    /// [1/s] relative rate of decrease of the density, as the density loop computes it
+    base::Column<T> expansion;
+    base::Column<T> divergenceBefore; ///< [1/s] divergence at the evaluation before the last
     base::Column<T> curl;             ///< [1/s]
-    base::Column<T> exposure;         ///< [1] of the density loop
-    base::Column<T> viscosity;        ///< [1] alpha of the switch
-    base::Column<T> limiter;          ///< [1] Balsara
-    base::Column<T> pressure, energy; ///< [Pa] [J/kg] energy: the thermal part
+    base::Column<T> exposure;         ///< [1] exposure, as the density loop computes it
+    base::Column<T> viscosity;        ///< [1] coefficient alpha of the artificial viscosity
+    base::Column<T> limiter;          ///< [1] Balsara limiter of the viscosity
+    base::Column<T> pressure, energy; ///< [Pa] pressure; [J/kg] thermal part of the internal energy
     base::Column<T> pressureRate;     ///< [Pa/s]
     base::Column<T> energyRate;       ///< [W/kg]
     base::Column<T> sound;            ///< [m/s]
-    base::Column<T> heatToEntropy;    ///< dK per heat
+    base::Column<T> heatToEntropy;    ///< change of the entropy function K per heat
     base::Column<T> wantedStep;       ///< [s] longest step that the particle and its neighborhood allow
 
-    base::Column<uint64_t> begin, end; ///< [tick] of the particle's step
-    base::Column<uint64_t> drifted;    ///< [tick] time of the position
-    base::Column<uint8_t> level;       ///< binary logarithm of the step in ticks
+    base::Column<uint64_t> begin, end; ///< [tick] begin and end of the particle's step
+    base::Column<uint64_t> drifted;    ///< [tick] time that the position refers to
+    base::Column<uint8_t> level;       ///< binary logarithm of the length of the step in ticks
 
 private:
     std::array<base::Column<T>*, 29> lasting();

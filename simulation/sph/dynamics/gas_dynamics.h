@@ -31,8 +31,8 @@ struct DynamicsState;
 
 enum class StepScheme : uint8_t
 {
-    Global, ///< all particles take the smallest step: momentum is conserved to rounding
-    Block   ///< each particle has its own step, a power of two of a tick
+    Global, ///< all particles take the smallest of their steps; momentum is conserved to rounding
+    Block   ///< each particle has its own step, whose length is a power of two of a tick
 };
 
 /// State of a particle that is added or read.
@@ -41,53 +41,58 @@ struct GasParticle
     glm::dvec3 position{0.0}; ///< [m]
     glm::dvec3 velocity{0.0}; ///< [m/s]
     double mass = 0;          ///< [kg] > 0
-    double energy = 0;        ///< [J/kg] specific internal energy, >= 0, cold curve included
+    double energy = 0;        ///< [J/kg] specific internal energy, >= 0, including the cold curve
 };
 
-/// The values for shocks were chosen by the point blast of `fx verify sedov`, see docs/verification.md.
+/// Parameters of the artificial viscosity. The values for shocks were chosen by the point blast of `fx verify
+/// sedov`, see docs/verification.md.
 struct ViscosityRules
 {
     double alphaMin = 0.05;     ///< [1]
     double alphaMax = 0.91;     ///< [1]
-    double decay = 0.005;       ///< [1] decay rate of alpha in units of c / h
+    double decay = 0.005;       ///< [1] decay rate of alpha in units of the speed of sound c over h = H / 2
     double beta = 2;            ///< [1]
     double conductivity = 0.08; ///< [1]
-    bool limiter = true;        ///< Balsara
+    bool limiter = true;        ///< true: the Balsara limiter reduces the viscosity in shear flows
 };
 
 struct GasDynamicsDef
 {
     uint32_t capacity = 0; ///< particles, 1 .. 2^28
     SphKernel kernel = SphKernel::WendlandC2;
-    double neighbors = 58; ///< [1] 4/3 pi n H^3
+    /// [1] number of neighbors 4/3 pi n H^3, with the number density n and the support H
+    double neighbors = 58;
     StateEquation state;
     ViscosityRules viscosity;
     StepScheme steps = StepScheme::Block;
-    double courant = 0.2;        ///< [1] step = 2 courant h / v_sig, h = H / 2
+    /// [1] Courant number: step = 2 courant h / v_sig, with h = H / 2 and the signal speed v_sig
+    double courant = 0.2;
     double volumeChange = 0.025; ///< [1] largest relative change of volume of a particle in a step
-    double neighborStepRatio =
-        4; ///< [1] limiter of steps between neighbors; infinity switches it off (tests)
-    /// false: less exact, for visual use. Block steps ignore the rule for pairs with unequal steps
-    /// (gas-step). A support that must grow beyond its list grows further in the next steps. This needs fewer
-    /// steps and searches, and the energy is less exact.
+    /// [1] Largest ratio of the steps of neighbors; infinity switches this limit off (for tests).
+    double neighborStepRatio = 4;
+    /// true: exact energies. false: for visual use, with less exact energies but fewer steps and searches.
+    /// Block steps then ignore the rule for pairs with unequal steps (gas-step), and a support that must grow
+    /// beyond its list grows further in the next steps.
     bool exact = true;
-    uint32_t maxSubSteps = 1u << 30; ///< >= 1, limit for one advance(); the remaining time is debt
-    double smallestSupport = 0;      ///< [m] 0: 1e-4 of the median at the start
-    double largestSupport = 1e30;    ///< [m] 1e30: 200 times the median at the start
+    /// maximum number of sub-steps of one advance(), >= 1; time that would need more is debt
+    uint32_t maxSubSteps = 1u << 30;
+    double smallestSupport = 0;   ///< [m] lower limit of supports; 0: 1e-4 times the median at the start
+    double largestSupport = 1e30; ///< [m] upper limit of supports; 1e30: 200 times the median at the start
     Domain domain;
     glm::dvec3 gravity{0.0};    ///< [m/s2]
-    double ambientPressure = 0; ///< [Pa] of air that is not simulated
+    double ambientPressure = 0; ///< [Pa] pressure of the surrounding air, which is not simulated
     /// false: no attraction where the pressure is below the ambient pressure. This is for a cloud in air that
-    /// is not simulated, because the density sum underestimates the density at its surface.
+    /// is not simulated, because the density sum underestimates the density at the surface of the cloud.
     bool tension = true;
 };
 
 /// Work of sub-steps in units of base::WorkBudget.
 namespace gas_work {
 constexpr uint64_t kParts = 16;
-constexpr uint64_t kParticle = 36;   ///< of kParts, for each existing particle: prediction and search
-constexpr uint64_t kEvaluation = 40; ///< for each particle whose rates are evaluated, without its pairs
-constexpr uint64_t kPair = 15;       ///< of kParts, for each ordered pair
+/// work of prediction and search for each existing particle, in units of 1 / kParts
+constexpr uint64_t kParticle = 36;
+constexpr uint64_t kEvaluation = 40; ///< work for each particle whose rates are evaluated, without its pairs
+constexpr uint64_t kPair = 15;       ///< work for each ordered pair, in units of 1 / kParts
 } // namespace gas_work
 
 /// Sums over all particles, in double precision, in a fixed order.
@@ -95,22 +100,22 @@ struct GasTotals
 {
     double mass = 0;
     glm::dvec3 momentum{0.0};
-    double momentumScale = 0; ///< [kg m/s] sum m |v|
+    double momentumScale = 0; ///< [kg m/s] sum of m |v| over all particles
     double kinetic = 0;       ///< [J]
     double thermal = 0;       ///< [J]
-    double potential = 0;     ///< [J] of gravity and of work against the ambient pressure
+    double potential = 0;     ///< [J] potential energy in gravity, and work against the ambient pressure
     double energy() const { return kinetic + thermal + potential; }
 };
 
 struct AdvanceReport
 {
     double seconds = 0; ///< [s] simulated time
-    double debt = 0;    ///< [s] requested but not simulated
+    double debt = 0;    ///< [s] requested time that was not simulated
     uint64_t subSteps = 0;
-    uint64_t particleSteps = 0; ///< sum of active particles over sub-steps = force evaluations
-    uint64_t pairs = 0;         ///< ordered neighbor pairs in force evaluations
-    uint64_t searches = 0;      ///< number of builds of lists
-    uint64_t clamped = 0;       ///< values limited to keep the state finite
+    uint64_t particleSteps = 0; ///< number of force evaluations: active particles, summed over sub-steps
+    uint64_t pairs = 0;         ///< number of ordered neighbor pairs in force evaluations
+    uint64_t searches = 0;      ///< number of times that neighbor lists were built
+    uint64_t clamped = 0;       ///< number of values that were limited to keep the state finite
 };
 
 /// Columns that other physics (drag, buoyancy, combustion) may read and change between two calls of
@@ -124,7 +129,7 @@ struct GasView
     T *x, *y, *z;        ///< [m]
     T *vx, *vy, *vz;     ///< [m/s]
     T* mass;             ///< [kg] > 0
-    T* entropy;          ///< K of state-equation, > 0
+    T* entropy;          ///< entropy function K of state-equation, > 0
     const T* support;    ///< [m] H
     const T* density;    ///< [kg/m3]
     const T* pressure;   ///< [Pa]
@@ -135,14 +140,14 @@ struct GasView
     const T* exposure;   ///< [1] 0 deep inside the gas, about 1 on a free surface
 };
 
-/// Returns an error for a definition with a value that is not finite or outside the range stated at its
-/// member.
+/// Checks a definition. @return an error if a value is not finite or outside the range stated at its member
 base::Status checkGasDynamicsDef(const GasDynamicsDef& def);
 
 template <class T>
 class GasDynamics
 {
 public:
+    /// Creates a gas without particles.
     /// @param def a definition that checkGasDynamicsDef() accepts
     GasDynamics(const GasDynamicsDef& def, std::pmr::memory_resource* memory);
     ~GasDynamics();
@@ -181,7 +186,8 @@ public:
     void injectLater(uint32_t id, double joules, double delay);
     /// Sets the internal energy of particle `id` [J/kg] at its density.
     void setEnergy(uint32_t id, double energy);
-    /// Must be called after a write through view(), unless nudged() is called instead.
+    /// Marks derived data as outdated. Must be called after a write through view(), unless nudged() is called
+    /// instead.
     void edited();
     /// Replaces edited() and setPressureScale() after small changes. Pressure, energy and speed of sound are
     /// updated at once; densities and rates are updated by the next evaluation. Therefore the first half kick
@@ -206,13 +212,13 @@ public:
     GasView<T> view();
     GasView<const T> view() const;
     uint32_t placeOf(uint32_t id) const;
-    GasParticle particle(uint32_t id) const; ///< state of one particle, by its id
+    GasParticle particle(uint32_t id) const; ///< State of one particle, by id.
     double densityOf(uint32_t id) const;     ///< [kg/m3]
     double pressureOf(uint32_t id) const;    ///< [Pa]
     double supportOf(uint32_t id) const;     ///< [m]
-    double stepOf(uint32_t id) const;        ///< [s] longest step that the criteria allow now
+    double stepOf(uint32_t id) const;        ///< [s] longest step that the criteria allow the particle now
     GasTotals totals() const;
-    uint64_t hash() const; ///< of the whole state, by id; equal for equal states
+    uint64_t hash() const; ///< hash of the whole state, by id; equal for equal states
 
     /// Saves the whole state as bytes, and restores it into an object of the same definition. Advancing
     /// afterwards gives the same bits. Damaged or unsuitable bytes are an error that leaves the state

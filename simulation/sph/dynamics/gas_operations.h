@@ -34,7 +34,7 @@ void acceptNudge(DynamicsState<T>& state, double pressureScale, base::TaskRunner
 
 // Validation of particles: particle_check.cpp.
 
-/// Returns an error for particles outside the ranges that GasDynamics::add() states.
+/// Checks a particle. @return an error if it is outside the ranges that GasDynamics::add() states
 base::Status checkParticle(const GasParticle& particle, const Domain& domain);
 
 /// Appends a particle; it has no density until prepare().
@@ -59,7 +59,7 @@ base::Status restoreState(DynamicsState<T>& state, std::span<const std::byte> by
 template <class T>
 GasTotals sumTotals(const DynamicsState<T>& state);
 
-/// Hash of all data that later results depend on, by id.
+/// Hash of all data that later results depend on, in the order of ids.
 template <class T>
 uint64_t hashState(const DynamicsState<T>& state);
 

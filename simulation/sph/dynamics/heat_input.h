@@ -11,7 +11,7 @@ namespace fx::sim {
 template <class T>
 void heatParticle(DynamicsState<T>& state, uint32_t slot, double joules);
 
-/// [tick] time of the next delayed heat; the end of the frame if there is none.
+/// [tick] Time at which the next delayed heat is due; the end of the frame if there is none.
 template <class T>
 uint64_t nextHeat(const DynamicsState<T>& state);
 

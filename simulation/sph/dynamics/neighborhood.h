@@ -6,7 +6,8 @@
 
 namespace fx::sim {
 
-/// True while the order of the particles is usable; otherwise the next evaluation sorts them.
+/// Whether the order of the particles is still efficient for searches; otherwise the next evaluation sorts
+/// the particles.
 template <class T>
 bool treeIsGood(const DynamicsState<T>& s)
 {
@@ -33,11 +34,11 @@ void searchNeighbors(DynamicsState<T>& state, std::span<const uint32_t> owners, 
 template <class T>
 void measureWays(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// [1] Share by which supports may grow within the existing lists; 0 if the lists must be rebuilt.
+/// [1] Relative growth of supports for which the existing lists suffice; 0 if the lists must be rebuilt.
 template <class T>
 double roomOfLists(const DynamicsState<T>& state);
 
-/// [1] Margin of new lists. It is large if the lists will be used for several steps.
+/// [1] Margin with which new lists are built. It is large if the lists will be used for several steps.
 template <class T>
 double marginOfLists(const DynamicsState<T>& state);
 

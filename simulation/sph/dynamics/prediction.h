@@ -25,14 +25,14 @@ template <class T>
 void fillSeen(DynamicsState<T>& state, std::span<const uint32_t> owners, base::TaskRunner& tasks);
 
 /// Factor by which the density changes if the product of divergence and time is `change`. The factor is
-/// positive, and 1 - change to first order.
+/// always positive; to first order it is 1 - change.
 template <class T>
 T thinning(T change)
 {
     return change > 0 ? T(1) / (T(1) + change) : T(1) - change;
 }
 
-/// value + growth; a positive value is kept at or above a tenth of itself.
+/// value + growth, but at least a tenth of `value`. A `value` that is not positive is returned unchanged.
 template <class T>
 T grown(T value, T growth)
 {

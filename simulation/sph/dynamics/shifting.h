@@ -30,8 +30,9 @@
 
 namespace fx::sim {
 
-/// Displaces all particles; called between two frames. Density, forces and lists are not updated.
-/// @param strength C > 0 @param longest L > 0
+/// Displaces all particles. Called between two frames. Density, forces and lists are not updated.
+/// @param strength C > 0
+/// @param longest L > 0
 template <class T>
 void shiftParticles(DynamicsState<T>& state, double strength, double longest, base::TaskRunner& tasks);
 

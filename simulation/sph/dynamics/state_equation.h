@@ -31,8 +31,8 @@
 
 namespace fx::sim {
 
-/// Ideal gas: only gamma is used. Stiffened gas: gamma and stiffness. JWL: gamma = 1 + omega and the other
-/// five.
+/// Equation of state. Ideal gas: only gamma is used. Stiffened gas: gamma and stiffness. JWL: gamma = 1 +
+/// omega, and the five other members.
 struct StateEquation
 {
     double gamma = 1.4;          ///< [1] > 1
@@ -41,7 +41,7 @@ struct StateEquation
     double jwlB = 0;             ///< [Pa]
     double jwlR1 = 0;            ///< [1]
     double jwlR2 = 0;            ///< [1]
-    double referenceDensity = 1; ///< [kg/m3] rho_0 of the JWL curve
+    double referenceDensity = 1; ///< [kg/m3] density rho_0 of the JWL curve
 };
 
 /// Quantities of a gas at one density and entropy.
@@ -51,7 +51,7 @@ struct StatePoint
     double energy;        ///< [J/kg] internal energy, including the cold curve
     double thermal;       ///< [J/kg] thermal part of the internal energy
     double sound;         ///< [m/s]
-    double heatToEntropy; ///< factor from heat per mass to dK
+    double heatToEntropy; ///< factor that converts heat per mass to an increase of the entropy function K
 };
 
 /// The state at density `rho` and entropy function `entropy`.

@@ -8,7 +8,7 @@
 
 namespace fx::sim {
 
-/// a frame has 2^40 ticks; the shortest step, one tick, is 1e-12 of a frame
+/// Binary logarithm of the number of ticks in a frame. The shortest step, one tick, is 1e-12 of a frame.
 constexpr uint32_t kFrameLevel = 40;
 constexpr uint64_t kFrameTicks = uint64_t(1) << kFrameLevel;
 
@@ -28,7 +28,7 @@ inline uint32_t alignedLevel(uint32_t level, uint64_t now)
     return std::min(level, uint32_t(std::countr_zero(now | kFrameTicks)));
 }
 
-/// Ticks from the middle of the step [begin, end) to `now`; exact.
+/// Number of ticks from the middle of the step [begin, end) to `now`; exact.
 inline double ticksSinceMiddle(uint64_t now, uint64_t begin, uint64_t end)
 {
     return 0.5 * double(int64_t(2 * now) - int64_t(begin + end));

@@ -46,7 +46,7 @@ struct StepMotion
     T divergence;  ///< [1/s] of the velocity
 };
 
-/// Limits as shares of the support and of the volume.
+/// Limits of a step: the Courant number, and the relative change of volume.
 template <class T>
 struct StepLimits
 {

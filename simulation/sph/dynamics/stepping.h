@@ -36,20 +36,21 @@
 
 namespace fx::sim {
 
-/// Applies (1) to the active slots with their new rates. Their velocities then refer to the present time.
+/// Ends the steps of the active slots with their new rates, by (1). Their velocities then refer to the
+/// present time.
 template <class T>
 void closeSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Applies (2) and (4): begins the next steps of the active slots within a frame.
+/// Begins the next steps of the active slots within a frame, by (2) and (4).
 template <class T>
 void openSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Applies (3) to one particle. `end` is not before the present. The rates are kept for half of the step.
+/// Shortens the step of one particle to end at `end`, by (3). `end` is not before the present. The rates are
+/// kept for half of the step.
 template <class T>
 void shortenStep(DynamicsState<T>& state, uint32_t slot, uint64_t end);
 
-/// Applies (5) to one particle, whose step ends now. The present rates act for half of the last `lately`
-/// ticks.
+/// Ends the step of one particle now, by (5). The present rates act for half of the last `lately` ticks.
 template <class T>
 void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 
@@ -57,7 +58,7 @@ void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 template <class T>
 void openFrame(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks);
 
-/// [s] Shortest of the steps that the criteria allow.
+/// [s] Shortest of the steps that the criteria allow the particles.
 template <class T>
 double shortestStep(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -73,8 +74,8 @@ void chooseLevels(DynamicsState<T>& state, base::TaskRunner& tasks);
 template <class T>
 uint32_t wakeNeighbors(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Limits the steps that criteria allow by those of the neighbors. For the end of a frame, when all particles
-/// are active and have lists.
+/// Limits the steps that the criteria allow by those of the neighbors. Called at the end of a frame, when all
+/// particles are active and have lists.
 template <class T>
 void limitWantedSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 

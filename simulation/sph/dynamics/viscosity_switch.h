@@ -47,7 +47,7 @@ struct FlowGradient
     T sound;      ///< [m/s]
 };
 
-/// Bounds and decay rate of alpha.
+/// Bounds and decay rate of the viscosity coefficient alpha.
 template <class T>
 struct SwitchRules
 {
@@ -63,7 +63,7 @@ T compressivePart(T divergence, T curl)
     return square > 0 ? square / (square + curl * curl) : T(0);
 }
 
-/// (2), (3): alpha after `seconds`.
+/// alpha after `seconds`, by (2) and (3).
 template <class T>
 T switchedViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow, T alpha, T seconds)
 {
@@ -77,7 +77,7 @@ T switchedViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow, T 
     return std::min(std::max(std::max(decayed, local), rules.alphaMin), rules.alphaMax);
 }
 
-/// (5): alpha of a particle without a previous step.
+/// alpha of a particle without a previous step, by (5).
 template <class T>
 T firstViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow)
 {

@@ -31,7 +31,7 @@ public:
     }
 
     uint32_t kept() const { return kept_; }
-    /// Stores the selected lanes; may write a whole vector.
+    /// Stores the selected lanes to `out`. It may write as many values as a vector has.
     HWY_INLINE void store(hn::Vec<D> v, T* out) const
     {
         const D d;
@@ -76,14 +76,15 @@ struct Candidates
     static constexpr uint32_t kPadding = 64;
 
     uint32_t count = 0;
-    std::array<uint32_t, kMaxImages + 1> segment{}; ///< first candidate of each image, then the end
-    alignas(64) T at[3][kMax + kPadding];           ///< [m] positions in the coordinates of the image
-    alignas(64) T reach2[kMax + kPadding];          ///< [m2] (1 + margin)^2 support^2
+    /// index of the first candidate of each image; the last element is the end
+    std::array<uint32_t, kMaxImages + 1> segment{};
+    alignas(64) T at[3][kMax + kPadding];  ///< [m] positions in the coordinates of the image of their segment
+    alignas(64) T reach2[kMax + kPadding]; ///< [m2] square of the reach (1 + margin) support
     alignas(64) uint32_t entry[kMax + kPadding];
 
     static bool isFull(uint32_t end) { return end + hn::MaxLanes(hn::ScalableTag<T>()) > kMax; }
 
-    /// Writes the lanes of `mask`, beginning at index `end`. @return the new end
+    /// Appends the lanes selected by `mask`, beginning at index `end`. @return the new end
     template <class D, class V, class M>
     HWY_INLINE uint32_t append(uint32_t end, D d, M mask, V x, V y, V z, V square,
                                hn::Vec<hn::Rebind<uint32_t, D>> entries)
@@ -108,7 +109,8 @@ struct Candidates
     }
 };
 
-/// Collects the particles of runs of slots that a query touches in one image. A sink for TreeWalk.
+/// Collects the particles in the runs of slots that a query touches in one image. A TreeWalk passes it these
+/// runs.
 template <bool kPlain, class T>
 class Gatherer
 {
@@ -118,7 +120,7 @@ public:
         : setup_(setup), image_(image), query_(query), out_(out)
     {}
 
-    /// Adjacent runs are merged.
+    /// Adds a run of slots. Adjacent runs are merged.
     bool operator()(uint32_t begin, uint32_t end)
     {
         if (begin == end_) {
@@ -130,7 +132,7 @@ public:
         end_ = end;
         return fits;
     }
-    /// @return false if there was not enough room
+    /// Tests the pending run and appends its particles. @return false if there was not enough room
     bool flush()
     {
         const hn::ScalableTag<T> d;
@@ -189,7 +191,7 @@ bool gatherImage(const SearchSetup<T>& setup, const Query<T>& query, uint32_t in
     return complete;
 }
 
-/// Collects all candidates that a box touches. @return false if there are too many
+/// Collects all candidates that a query box touches. @return false if there are too many
 template <class T>
 bool gather(const SearchSetup<T>& setup, const Query<T>& query, Candidates<T>& out)
 {
@@ -204,7 +206,7 @@ bool gather(const SearchSetup<T>& setup, const Query<T>& query, Candidates<T>& o
     return true;
 }
 
-/// Collects those candidates of `from` that a smaller box touches.
+/// Collects those candidates of `from` that a smaller query box touches.
 template <bool kWraps, class T>
 void refine(const SearchSetup<T>& setup, const Query<T>& query, const Candidates<T>& from, Candidates<T>& out)
 {

@@ -14,7 +14,7 @@ enum class AxisKind : uint8_t
 {
     Open,      ///< unbounded
     Periodic,  ///< particles that leave at `high` enter at `low`
-    Reflecting ///< rigid, frictionless walls at `low` and `high`; an infinite bound is no wall
+    Reflecting ///< rigid, frictionless walls at `low` and `high`; there is no wall at an infinite bound
 };
 
 struct Domain
@@ -24,20 +24,22 @@ struct Domain
     glm::dvec3 high{std::numeric_limits<double>::infinity()}; ///< [m] > low
 };
 
-/// Data of the domain for loops over pairs. On each axis at most one of `period` and `wall` is active.
+/// Data of the domain for loops over pairs. On each axis there are either a period, or walls, or neither.
 template <class T>
 struct PairImages
 {
-    /// [m] length of a periodic axis, 0 elsewhere; 1/m its inverse, 0 elsewhere. The difference of two
-    /// coordinates is d - period * round(d * perPeriod): one expression for all axes.
+    /// [m] period: length of a periodic axis; [1/m] perPeriod: its inverse. Both are 0 on other axes. The
+    /// difference d of two coordinates is corrected to d - period * round(d * perPeriod), the same expression
+    /// for all axes.
     std::array<T, 3> period{};
     std::array<T, 3> perPeriod{};
-    /// [m] walls of a reflecting axis, infinite without a wall. The difference of x_i and the image of x_j in
-    /// the wall w is computed as (x_i - w) + (x_j - w). It has the same bits when i and j are exchanged.
+    /// [m] walls of a reflecting axis; infinite where there is no wall. The difference of x_i and the image
+    /// of x_j in the wall at w is computed as (x_i - w) + (x_j - w). It has the same bits when i and j are
+    /// exchanged.
     std::array<T, 3> low{-kNone, -kNone, -kNone};
     std::array<T, 3> high{kNone, kNone, kNone};
 
-    /// [m] Position of the wall in which neighbors of a particle at `x` are mirrored.
+    /// [m] Position of the wall nearer to a particle at `x`, in which its neighbors are mirrored.
     T nearerWall(uint32_t axis, T x) const
     {
         return x - low[axis] <= high[axis] - x ? low[axis] : high[axis];

@@ -11,23 +11,27 @@
 
 namespace fx::sim {
 
-/// An entry of a list is a slot (lower 29 bits) and one bit for each mirrored axis. Such a bit marks the
-/// mirror image of the particle in a reflecting wall, the one nearer to the particle that owns the list.
+/// Mask of the slot in an entry of a list. An entry consists of a slot (lower 29 bits) and one bit for each
+/// mirrored axis. Such a bit marks the mirror image of the particle in the reflecting wall nearer to the
+/// particle that owns the list.
 constexpr uint32_t kPlaceMask = (1u << 29) - 1;
-constexpr uint32_t kMirrorX = 1u << 29; ///< kMirrorX << a for axis a
+/// bit of an entry that is mirrored on axis x; kMirrorX << a is the bit of axis a
+constexpr uint32_t kMirrorX = 1u << 29;
 
-/// Lists are padded with the owner's slot to a multiple of kLanes. Every sum over neighbors uses this number
-/// of virtual lanes, independently of the vector width of the processor.
+/// Length to whose multiple lists are padded, with the owner's slot. Every sum over neighbors uses this
+/// number of virtual lanes, independently of the vector width of the processor.
 constexpr uint32_t kLanes = 16;
 
-/// Lists of entries, by slot. The order of threads decides which lists do not fit into memory. Contents do
-/// not depend on it, because a missing list is searched again.
+/// The neighbor lists of all slots. The order of threads decides which lists do not fit into memory. The
+/// neighbors do not depend on that order, because a missing list is searched again.
 class ListPool
 {
 public:
     static constexpr uint32_t kUnlisted = ~0u;
 
+    /// Creates an empty pool.
     /// @param capacity number of slots
+    /// @param entries number of entries of all lists together
     ListPool(std::pmr::memory_resource* memory, uint32_t capacity, size_t entries)
         : entries_(memory, entries / kLanes * kLanes), start_(memory, capacity), count_(memory, capacity)
     {}
@@ -38,7 +42,7 @@ public:
         unlisted_ = 0;
         total_ = 0;
     }
-    /// First entry of a list in units of kLanes, or kUnlisted.
+    /// Index of the first entry of a list in units of kLanes; kUnlisted if there is no list.
     uint32_t start(uint32_t slot) const { return start_[slot]; }
     uint32_t count(uint32_t slot) const { return count_[slot]; }
     const uint32_t* entries(uint32_t start) const { return entries_.data() + size_t(start) * kLanes; }
@@ -51,9 +55,9 @@ private:
     base::Column<uint32_t> entries_;
     base::Column<uint32_t> start_;
     base::Column<uint32_t> count_;
-    std::atomic<uint64_t> used_{0}; ///< entries allocated to writers
+    std::atomic<uint64_t> used_{0}; ///< number of entries allocated to writers
     std::atomic<uint32_t> unlisted_{0};
-    std::atomic<uint64_t> total_{0}; ///< entries in lists, without padding
+    std::atomic<uint64_t> total_{0}; ///< number of entries in lists, without padding
 };
 
 /// Writes lists one after another. Each thread uses its own writer.
@@ -70,7 +74,8 @@ public:
         pool_.total_.fetch_add(total_, std::memory_order_relaxed);
     }
 
-    /// Returns room for `entries` more entries, or null. After null, all later calls return null.
+    /// Returns memory for `entries` more entries; null if it is exhausted. After null, all later calls return
+    /// null.
     uint32_t* room(uint32_t entries)
     {
         if (end_ - next_ < entries && !refill(entries))
@@ -78,7 +83,8 @@ public:
         return pool_.entries_.data() + next_;
     }
     bool exhausted() const { return exhausted_; }
-    /// Ends the list of `slot`, which has `count` entries written at room(), and pads it.
+    /// Ends the list of `slot`, whose `count` entries have been written to the memory returned by room(), and
+    /// pads the list.
     void finish(uint32_t slot, uint32_t count)
     {
         uint32_t* const list = pool_.entries_.data() + next_;

@@ -16,7 +16,7 @@ namespace fx::sim::HWY_NAMESPACE {
 template <class T>
 struct Owner
 {
-    std::array<T, 3> at; ///< [m] minus the walls of the image
+    std::array<T, 3> at; ///< [m] position minus the walls of the image
     T reach2;            ///< [m2]
 };
 
@@ -30,7 +30,7 @@ Owner<T> ownerSeen(const SearchSetup<T>& setup, const SeenImage<T>& image, uint3
             reach * reach};
 }
 
-/// True if the walls of the image are those nearer to the owner.
+/// Whether the walls of the image are those nearer to the owner.
 template <class T>
 bool isSeenBy(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t slot)
 {
@@ -41,7 +41,7 @@ bool isSeenBy(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t s
     return true;
 }
 
-/// Mask of the lanes whose particle is a neighbor of the owner.
+/// Mask of the lanes whose particles are neighbors of the owner.
 template <bool kWraps, class T, class D, class V>
 HWY_INLINE auto isNear(const SearchSetup<T>& setup, const Owner<T>& owner, D d, V x, V y, V z, V reach2)
 {
@@ -56,7 +56,8 @@ HWY_INLINE auto isNear(const SearchSetup<T>& setup, const Owner<T>& owner, D d, 
     return hn::Lt(sumOfSquares(dx, dy, dz), hn::Max(reach2, hn::Set(d, owner.reach2)));
 }
 
-/// Writes the entries of candidates begin .. end - 1 within the reach of the owner. @return their number
+/// Writes the entries of the candidates [begin, end) that are within the reach of the owner. @return their
+/// number
 template <bool kWraps, class T>
 uint32_t keepNear(const SearchSetup<T>& setup, const Owner<T>& owner, const Candidates<T>& from,
                   uint32_t begin, uint32_t end, uint32_t* out)
@@ -130,7 +131,8 @@ private:
         return box;
     }
 
-    /// Finds the lists of a group of owners. If there are too many candidates, the group is divided.
+    /// Finds and writes the lists of a group of owners. If there are too many candidates, the group is
+    /// divided.
     void listGroup(std::span<const uint32_t> owners)
     {
         if (!writer_.exhausted() && gather(setup_, boxOf(owners), ours_)) {
@@ -173,6 +175,7 @@ private:
         }
     }
 
+    /// Writes the list of one owner.
     /// @param own index of the owner among the candidates
     void listOwner(uint32_t slot, uint32_t own, Candidates<T>& candidates)
     {

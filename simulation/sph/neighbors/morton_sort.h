@@ -23,16 +23,15 @@ class MortonSort
 public:
     MortonSort(std::pmr::memory_resource* memory, uint32_t capacity);
 
-    /// The curve fills the smallest cube that contains all particles and the whole length of periodic axes.
+    /// Sorts particles along a curve that fills the smallest cube that contains all particles and the whole
+    /// length of periodic axes.
     /// @param axes three arrays of `count` coordinates [m]
     void sort(const std::array<const T*, 3>& axes, uint32_t count, const Domain& domain,
               base::TaskRunner& tasks);
 
     std::span<const uint64_t> keys() const { return keys_.first(count_); } ///< ascending
-    std::span<const uint32_t> order() const
-    {
-        return order_.first(count_);
-    } ///< indices, in the order of keys
+    /// Indices of the particles in the order of their keys.
+    std::span<const uint32_t> order() const { return order_.first(count_); }
     /// Memory that the caller may use between two sorts.
     std::span<uint32_t> spare() { return spareOrder_.first(count_); }
 
@@ -57,12 +56,13 @@ private:
     std::array<const T*, 3> axes_{}; ///< while sorting
     base::Column<uint64_t> keys_;
     base::Column<uint32_t> order_;
-    base::Column<uint64_t> words_; ///< some bits of a key, above its slot
+    /// selected bits of a key in the upper bits, and its slot in the lower bits
+    base::Column<uint64_t> words_;
     base::Column<uint64_t> spareWords_;
     base::Column<uint32_t> spareOrder_;
     base::Column<uint32_t> histogram_;           ///< one row per block
-    base::Column<uint32_t> firstRun_;            ///< first slot of the runs of each block
-    base::Column<std::array<double, 6>> bounds_; ///< [m] low and high of blocks of particles
+    base::Column<uint32_t> firstRun_;            ///< first slot of the runs that belong to each block
+    base::Column<std::array<double, 6>> bounds_; ///< [m] bounds, low and high, of blocks of particles
 };
 
 extern template class MortonSort<float>;

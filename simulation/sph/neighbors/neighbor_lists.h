@@ -8,17 +8,17 @@
 
 namespace fx::sim {
 
-/// Neighbor lists of particles (Verlet lists). Lists built with `margin` contain all pairs nearer than
-/// max(support) as long as for every particle
-///     present support + 2 (largest displacement of any particle since the build)
-///         <= (1 + margin) (support at the build).
+/// Neighbor lists of particles (Verlet lists). Lists built with `margin` contain all pairs nearer than the
+/// larger of their supports, as long as every particle satisfies: present support + 2 (largest displacement
+/// of any particle since the build) <= (1 + margin) (support at the build).
 template <class T>
 class NeighborLists
 {
 public:
-    /// @param capacity particles, below 2^29
+    /// Creates empty lists.
+    /// @param capacity maximum number of particles, below 2^29
     /// @param entriesPerParticle memory for lists. A particle whose list does not fit is searched again on
-    ///         each request; this is slower, with equal results
+    ///          each request; this is slower, with equal results
     NeighborLists(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t entriesPerParticle);
 
     /// Builds the lists of every slot of `owners` (ascending). The list of i holds all other particles j and
@@ -31,8 +31,9 @@ public:
                base::TaskRunner& tasks);
 
     /// Calls f(const uint32_t* entries, uint32_t count, bool last) for each piece of the list of `slot`,
-    /// which is one of the owners. `entries` can be read up to the next multiple of kLanes. The count of
-    /// every piece but the last is such a multiple. Nearly all lists consist of one piece. Thread-safe.
+    /// which must be one of the owners. `entries` can be read up to the next multiple of kLanes. The count of
+    /// every piece except the last is a multiple of kLanes. Nearly all lists consist of one piece.
+    /// Thread-safe.
     template <class F>
     void forEachPiece(uint32_t slot, F&& f) const
     {

@@ -15,18 +15,19 @@
 
 namespace fx::sim {
 
-/// An image of the particles: unchanged, or mirrored in one wall on some axes. On every axis, the difference
-/// of an owner at x and the image of a particle at x_j is (x - wall) - (sign x_j + shift).
+/// An image of the particles: unchanged, or mirrored in one wall on some of the axes. On every axis, the
+/// difference of an owner at x and the image of a particle at x_j is (x - wall) - (sign x_j + shift).
 template <class T>
 struct SeenImage
 {
-    std::array<T, 3> wall{};  ///< [m] 0 where not mirrored
-    std::array<T, 3> shift{}; ///< [m] equal to `wall`; 0 where not mirrored
+    std::array<T, 3> wall{};  ///< [m] position of the wall; 0 on axes that are not mirrored
+    std::array<T, 3> shift{}; ///< [m] equal to `wall`
     std::array<T, 3> sign{1, 1, 1};
-    uint32_t bits = 0; ///< mirror bits of the entries, kMirrorX << axis
+    uint32_t bits = 0; ///< mirror bits of the entries of this image, kMirrorX << axis for each mirrored axis
 };
 
-constexpr uint32_t kMaxImages = 27; ///< no mirror, the low or the high wall, on each of three axes
+/// maximum number of images: on each of three axes no mirror, the low wall or the high wall
+constexpr uint32_t kMaxImages = 27;
 
 /// Inputs of a search.
 template <class T>
@@ -35,16 +36,17 @@ struct SearchSetup
     TreeView<T> tree;
     PairImages<T> pairs;
     T scale = 1;              ///< 1 + margin
-    bool wraps = false;       ///< some axis is periodic
-    std::array<T, 3> slack{}; ///< [m] bound of rounding errors of boxes on periodic axes
+    bool wraps = false;       ///< whether an axis is periodic
+    std::array<T, 3> slack{}; ///< [m] upper bound of the rounding errors of boxes on periodic axes
     uint32_t imageCount = 1;
-    std::array<SeenImage<T>, kMaxImages> images; ///< ascending by bits; the first is not mirrored
+    /// images in the ascending order of their bits; the first is not mirrored
+    std::array<SeenImage<T>, kMaxImages> images;
 };
 
 template <class T>
 SearchSetup<T> searchSetup(const TreeView<T>& tree, const Domain& domain, T margin);
 
-/// Writes the lists of slots in ascending order.
+/// Searches the neighbors of `owners` and writes their lists, in ascending order of slots.
 template <class T>
 void listOwners(const SearchSetup<T>& setup, std::span<const uint32_t> owners, ListWriter& writer);
 

@@ -22,8 +22,8 @@ constexpr PackedLanes packedLanes()
     return table;
 }
 
-/// Row `bits`: first the lanes whose bit is set, ascending, then the other lanes. For vectors of n lanes,
-/// only the first n numbers of the rows below 2^n are used.
+/// Table of permutations. Row `bits` contains first the lanes whose bit is set, in ascending order, then the
+/// other lanes. For vectors of n lanes, only the first n numbers of the rows below 2^n are used.
 alignas(64) inline constexpr PackedLanes kPackedLanes = packedLanes();
 
 } // namespace fx::sim

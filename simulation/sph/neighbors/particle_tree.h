@@ -25,26 +25,26 @@ struct PointColumns
     uint32_t count;
 };
 
-constexpr uint32_t kTreeFanOut = 8;        ///< children of a node
-constexpr uint32_t kMaxTreeLevels = 11;    ///< 8^10 leaves and a root
-constexpr uint32_t kMaxLeafParticles = 16; ///< particles of a leaf
+constexpr uint32_t kTreeFanOut = 8;        ///< number of children of a node
+constexpr uint32_t kMaxTreeLevels = 11;    ///< maximum number of levels: 8^10 leaves and a root
+constexpr uint32_t kMaxLeafParticles = 16; ///< maximum number of particles of a leaf
 
-/// Read access for searches. Level 0 are the leaves: leaf k holds the slots leafBegin[k] .. leafBegin[k + 1]
-/// - 1. Box k of level l + 1 covers the boxes 8 k .. 8 k + 7 of level l; the last level has one box. The
-/// boxes of level l are numbered from levelFirst[l]. Each level is padded with empty boxes, which no query
-/// touches, so that eight children can always be read.
+/// Read access for searches. Level 0 consists of the leaves: leaf k holds the slots leafBegin[k] ..
+/// leafBegin[k + 1] - 1. Box k of level l + 1 covers the boxes 8 k .. 8 k + 7 of level l; the last level has
+/// one box. The boxes of level l are numbered from levelFirst[l]. Each level is padded with empty boxes,
+/// which no query touches, so that eight children can always be read.
 template <class T>
 struct TreeView
 {
     uint32_t count = 0;  ///< particles
-    uint32_t levels = 0; ///< 0 for an empty tree
+    uint32_t levels = 0; ///< number of levels; 0 for an empty tree
     std::array<uint32_t, kMaxTreeLevels> levelFirst{};
     std::array<uint32_t, kMaxTreeLevels> levelCount{};
     const uint32_t* leafBegin = nullptr;
     std::array<const T*, 3> low{};      ///< [m] lower corners of boxes
     std::array<const T*, 3> high{};     ///< [m]
     const T* reach = nullptr;           ///< [m] largest support inside a box
-    std::array<const T*, 3> position{}; ///< [m] of particles, as of the last refit
+    std::array<const T*, 3> position{}; ///< [m] positions of particles at the last refit
     const T* support = nullptr;         ///< [m]
 };
 
@@ -86,18 +86,19 @@ private:
     void measureLoosening();
 
     uint32_t count_ = 0;
-    bool fresh_ = true; ///< sorted, not yet refit
+    bool fresh_ = true; ///< true: the tree was sorted and not yet refitted
     double loosened_ = 0;
     uint32_t levels_ = 0;
     std::array<uint32_t, kMaxTreeLevels> levelFirst_{};
     std::array<uint32_t, kMaxTreeLevels> levelCount_{};
     MortonSort<T> sort_;
     base::Column<uint32_t> leafBegin_;
-    base::Column<uint32_t> chunkLeaves_; ///< leaves of each chunk of slots
+    base::Column<uint32_t> chunkLeaves_; ///< number of leaves of each chunk of slots
     std::array<base::Column<T>, 3> low_;
     std::array<base::Column<T>, 3> high_;
     base::Column<T> reach_;
-    base::Column<T> sizeAtSort_; ///< [1] width of the search box of a leaf divided by its reach
+    /// [1] after the last sort: width of the search box of a leaf divided by its reach
+    base::Column<T> sizeAtSort_;
     std::array<base::Column<T>, 3> position_;
     base::Column<T> support_;
 };

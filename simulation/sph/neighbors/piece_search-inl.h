@@ -21,7 +21,7 @@ public:
     {}
 
     uint32_t* end() { return entries_ + count_; }
-    /// Adds `count` entries that were written at end(); at most kRoom.
+    /// Adds `count` entries, which the caller has written at end(); at most kRoom.
     void add(uint32_t count)
     {
         count_ += count;
@@ -49,7 +49,8 @@ private:
     uint32_t entries_[kPiece + 2 * kRoom];
 };
 
-/// Tests runs of slots for one owner and one image. A sink for TreeWalk.
+/// Tests the particles in runs of slots as neighbors of one owner in one image. A TreeWalk passes it these
+/// runs.
 template <bool kPlain, class T>
 class PieceSink
 {

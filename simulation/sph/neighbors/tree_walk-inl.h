@@ -26,7 +26,7 @@ struct Query
 {
     std::array<T, 3> low;  ///< [m]
     std::array<T, 3> high; ///< [m]
-    T reach2 = 0;          ///< [m2] square of the largest reach of the box's own particles, margin included
+    T reach2 = 0; ///< [m2] square of the largest reach of the particles in the query box, margin included
 };
 
 /// Transforms the bounding box of the owners to the coordinates of `image`.
@@ -50,14 +50,15 @@ HWY_INLINE uint32_t bitsOf(D d, M mask)
     return bits[0];
 }
 
-/// Coordinates of particles transformed to `image`.
+/// Coordinates of particles, transformed to those of `image`.
 template <class T, class D, class V>
 HWY_INLINE V shownAt(const SeenImage<T>& image, uint32_t axis, D d, V x)
 {
     return hn::Add(hn::Mul(x, hn::Set(d, image.sign[axis])), hn::Set(d, image.shift[axis]));
 }
 
-/// d - period round(d / period), the difference to the nearest periodic image.
+/// The difference of two coordinates to the nearest periodic image: d - period round(d / period) for a
+/// difference d.
 template <class T, class D, class V>
 HWY_INLINE V wrapped(const SearchSetup<T>& setup, uint32_t axis, D d, V difference)
 {
@@ -65,8 +66,8 @@ HWY_INLINE V wrapped(const SearchSetup<T>& setup, uint32_t axis, D d, V differen
     return hn::Sub(difference, hn::Mul(turns, hn::Set(d, setup.pairs.period[axis])));
 }
 
-/// Gap between the boxes [low, high] and the query on one axis, at least 0. It never exceeds the gap between
-/// any two particles inside the boxes.
+/// Gap between the boxes [low, high] and the query box on one axis, at least 0. It never exceeds the gap
+/// between any two particles inside the boxes.
 template <bool kWraps, class T, class D, class V>
 HWY_INLINE V axisGap(const SearchSetup<T>& setup, const Query<T>& query, uint32_t axis, D d, V low, V high)
 {
@@ -91,9 +92,10 @@ HWY_INLINE V sumOfSquares(V x, V y, V z)
     return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// One traversal of the tree, for one query and one image. kPlain: the image is neither mirrored nor wrapped.
-/// Sink: bool operator()(uint32_t begin, uint32_t end), receives runs of slots in ascending order. If it
-/// returns false, the traversal ends.
+/// One traversal of the tree for one query and one image.
+/// @tparam kPlain true: the image is neither mirrored nor wrapped
+/// @tparam Sink has bool operator()(uint32_t begin, uint32_t end), which receives runs of slots in ascending
+///         order and returns false to end the traversal
 template <bool kPlain, class T, class Sink>
 class TreeWalk
 {
@@ -102,7 +104,7 @@ public:
         : setup_(setup), tree_(setup.tree), image_(image), query_(query), sink_(sink)
     {}
 
-    /// @return false if the sink ended the traversal
+    /// Traverses the tree. @return false if the sink ended the traversal
     bool run()
     {
         if (tree_.levels == 1)
@@ -126,7 +128,7 @@ private:
         return true;
     }
 
-    /// Bit mask of the boxes first .. first + 7 that the query touches; bit k is box first + k.
+    /// Bit mask of the eight boxes from `first` on that the query touches; bit k is box first + k.
     uint32_t touched(uint32_t first) const
     {
         const hn::CappedTag<T, kTreeFanOut> d;

@@ -19,7 +19,6 @@
 ///   by a multiple of G do not move the center of mass.
 ///       E = sum over r < H of (1 - r^2/H^2) d                                                      (2)
 ///   is zero inside of evenly sampled gas and points outwards at a free surface.
-///   is zero inside of even gas and points out of a free surface.
 /// @source    [LIN12] for displacement down a gradient of concentration; (1) and (2) are ours
 /// @deviation the published concentration uses the kernel of the flow, whose gradient is zero at the
 /// particles
@@ -32,7 +31,7 @@
 
 namespace fx::sim {
 
-/// Output arrays, indexed by slot. [m]
+/// Results of the loop: arrays of G and E in [m], indexed by slot.
 template <class T>
 struct ConcentrationResults
 {
@@ -43,7 +42,7 @@ struct ConcentrationResults
 template <class T>
 struct ConcentrationCall
 {
-    double range; ///< [1] k in (0, 1]
+    double range; ///< [1] range of the concentration over the support, in (0, 1]; the symbol k of the formula
     PairSlots<T> of;
     const ConcentrationResults<T>& results;
 };

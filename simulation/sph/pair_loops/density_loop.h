@@ -55,26 +55,29 @@ namespace fx::sim {
 struct DensityRules
 {
     SphKernel kernel = SphKernel::WendlandC2;
-    double neighbors = 58;        ///< [1] N = 4/3 pi n H^3
+    /// [1] nominal number of neighbors N = 4/3 pi n H^3, with the number density n and the support H
+    double neighbors = 58;
     double smallestSupport = 0;   ///< [m]
     double largestSupport = 1e30; ///< [m] >= smallestSupport
-    double tolerance = 1e-4;      ///< [1] relative tolerance of H of Newton's iteration (1e-7 in double)
-    bool subtractSelfBias = true; ///< applies e of (1); false: e = 0
+    double tolerance = 1e-4; ///< [1] relative tolerance of H in Newton's iteration (1e-7 in double precision)
+    bool subtractSelfBias = true; ///< true: the term e of (1) is applied; false: e = 0
 };
 
-/// Output arrays, indexed by slot.
+/// Results of the loop: arrays indexed by slot.
 template <class T>
 struct DensityResults
 {
-    T* support;             ///< [m] in: the guess, > 0; out: H
-    T* density;             ///< [kg/m3]
-    T* correction;          ///< [1] f, in [0.2, 5]; 1 where H is the smallest or largest support
-    T* divergence;          ///< [1/s] of the velocity
-    T* curl;                ///< [1/s] magnitude of the curl of the velocity
-    uint8_t* wantsReach;    ///< 1 if H would exceed the range that the list covers
-    uint32_t* neighbors;    ///< particles within H, including mirror images, without the particle itself
-    T* exposure = nullptr;  ///< [1] 0 inside of evenly sampled gas, 1 on a free surface; null: not computed
-    T* expansion = nullptr; ///< [1/s] X, relative rate of decrease of the density; null: not computed
+    T* support;          ///< [m] input: initial guess of the support H, > 0; output: H
+    T* density;          ///< [kg/m3]
+    T* correction;       ///< [1] correction f, in [0.2, 5]; 1 where H is the smallest or largest support
+    T* divergence;       ///< [1/s] divergence of the velocity
+    T* curl;             ///< [1/s] magnitude of the curl of the velocity
+    uint8_t* wantsReach; ///< 1 if H would have to exceed the range of the list, otherwise 0
+    /// number of particles within H, including mirror images, without the particle itself
+    uint32_t* neighbors;
+    /// [1] exposure: 0 inside of evenly sampled gas, 1 on a free surface; null: not computed
+    T* exposure = nullptr;
+    T* expansion = nullptr; ///< [1/s] relative rate X of decrease of the density; null: not computed
 };
 
 template <class T>
@@ -82,7 +85,7 @@ struct DensityCall
 {
     const DensityRules& rules;
     PairSlots<T> of;
-    T reach; ///< [1] the lists are complete up to (1 + reach) times the guess of H
+    T reach; ///< [1] the lists contain all neighbors up to (1 + reach) times the guess of H
     const DensityResults<T>& results;
 };
 

@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::pairs::HWY_NAMESPACE {
 
-/// The sums in the order of LaneSums' rows: S and D without C, then M, G and E.
+/// Indices of the sums in LaneSums: S and D without the factor C, then M, G and E.
 enum : uint32_t
 {
     kSumMass = 0,
@@ -23,8 +23,8 @@ enum : uint32_t
     kDensitySums = 20
 };
 
-/// All sums in the lanes of one vector. They are single members instead of an array, because compilers do not
-/// keep arrays in registers.
+/// All sums for the lanes of one vector. They are single members instead of an array, because compilers do
+/// not keep arrays in registers.
 template <class T>
 struct FlowSums
 {
@@ -34,7 +34,7 @@ struct FlowSums
 
     using Rows = T (*)[kLanes];
 
-    /// Loads the lanes p .. p + width - 1 of all rows.
+    /// Loads the lanes p .. p + width - 1 of all sums.
     HWY_INLINE FlowSums(Rows row, uint32_t p)
         : mass(from(row, 0, p)), growth(from(row, 1, p)), xx(from(row, 2, p)), xy(from(row, 3, p)),
           xz(from(row, 4, p)), yy(from(row, 5, p)), yz(from(row, 6, p)), zz(from(row, 7, p)),
@@ -66,7 +66,9 @@ struct FlowSums
         ez.store(row[19] + p);
     }
     static HWY_INLINE Pack<T> from(Rows row, uint32_t s, uint32_t p) { return Pack<T>::load(row[s] + p); }
-    /// @param steep m w'(q) / q of neighbors at d with relative velocity u
+    /// Adds the terms of the neighbors of one vector.
+    /// @param steep m w'(q) / q of the neighbors
+    /// @param d, u position and velocity of the owner relative to the neighbors
     HWY_INLINE void addFlow(Pack<T> steep, const Pack<T>* d, const Pack<T>* u)
     {
         const Pack<T> weight = Pack<T>(0.0) - steep;
@@ -92,14 +94,16 @@ struct FlowSums
     }
 };
 
-/// Neighbors of one particle, relative to it and stored for repeated sums.
+/// Positions and velocities of a particle relative to each of its neighbors, stored for repeated sums.
 template <class T>
 class NeighborBlock
 {
 public:
     static constexpr uint32_t kCapacity = 512; // 16 KiB in float: with the records inside of the first cache
 
-    /// @param count <= kCapacity; entries can be read up to the next multiple of kLanes
+    /// Loads the neighbors of a piece of a list.
+    /// @param count number of entries, at most kCapacity; entries can be read up to the next multiple of
+    ///          kLanes
     void load(const Owner<T>& owner, const GasRecord<T>* records, const uint32_t* entries, uint32_t count)
     {
         size_ = (count + kLanes - 1) / kLanes * kLanes;
@@ -121,7 +125,7 @@ public:
         }
     }
 
-    /// Adds the first two sums, with the support 1 / perSupport.
+    /// Adds the terms of the first two sums, S and D, for the support 1 / perSupport.
     template <class Shape>
     void addMass(T perSupport, LaneSums<T, kDensitySums>& sums) const
     {
@@ -140,7 +144,7 @@ public:
         }
     }
 
-    /// Adds all sums. Returns the number of neighbors within the support.
+    /// Adds the terms of all sums. Returns the number of neighbors within the support.
     template <class Shape>
     uint32_t addAll(T perSupport, LaneSums<T, kDensitySums>& sums) const
     {
@@ -169,7 +173,8 @@ private:
     static HWY_INLINE Pack<T> at(const T* from) { return Pack<T>::load(from); }
 
     static constexpr double kFar = 1e30; ///< [m]
-    /// longer than kCapacity, because rows 4096 bytes apart would delay loads
+    /// Distance between rows in memory. It is longer than kCapacity, because rows 4096 bytes apart would
+    /// delay loads.
     static constexpr uint32_t kPitch = kCapacity + kLanes;
 
     uint32_t size_ = 0;

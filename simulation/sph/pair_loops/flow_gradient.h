@@ -11,11 +11,12 @@ template <class T>
 struct FlowGradient
 {
     T divergence; ///< [1/s]
-    T curl;       ///< [1/s] magnitude
+    T curl;       ///< [1/s] magnitude of the curl of the velocity
 };
 
+/// Computes divergence and curl from the sums M and G of gas-density.
 /// @param moments M_xx, M_xy, M_xz, M_yy, M_yz, M_zz
-/// @param flows   G_xx, G_xy, G_xz, G_yx, ... G_zz
+/// @param flows G_xx, G_xy, G_xz, G_yx, ... G_zz
 template <class T>
 FlowGradient<T> flowGradient(const T* moments, const T* flows)
 {

@@ -49,25 +49,25 @@ namespace fx::sim {
 struct ForceRules
 {
     SphKernel kernel = SphKernel::WendlandC2; ///< unstable beyond kernelFacts(kernel).largestNeighbors
-    double beta = 3;                          ///< [1] beta of the signal speed
-    double conductivity = 1;                  ///< [1] k of the conduction; 0: none
-    /// Ids of particles by slot. They determine the direction in which coincident particles part. Null: the
-    /// slots serve as ids.
+    double beta = 3;                          ///< [1] coefficient beta of the signal speed
+    double conductivity = 1;                  ///< [1] coefficient k of the conduction; 0: none
+    /// Ids of the particles, indexed by slot. They determine the direction in which coincident particles are
+    /// pushed apart. Null: the slots serve as ids.
     const uint32_t* ids = nullptr;
 };
 
-/// Output arrays, indexed by slot.
+/// Results of the loop: arrays indexed by slot.
 template <class T>
 struct ForceResults
 {
     T* ax; ///< [m/s2]
     T* ay;
     T* az;
-    T* heating;     ///< [W/kg] by viscosity and conduction, without pressure work (entropy form)
-    T* signalSpeed; ///< [m/s] largest over pairs, at least 2 c
-    /// [1] smallest stepLevel among neighbors within the larger support; without neighbors the particle's own
+    T* heating;     ///< [W/kg] heating by viscosity and conduction, without pressure work (entropy form)
+    T* signalSpeed; ///< [m/s] largest signal speed over all pairs, at least 2 c
+    /// [1] smallest stepLevel of the neighbors within the larger support; the particle's own if it has none
     T* fastestNeighbor;
-    uint32_t* pairs; ///< neighbors j with r < max(H_i, H_j), mirror images included
+    uint32_t* pairs; ///< number of neighbors j with r < max(H_i, H_j), including mirror images
 };
 
 template <class T>

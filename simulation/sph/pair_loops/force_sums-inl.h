@@ -14,10 +14,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::pairs::HWY_NAMESPACE {
 
-/// The sums in the order of LaneSums' rows.
+/// Indices of the sums in LaneSums.
 enum : uint32_t
 {
-    kSumAcceleration = 0, ///< three rows, with the opposite sign
+    kSumAcceleration = 0, ///< three sums: the components of the acceleration with the opposite sign
     kSumHeating = 3,
     kSumSignal = 4, ///< largest signal speed
     kSumLevel = 5,  ///< smallest step level
@@ -26,7 +26,7 @@ enum : uint32_t
 
 constexpr double kNoLevel = 1e30;
 
-/// Values of the particle that owns the list, broadcast to all lanes.
+/// Values of the particle that owns the list, broadcast to all lanes of vectors.
 template <class T, class Shape>
 struct PairOwner
 {

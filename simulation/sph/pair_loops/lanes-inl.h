@@ -56,7 +56,7 @@ HWY_INLINE Pack<T> nearestInteger(Pack<T> a)
     return (a + big) - big;
 }
 
-/// Scalar functions under the names that kernel_shapes.inl uses.
+/// Scalar versions of functions that kernel_shapes.inl uses.
 HWY_INLINE float larger(float a, float b)
 {
     return a > b ? a : b;
@@ -68,7 +68,7 @@ HWY_INLINE double larger(double a, double b)
 
 #include "simulation/sph/pair_loops/kernel_shapes.inl"
 
-/// Partial results of Q sums, 16 lanes each.
+/// Partial results of Q sums, each in 16 virtual lanes.
 template <class T, uint32_t Q>
 struct alignas(64) LaneSums
 {
@@ -123,7 +123,7 @@ struct TakingSmaller
     }
 };
 
-/// One level of the reduction tree: combines lane k with lane k + Half.
+/// One level of the reduction: combines lane k with lane k + Half.
 template <uint32_t Half, class F, class T>
 HWY_INLINE void halve(const T* lane, T* out, F f)
 {

@@ -34,7 +34,8 @@ HWY_INLINE Quad<hn::TFromD<Tag>> loadTransposed(Tag, const hn::TFromD<Tag>* tabl
 
 #else
 
-/// Loads one vector of the 128-bit blocks at `field` of every `stride`-th entry.
+/// Loads a vector of 128-bit blocks, one from the record of each of entries[0], entries[stride], entries[2
+/// stride], ... `table` points to the block of the first record.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> loadBlocks(Tag tag, const hn::TFromD<Tag>* table, const uint32_t* entries,
                                    uint32_t stride)
@@ -93,7 +94,7 @@ HWY_INLINE Quad<T> loadQuad(const GasRecord<T>* records, const uint32_t* entries
     return loadTransposed(typename Pack<T>::Tag(), table, entries);
 }
 
-/// The list entries of the lanes of a vector, as bits in lanes of the width of T.
+/// The list entries of the lanes of a vector, stored as bits in lanes of the width of T.
 template <class T>
 class Entries
 {
@@ -119,7 +120,7 @@ template <>
 HWY_INLINE Entries<float>::Entries(const uint32_t* entries) : bits_(hn::LoadU(Words(), entries))
 {}
 
-/// Positions of image walls and periods for one particle.
+/// Positions of the image walls, and the periods, that apply to one particle.
 template <class T>
 struct ImageRules
 {
@@ -156,7 +157,7 @@ struct Owner
     T wall[3];
 };
 
-/// Position and velocity of the owner relative to its neighbors.
+/// Position and velocity of the owner of a list relative to its neighbors.
 template <class T>
 struct Relative
 {

@@ -17,16 +17,16 @@ template <class T>
 struct alignas(16 * sizeof(T)) GasRecord
 {
     T x, y, z;    ///< [m]
-    T support;    ///< [m] H, radius of the kernel's support, > 0
-    T vx, vy, vz; ///< [m/s] predicted to the time of the loop
+    T support;    ///< [m] radius H of the kernel's support, > 0
+    T vx, vy, vz; ///< [m/s] velocity, predicted to the time of the loop
     T mass;       ///< [kg] > 0
-    T push;       ///< [m5/(kg s2)] f (P - P_ambient) / rho^2, f the correction for varying support
+    T push;       ///< [m5/(kg s2)] f (P - P_ambient) / rho^2, with the correction f for varying support
     T density;    ///< [kg/m3] > 0
     T sound;      ///< [m/s]
-    T viscosity;  ///< [1] alpha of the switch
+    T viscosity;  ///< [1] coefficient alpha of the artificial viscosity
     T limiter;    ///< [1] Balsara's factor, 0..1
     T energy;     ///< [J/kg] specific thermal energy, for conduction
-    T pressure;   ///< [Pa], for the conductivity, which depends on pressure differences
+    T pressure;   ///< [Pa] pressure, for the conductivity, which depends on pressure differences
     T stepLevel;  ///< [1] binary logarithm of the particle's time step in ticks, a small integer
 };
 

@@ -10,11 +10,13 @@
 
 namespace fx::sim {
 
-constexpr double kCoincident = 1e-6; ///< [1] of the mean support: closer pairs have no defined direction
-/// [1] of the mean support: distance at which their kernel is evaluated
+/// [1] distance over the mean support below which a pair has no defined direction
+constexpr double kCoincident = 1e-6;
+/// [1] distance over the mean support at which the kernel of such pairs is evaluated
 constexpr double kPartingDistance = 0.05;
 
-/// A unit vector from `other` towards `id`. Exchanging both arguments gives its exact opposite.
+/// Unit vector from the particle `other` towards the particle `id`. Exchanging both arguments gives its exact
+/// opposite.
 template <class T>
 std::array<T, 3> partingDirection(uint32_t id, uint32_t other)
 {

@@ -47,9 +47,9 @@ namespace fx::sim {
 enum class SphKernel : uint8_t
 {
     WendlandC2,  ///< default
-    WendlandC4,  ///< for 100 neighbors and more
-    CubicSpline, ///< forms pairs beyond 50 neighbors
-    Quartic,     ///< (1 - q^2)^2, as in the paper: for density and pictures, unstable as a force
+    WendlandC4,  ///< suited to 100 neighbors and more
+    CubicSpline, ///< particles form pairs if there are more than 50 neighbors
+    Quartic,     ///< (1 - q^2)^2, the kernel of the paper; for density and pictures, unstable for forces
     Sextic,      ///< (1 - q^2)^3, for density and pictures only
     Octic        ///< (1 - q^2)^4, for density and pictures only
 };
@@ -63,8 +63,8 @@ struct KernelFacts
     std::string_view name; ///< name in commands and files, such as "wendland-c2"
     double norm;           ///< [1] C
     double center;         ///< [1] w(0)
-    /// [1] largest number of neighbors with stable forces: infinite where the Fourier transform is nowhere
-    /// negative, 0 where forces are unstable for any number.
+    /// [1] Largest number of neighbors for which forces are stable: infinite if the Fourier transform of the
+    /// kernel is nowhere negative, 0 if forces are unstable for any number.
     double largestNeighbors;
 };
 

@@ -9,17 +9,19 @@
 
 namespace fx::sim {
 
-/// The search for one particle. Until isDone(), the caller evaluates S and D at support() and passes them to
-/// tell().
+/// The search of one particle's support. Until isDone(), the caller evaluates the sums S and D at support()
+/// and passes them to tell().
 template <class T>
 class SupportSearch
 {
 public:
-    static constexpr uint32_t kMaxEvaluations = 19; ///< besides one at the result, by the caller
+    /// maximum number of evaluations in the search; the caller adds one at the result
+    static constexpr uint32_t kMaxEvaluations = 19;
 
+    /// Starts a search in [bottom, top].
     /// @param want [kg] target value 3 N m / (4 pi) of S
-    /// @param bottom, top [m] 0 < bottom <= top
-    /// @param guess [m] > 0
+    /// @param bottom, top [m] bounds of the support, 0 < bottom <= top
+    /// @param guess [m] initial support, > 0
     SupportSearch(T want, T bottom, T top, T guess, T tolerance)
         : want_(want), bottom_(bottom), top_(top), low_(bottom), high_(top), tolerance_(tolerance),
           support_(guess < bottom ? bottom
@@ -29,9 +31,10 @@ public:
 
     T support() const { return support_; }
     bool isDone() const { return done_; }
-    bool isAtTop() const { return atTop_; }       ///< the solution exceeds `top`
-    bool isAtBottom() const { return atBottom_; } ///< the solution is below `bottom`
+    bool isAtTop() const { return atTop_; }       ///< true: the solution exceeds `top`
+    bool isAtBottom() const { return atBottom_; } ///< true: the solution is below `bottom`
 
+    /// Passes the sums at support() and computes the next support.
     /// @param mass [kg] S at support()
     /// @param growth [kg] D at support()
     void tell(T mass, T growth)
@@ -58,14 +61,14 @@ public:
     }
 
 private:
-    /// number of proposals, after which the bracket is halved in every step
+    /// number of Newton steps after which the bracket is halved in every step
     static constexpr uint32_t kMaxProposals = 8;
 
     bool isNewton(T mass, T growth) const
     {
         return growth > T(0) && mass < T(2) * want_ && want_ < T(2) * mass;
     }
-    /// True if the square of the relative change is at most `square`.
+    /// Whether the square of the relative change from support() to `next` is at most `square`.
     bool isWithin(T next, T square) const
     {
         const T change = next - support_;
@@ -79,8 +82,8 @@ private:
             return mass < want_ ? top_ : bottom_;
         return support_ * static_cast<T>(base::cubeRoot(static_cast<double>(want_ / mass))); // S grows as H^3
     }
-    /// Returns the proposal if it is inside of the bracket; otherwise an untried bound or the middle of the
-    /// bracket.
+    /// Returns `next` if it is inside of the bracket; otherwise a bound that has not been tried, or the
+    /// middle of the bracket.
     T inside(T next, bool grows) const
     {
         if (evaluations_ < kMaxProposals) {
@@ -96,7 +99,7 @@ private:
 
     T want_;
     T bottom_, top_;
-    T low_, high_; ///< [m] bracket: S(low) < want <= S(high), if evaluated
+    T low_, high_; ///< [m] bounds of the bracket: S(low) < want <= S(high), if evaluated
     T tolerance_;
     T support_;
     uint32_t evaluations_ = 0;

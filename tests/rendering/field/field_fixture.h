@@ -19,30 +19,33 @@ constexpr int kFieldWidth = 96, kFieldHeight = 64;
 class FieldTest : public PostPass
 {
 protected:
-    /// Range of a ray in which the field is visible.
+    /// Range of rays in which the field is visible.
     struct Window
     {
-        float wall = std::numeric_limits<float>::infinity(); ///< [m] along the ray, what is opaque
-        float from = 0.0f;                                   ///< [m] depth along the axis
+        /// [m] distance of opaque surfaces along the ray
+        float wall = std::numeric_limits<float>::infinity();
+        float from = 0.0f; ///< [m] depth along the camera's axis at which the range begins
         bool layers = false;
-        std::vector<float> walls = {}; ///< of each pixel, in place of `wall`
+        /// [m] distances of opaque surfaces for each pixel; if not empty, they replace `wall`
+        std::vector<float> walls = {};
     };
 
-    /// Plans as for a large picture, and fills the field. The test keeps the textures.
+    /// Plans a field for a large picture and fills it. The test owns the textures.
     void fill(const FieldScene& scene, int resolution, bool layers = false);
-    /// RGBA of each pixel; with layers, of the requested target.
+    /// Marches rays through the field. @return RGBA of each pixel; with layers, of the target `target`
     std::vector<float> march(const render::CameraView& camera, const Window& window,
                              size_t target = render::MediaPass::Fire);
     std::vector<float> picture(const std::vector<FieldBall>& balls, const render::CameraView& camera,
                                int resolution, const Window& window);
-    std::vector<float> texels(size_t texture, int channels = 4); ///< 0 medium, 1 scatter, 2 shares
-    size_t texelOf(size_t brick, const glm::ivec3& s) const;     ///< index, in texels
+    /// reads a texture: 0 is medium, 1 is scatter, 2 is shares
+    std::vector<float> texels(size_t texture, int channels = 4);
+    size_t texelOf(size_t brick, const glm::ivec3& s) const; ///< index, in texels
 
     static render::CameraView camera(const glm::dvec3& position, const glm::dvec3& target);
 
     render::FieldPlan plan_{memory_};
 
-    render::FieldTextures importTextures(); ///< those of fill(), in this frame
+    render::FieldTextures importTextures(); ///< imports the textures that fill() created into this frame
     render::ResourceId importTexelsOfFields();
 
 private:

@@ -25,7 +25,7 @@ struct FieldBall
     uint32_t effect = 0;
 };
 
-/// Inputs of a plan, as a view gathers them.
+/// Inputs of a plan, in the form in which a view gathers them.
 struct FieldScene
 {
     std::vector<render::BlobInstance> balls;
@@ -41,15 +41,15 @@ struct FieldScene
 std::vector<FieldBall> randomBalls(uint32_t count, uint64_t seed, const glm::dvec3& middle,
                                    uint32_t effect = 0);
 
-/// [1/m] of all balls of an effect at a place relative to the eye, in double, each times its weight; no
-/// weights: 1.
+/// [1/m] Sum of the extinction of all balls of an effect, in double precision, at a position relative to the
+/// eye. Each ball is multiplied by its weight; without weights by 1.
 double sumAt(const FieldScene& scene, uint32_t effect, const glm::dvec3& place,
              const render::FieldBlock& field, const std::vector<double>& weights = {});
-/// As sumAt() without weights, clamped to 0 as in a stored sample.
+/// [1/m] As sumAt() without weights, clamped to 0 like a stored sample.
 double sampleAt(const FieldScene& scene, uint32_t effect, const glm::dvec3& place,
                 const render::FieldBlock& field);
 
-/// [m] relative to the eye, of a sample of a brick.
+/// [m] Position of a sample of a brick, relative to the eye.
 glm::dvec3 placeOfSample(const render::FieldPlan& plan, const render::FieldBrickBlock& brick,
                          const glm::ivec3& s);
 

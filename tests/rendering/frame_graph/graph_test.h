@@ -24,7 +24,7 @@ protected:
         return {name, size, size, format};
     }
 
-    /// A pass that makes a texture.
+    /// Adds a pass that writes a new texture.
     ResourceId source(std::string_view name, int size = 64, Format format = Format::RGBA16F)
     {
         ResourceId out;
@@ -37,7 +37,7 @@ protected:
         return out;
     }
 
-    /// A pass that reads `inputs` and makes a texture.
+    /// Adds a pass that reads `inputs` and writes a new texture.
     ResourceId filter(std::string_view name, std::vector<ResourceId> inputs, int size = 64,
                       Format format = Format::RGBA16F)
     {
@@ -53,7 +53,7 @@ protected:
         return out;
     }
 
-    /// A pass that changes `target` in place.
+    /// Adds a pass that changes `target` in place.
     ResourceId blend(std::string_view name, ResourceId target)
     {
         ResourceId out;

@@ -14,7 +14,7 @@ namespace fx::render {
 /// Values by the name of the state, such as "GL_BLEND[2]".
 using GlProbe = std::map<std::string, std::vector<double>>;
 
-/// States that differ, one line each.
+/// Names and values of the states that differ, one line for each.
 std::vector<std::string> differences(const GlProbe& before, const GlProbe& after);
 
 /// Objects and calls of a host that shares its context with the library.
@@ -23,8 +23,8 @@ class GlHost
 public:
     explicit GlHost(const GlLoader& loader) : loader_(loader) {}
 
-    /// Sets every state that the probe reads to something that is neither GL's default nor what drawing
-    /// needs.
+    /// Sets every state that the probe reads to a value that is neither the default of GL nor the value that
+    /// drawing requires.
     void makeHostile();
     /// Reads all state.
     GlProbe probe();
@@ -44,7 +44,7 @@ private:
     void bindBuffers();
 
     GlLoader loader_;
-    GLuint textures_[7] = {}; ///< 2-D, 2-D, cube, array, 2-D RGBA32F, 2-D R32F, 3-D
+    GLuint textures_[7] = {}; ///< textures of the kinds 2-D, 2-D, cube, array, 2-D RGBA32F, 2-D R32F and 3-D
     GLuint samplers_[2] = {};
     GLuint buffers_[3] = {};
     GLuint framebuffers_[2] = {};

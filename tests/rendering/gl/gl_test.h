@@ -1,5 +1,6 @@
 /// @file gl_test.h
-/// A test with an OpenGL context of its own (no window needed) in which every driver complaint is a failure.
+/// A test with an OpenGL context of its own, without a window. Every message of the driver makes the test
+/// fail.
 #pragma once
 
 #include "rendering/gl/gl_backend.h"
@@ -46,7 +47,7 @@ protected:
         EXPECT_EQ(device->textureBytes() + device->bufferBytes(), bytesOfTheTest);
     }
 
-    /// Compiles and executes what was declared.
+    /// Compiles and executes the declared passes of the graph.
     base::Status runGraph()
     {
         graph.compile();
@@ -62,7 +63,7 @@ protected:
                            backend->height(texture), channels);
     }
 
-    /// GLSL of the tests by name; nothing when the name is unknown.
+    /// GLSL source of the test programs by name; empty when the name is unknown.
     static std::optional<std::string> testShader(std::string_view name);
 
     std::unique_ptr<GlContext> context;
@@ -70,8 +71,10 @@ protected:
     std::unique_ptr<GlMessages> messages;
     std::unique_ptr<GlBackend> backend;
     FrameGraph graph{std::pmr::get_default_resource()};
-    uint32_t expectedMessages = 0; ///< of tests that break something on purpose
-    uint64_t bytesOfTheTest = 0;   ///< [byte] that a test still holds when it ends
+    /// number of expected driver messages, for tests that cause errors on purpose
+    uint32_t expectedMessages = 0;
+    /// [byte] memory of textures and buffers that a test still owns when it ends
+    uint64_t bytesOfTheTest = 0;
 };
 
 namespace programs {

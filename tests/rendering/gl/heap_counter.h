@@ -6,7 +6,7 @@
 
 namespace fx::render {
 
-/// Counts from construction until stop(), in all threads.
+/// Counts allocations by operator new from construction until stop(), in all threads.
 class HeapCounter
 {
 public:

@@ -8,7 +8,7 @@
 
 namespace fx::test {
 
-/// Numbers of a network, owned.
+/// Medium, light and settings of a network, with their memory.
 struct NetworkCase
 {
     render::NetworkGrid grid;
@@ -20,15 +20,15 @@ struct NetworkCase
     void give(render::ScatteringNetwork& outNetwork) const;
 };
 
-/// An even medium of side 1 with one number for each quantity.
+/// A homogeneous medium in a box whose side along x is 1.
 NetworkCase evenCase(const glm::ivec3& cells, float opticalDepth, float albedo,
                      const render::NetworkSettings& settings = {});
-/// Anything that is allowed, empty cells and black ones among it.
+/// A random medium with any allowed values, including empty and black cells.
 NetworkCase randomCase(uint64_t seed, const glm::ivec3& cells, double mostAlbedo = 1.0);
 
-/// Moments of the light at rest, by elimination: no iteration, no float.
+/// Moments of the stationary light, solved by elimination: without iteration, in double precision.
 std::vector<double> solvedExactly(const NetworkCase& c);
-/// [1] distance of scattered light from that of `light`, as SweepReport has it.
+/// [1] Difference of the scattered light from that of `light`, in the norm of SweepReport.
 double scatteredError(const NetworkCase& c, const std::vector<float>& light,
                       const std::vector<double>& exact);
 

@@ -21,7 +21,7 @@
 
 namespace fx::test {
 
-/// RGBA texels, row by row from texture coordinate 0.
+/// A picture of RGBA texels, row by row from texture coordinate 0.
 struct Picture
 {
     int width, height;
@@ -48,10 +48,11 @@ protected:
                                     std::span<const float> texels);
     render::ResourceId importBytes(std::span<const std::byte> bytes);
 
-    /// Executes the graph so that `kept` exists afterwards; the frame stays readable until the next one.
+    /// Executes the graph and keeps the resource `kept`. The results of the frame can be read until the next
+    /// frame.
     void execute(render::ResourceId kept);
     std::vector<float> read(render::ResourceId texture, int channels = 4);
-    /// Content of the newest imported buffer.
+    /// Reads the content of the buffer that was imported last.
     template <class T>
     T readBuffer()
     {

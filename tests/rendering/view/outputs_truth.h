@@ -16,17 +16,17 @@
 
 namespace fx::test {
 
-/// A ball of medium that moves evenly.
+/// A ball of medium with constant velocity.
 struct MovingBall
 {
-    glm::dvec3 center{0.0};   ///< [m] at the moment of the frame
+    glm::dvec3 center{0.0};   ///< [m] center at the time of the frame
     double radius = 1.0;      ///< [m]
-    double depth = 1.0;       ///< [1] optical depth through its middle
+    double depth = 1.0;       ///< [1] optical depth through the center
     glm::dvec3 velocity{0.0}; ///< [m/s]
     uint64_t instance = 1;
 
-    /// Integral of its extinction over space [m2]: depth = peak 16/15 radius, section = peak 32 pi / 105
-    /// radius^3.
+    /// [m2] Integral of the extinction over space. With the extinction `peak` at the center: depth = peak
+    /// 16/15 radius and section = peak 32 pi / 105 radius^3.
     double crossSection() const { return depth * radius * radius * std::numbers::pi * 2.0 / 7.0; }
     double extinction(const glm::dvec3& place) const
     {
@@ -42,7 +42,8 @@ struct TrueOutputs
     double opticalDepth = 0.0;
     glm::dvec2 motion{0.0}; ///< [pixel]
     uint64_t instance = 0;
-    double lead = 0.0; ///< [1] share of that instance less that of the next
+    /// [1] difference between the shares of `instance` and of the instance with the next smaller share
+    double lead = 0.0;
     double opacity = 0.0;
 };
 
@@ -70,7 +71,7 @@ struct PixelRay
     }
 };
 
-/// Of a pixel whose middle is at the window position (x, y), rows from the bottom.
+/// Outputs of a pixel whose center is at the window position (x, y), rows from the bottom.
 /// @param past camera of the frame before, `seconds` earlier
 inline TrueOutputs trueOutputs(const std::vector<MovingBall>& balls, const render::CameraView& camera,
                                const render::CameraView& past, double seconds, double x, double y, int width,

@@ -11,7 +11,7 @@
 
 namespace fx::test {
 
-/// One row. Radius 0 is an empty one.
+/// One row of a group. A radius of 0 marks an empty row.
 struct TestParticle
 {
     glm::vec3 center{0.0f};
@@ -44,7 +44,7 @@ protected:
     void SetUp() override;
 
     base::FrameSnapshot emptySnapshot(double seconds = 0.0);
-    /// Adds a group whose color 1 is exposed light 1; change its constants as needed.
+    /// Adds a group in which the color 1 gives an exposed value of 1. Tests may change its constants.
     base::SnapshotGroup& addParticles(base::FrameSnapshot& snapshot,
                                       const std::vector<TestParticle>& particles,
                                       base::ColumnSet columns = base::kAllColumns);

@@ -1,12 +1,12 @@
 /// @file permutations.h
-/// How many random orders a test draws.
+/// Number of random orders in which a test draws.
 #pragma once
 
 #include <cstdlib>
 
 namespace fx::test {
 
-/// 40, or 1000 where FXSDK_LONG_RUN is set.
+/// Number of random orders: 40, or 1000 where FXSDK_LONG_RUN is set.
 inline int permutations()
 {
     return std::getenv("FXSDK_LONG_RUN") ? 1000 : 40;

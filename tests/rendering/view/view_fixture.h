@@ -27,7 +27,7 @@ struct TestBlob
     glm::vec3 center{0.0f};
     float radius = 1.0f;
     float crossSection = 1.0f;
-    float emission = 0.0f; ///< exposed value of the emitted light, gray
+    float emission = 0.0f; ///< exposed value of the emitted light, equal in all channels
     float albedo = 0.0f;
     float fireShare = 0.0f;
     float heat = 0.0f;
@@ -53,12 +53,13 @@ protected:
     void SetUp() override;
     void TearDown() override;
 
-    /// Groups by layer at `placement`; ids count up from 0.
+    /// Creates a snapshot with one group per layer at `placement`. Ids count up from 0.
     base::FrameSnapshot snapshotOf(const std::vector<TestBlob>& blobs,
                                    const glm::dvec3& placement = glm::dvec3(0.0));
     void makeTargets(int width, int height);
-    void setPicture(const std::vector<float>& rgba); ///< the host's picture before the effects
-    void setDepth(const std::vector<float>& stored); ///< stored depth values; without, nothing occludes
+    void setPicture(const std::vector<float>& rgba); ///< sets the host's picture before effects are drawn
+    /// sets the stored depth values; without this call nothing occludes effects
+    void setDepth(const std::vector<float>& stored);
     Picture render(const base::FrameSnapshot& snapshot, const render::CameraView& camera);
     Picture read(uint32_t texture, int channels = 4);
 

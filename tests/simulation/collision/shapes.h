@@ -18,7 +18,7 @@
 
 namespace fx::test {
 
-/// Triangles one after another, three positions each.
+/// List of triangles: three consecutive positions each.
 using Soup = std::vector<glm::vec3>;
 
 inline void addQuad(Soup& soup, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
@@ -27,7 +27,7 @@ inline void addQuad(Soup& soup, const glm::vec3& a, const glm::vec3& b, const gl
     soup.insert(soup.end(), {a, b, c, a, c, d});
 }
 
-/// Reverses the orientation of every triangle.
+/// Reverses the orientation of every triangle of a mesh.
 inline Soup insideOut(Soup soup)
 {
     for (size_t i = 0; i + 2 < soup.size(); i += 3)
@@ -50,7 +50,7 @@ inline Soup boxMesh(const glm::vec3& low, const glm::vec3& high)
     return soup;
 }
 
-/// A ball of 2 n (n - 1) triangles around every meridian.
+/// A sphere of 4 n (n - 1) triangles, 2 (n - 1) of them between each two neighbors of 2 n meridians.
 inline Soup sphereMesh(float radius, int n)
 {
     const auto at = [&](int i, int k) {
@@ -69,7 +69,7 @@ inline Soup sphereMesh(float radius, int n)
     return soup;
 }
 
-/// A square sheet in the plane x = 0.
+/// A square sheet in the plane x = 0 with the half side `half`.
 inline Soup sheetMesh(float half)
 {
     Soup soup;
@@ -106,7 +106,7 @@ inline std::shared_ptr<const sim::DistanceField> fieldOf(const Soup& soup, float
     return field.ok() ? *field : nullptr;
 }
 
-/// Runs each loop on `threads` threads, independent of the machine.
+/// Creates a runner that runs each loop on `threads` threads, whatever the number of processors.
 inline std::unique_ptr<base::TaskRunner> threadedRunner(uint32_t threads)
 {
     static constexpr uint32_t kCounts[] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -120,7 +120,7 @@ inline std::unique_ptr<base::TaskRunner> threadedRunner(uint32_t threads)
     return base::makeHostRunner({const_cast<uint32_t*>(&kCounts[threads]), run});
 }
 
-/// Positions that fill the box from -1 to 1 evenly without lying on a grid.
+/// Position number `i` of a sequence that fills the box from -1 to 1 evenly without lying on a grid.
 inline glm::vec3 quasiRandom(uint32_t i)
 {
     const auto part = [i](double step) { return float(2.0 * std::fmod(0.5 + i * step, 1.0) - 1.0); };

@@ -1,5 +1,5 @@
 /// @file detail_stage.h
-/// What tests of material coordinates look at in a snapshot.
+/// Access to the groups of material coordinates in a snapshot, for tests.
 #pragma once
 
 #include "tests/simulation/stage.h"
@@ -14,7 +14,7 @@ namespace fx::test {
 namespace column = base::material_column;
 namespace constant = base::material_constant;
 
-/// The groups of one solver: blobs, and coordinates where there are any.
+/// The groups of one solver: blobs, and material coordinates if it publishes them.
 struct DetailGroups
 {
     explicit DetailGroups(const base::FrameSnapshot& snapshot)
@@ -41,7 +41,7 @@ struct DetailGroups
     }
 };
 
-/// All columns of a group and its ids, as numbers.
+/// All columns and ids of a group, as numbers.
 inline std::vector<float> allOf(const base::SnapshotGroup& group, size_t columns)
 {
     std::vector<float> all(group.constants().begin(), group.constants().end());

@@ -46,7 +46,8 @@ inline std::vector<sim::GasParticle> lattice(uint32_t n, double energy)
     return particles;
 }
 
-/// Gives `joules` to the `count` particles nearest to `center`; ties by index.
+/// Distributes `joules` equally among the `count` particles nearest to `center`; of equally near ones, those
+/// with the smaller index.
 inline void heatNearest(std::vector<sim::GasParticle>& particles, const glm::dvec3& center, uint32_t count,
                         double joules)
 {
@@ -78,7 +79,7 @@ struct GasStage
     sim::GasTotals before;
 };
 
-/// A blast of energy 1 in the middle of cold gas.
+/// A blast of energy 1 J in the middle of cold gas.
 template <class T>
 GasStage<T> pointBlast(uint32_t n, sim::GasDynamicsDef def, double background = 1e-6)
 {

@@ -22,7 +22,7 @@ inline std::unique_ptr<sim::FragmentsDef> oneFragment(float speed)
     return def;
 }
 
-/// Many fragments that use all there is.
+/// A burst of many fragments that uses all features of the definition.
 inline std::unique_ptr<sim::FragmentsDef> burst(uint32_t count)
 {
     auto def = std::make_unique<sim::FragmentsDef>();
@@ -36,7 +36,7 @@ inline std::unique_ptr<sim::FragmentsDef> burst(uint32_t count)
     return def;
 }
 
-/// The effect of one burst above the ground.
+/// An effect with one burst above the ground.
 inline std::shared_ptr<sim::EffectDef> grounded(std::unique_ptr<sim::FragmentsDef> def)
 {
     auto effect = std::make_shared<sim::EffectDef>();

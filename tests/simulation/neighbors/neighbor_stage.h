@@ -30,7 +30,7 @@ struct Cloud
         z.push_back(T(pz));
         support.push_back(T(h));
     }
-    /// Uniform in [low, low + extent)^3, supports uniform in [least, most).
+    /// Adds random particles, uniform in [low, low + extent)^3, with supports uniform in [least, most).
     void addRandom(uint32_t particles, uint64_t seed, double low, double extent, double least, double most)
     {
         for (uint32_t i = 0; i < particles; ++i) {
@@ -39,7 +39,7 @@ struct Cloud
                 least + (most - least) * double(u[3]));
         }
     }
-    /// `edge`^3 particles a distance `spacing` apart, x fastest.
+    /// Adds `edge`^3 particles of a lattice with the spacing `spacing`, x fastest.
     void addLattice(uint32_t edge, double low, double spacing, double h)
     {
         for (uint32_t k = 0; k < edge; ++k)
@@ -56,7 +56,7 @@ struct Cloud
     }
 };
 
-/// A cloud in the order of its tree, with lists for the owners.
+/// A cloud whose particles are in the order of its tree, with neighbor lists of the owners.
 template <class T>
 struct Searched
 {
@@ -91,7 +91,8 @@ inline std::vector<uint32_t> everyone(uint32_t count)
     return owners;
 }
 
-/// In place of a number of threads: runs the shortest allowed ranges, the last range first.
+/// Value that replaces a number of threads: loops run serially in the shortest allowed ranges, the last range
+/// first.
 constexpr uint32_t kBackwards = ~0u;
 
 inline std::unique_ptr<base::TaskRunner> runner(uint32_t threads)
@@ -134,8 +135,9 @@ Searched<T> searched(const Cloud<T>& cloud, const sim::Domain& domain, const Sea
     return s;
 }
 
-/// [m2] Squared distance of i and the image of j that is mirrored in the axes of `mirrors`; infinite where
-/// there is no wall. Written again from the comments in domain.h.
+/// [m2] Squared distance of particle i from the image of particle j that is mirrored on the axes of
+/// `mirrors`; infinite where there is no wall. It is implemented independently, from the comments in
+/// domain.h.
 template <class T>
 T distance2(const Cloud<T>& cloud, const sim::Domain& domain, uint32_t i, uint32_t j, uint32_t mirrors)
 {
@@ -161,7 +163,7 @@ T distance2(const Cloud<T>& cloud, const sim::Domain& domain, uint32_t i, uint32
     return d2;
 }
 
-/// Entries of slot `i` from a test of all particles and all images, in the order of lists.
+/// Entries of the list of slot `i`, found by testing all particles and all images, in the order of lists.
 template <class T>
 std::vector<uint32_t> trialOfAll(const Cloud<T>& cloud, const sim::Domain& domain, T margin, uint32_t i)
 {
@@ -176,7 +178,7 @@ std::vector<uint32_t> trialOfAll(const Cloud<T>& cloud, const sim::Domain& domai
     return entries;
 }
 
-/// Compares the lists of every `stride`th owner with those of trialOfAll().
+/// Compares the list of every `stride`th owner with the result of trialOfAll().
 template <class T>
 void expectTrialOfAll(const Searched<T>& s, uint32_t stride = 1)
 {

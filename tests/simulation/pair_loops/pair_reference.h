@@ -17,7 +17,7 @@ namespace fx::test {
 using bench::chance, bench::latticeGas, bench::parcel, bench::stir, bench::unitBox;
 using bench::Densities, bench::Forces, bench::Gas, bench::GasStage;
 
-/// W and dW/dr of unit mass, written as in Dehnen and Aly's table.
+/// Kernel W and its derivative dW/dr for unit mass, in the form of Dehnen and Aly's table.
 struct ReferenceKernel
 {
     sim::SphKernel kind;
@@ -73,7 +73,7 @@ struct ReferenceKernel
     }
 };
 
-/// Calls f(neighbor, x_i - x_j, v_i - v_j, isImage) for all others and their images in the domain.
+/// Calls f(neighbor, x_i - x_j, v_i - v_j, isImage) for all other particles and all images in the domain.
 template <class F>
 void forEachReference(const Gas& gas, const sim::Domain& domain, uint32_t i, F&& f)
 {
@@ -118,7 +118,7 @@ inline double referenceSum(const Gas& gas, const sim::Domain& domain, const Refe
     return density;
 }
 
-/// Everything at a given support.
+/// All results of the density loop at a given support H.
 inline ReferenceDensity referenceDensity(const Gas& gas, const sim::Domain& domain, sim::SphKernel kernel,
                                          double bias, uint32_t i, double H)
 {
@@ -148,10 +148,11 @@ struct ReferenceForce
 {
     glm::dvec3 acceleration{0.0};
     double heating = 0;
-    double pressureWork = 0; ///< [W/kg] what compression does to the thermal energy
+    double pressureWork = 0; ///< [W/kg] increase of the thermal energy by compression
     double signalSpeed = 0, fastestNeighbor = 1e30;
     uint32_t pairs = 0;
-    double accelerationScale = 0, heatingScale = 0; ///< sums of absolute terms, for bounds
+    /// sums of the absolute values of the terms, from which error bounds are computed
+    double accelerationScale = 0, heatingScale = 0;
 };
 
 inline ReferenceForce referenceForce(const Gas& gas, const sim::Domain& domain, const sim::ForceRules& rules,

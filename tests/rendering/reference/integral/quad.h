@@ -1,5 +1,5 @@
 /// @file quad.h
-/// __float128 as a number of the integral: 113 bits of mantissa.
+/// Makes __float128, with 113 bits of mantissa, usable as the number type of the ray integral.
 #pragma once
 
 #include "rendering/reference/integral/lane_numbers.h"

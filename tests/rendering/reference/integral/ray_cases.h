@@ -19,7 +19,7 @@ namespace fx::render {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Numbers in [0, 1) by counting.
+/// Random numbers in [0, 1) from a counter.
 class Draw
 {
 public:
@@ -32,7 +32,7 @@ private:
     uint32_t count_ = 0;
 };
 
-/// Light of the full chord of one blob.
+/// Optical depth of a blob along its full chord.
 inline double fullDepth(const RayBlob<double>& b, uint32_t degree = 2)
 {
     const double chord[] = {16.0 / 15.0, 32.0 / 35.0, 256.0 / 315.0};
@@ -40,7 +40,8 @@ inline double fullDepth(const RayBlob<double>& b, uint32_t degree = 2)
            chord[degree - 2];
 }
 
-/// Overlapping blobs with half chords 0.02..2 m between 2 and 12 m and the given optical depth together.
+/// Random overlapping blobs along a ray. They lie between 2 and 12 m, have half chords of 0.02 to 2 m, and
+/// have the given total optical depth.
 inline std::vector<RayBlob<double>> randomRay(uint32_t count, double opticalDepth, uint64_t seed,
                                               uint32_t degree = 2)
 {

@@ -9,7 +9,7 @@
 
 namespace fx::render {
 
-/// Mean and standard error, updated by [Wel62].
+/// Mean and standard error of numbers, updated by the method of [Wel62].
 class Statistics
 {
 public:
@@ -29,17 +29,17 @@ private:
     double mean_ = 0.0, squares_ = 0.0;
 };
 
-/// Light that has left a medium, or nothing of it.
+/// Result of following light through a medium.
 struct Escape
 {
     bool isOut = false;
     uint32_t scatterings = 0;
-    TraceRay ray{}; ///< of the last free path
+    TraceRay ray{}; ///< ray of the last free path
     glm::dvec3 throughput{1.0};
     glm::dvec3 luminance{0.0}; ///< emitted on the way
 };
 
-/// Follows light until it leaves the medium or has less than `least` left.
+/// Follows light until it leaves the medium or its throughput is below `least`.
 inline Escape escape(MediumTracker& tracker, TraceRay ray, PathSampler& sampler, double least = 1e-9)
 {
     Escape result;

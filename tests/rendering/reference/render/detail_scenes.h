@@ -21,7 +21,7 @@ inline render::FieldDetailNumbers someDetail()
     return numbers;
 }
 
-/// Detail of balls that all are of one group, around the origin.
+/// Detail of balls around the origin that belong to one group.
 inline render::MediumDetails detailsOf(std::span<const render::MediumBlob> blobs,
                                        const render::FieldDetailNumbers& numbers, float temperature = 0.0f)
 {
@@ -44,7 +44,7 @@ inline render::MediumDetails detailsOf(std::span<const render::MediumBlob> blobs
     return details;
 }
 
-/// The same, point by point, without the factor.
+/// The same field with detail, for evaluation point by point, without the conservation factor.
 inline render::DetailedField fieldOf(std::span<const render::MediumBlob> blobs,
                                      const render::MediumDetails& details, const render::LumpTile& tile)
 {

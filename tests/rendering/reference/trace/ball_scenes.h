@@ -1,5 +1,5 @@
 /// @file ball_scenes.h
-/// Sets of balls and rays for the tests of this folder, and the answer found by looking at every ball.
+/// Sets of balls and rays for the tests of this folder, and a brute-force intersection test.
 #pragma once
 
 #include "benchmarks/scenes/chance.h"
@@ -44,7 +44,7 @@ inline Balls clusteredBalls(size_t count, uint64_t seed)
     return balls;
 }
 
-/// Random, clustered, coincident, one, none, and of very different size.
+/// Sets of balls: random, clustered, coincident, a single one, none, and balls of very different sizes.
 inline std::vector<BallScene> ballScenes()
 {
     std::vector<BallScene> scenes;
@@ -65,7 +65,7 @@ inline std::vector<BallScene> ballScenes()
     return scenes;
 }
 
-/// Whether a ray meets a ball between two of its parameters, written from the definition.
+/// Whether a ray intersects a ball between two ray parameters, computed directly from the definition.
 inline bool meets(const render::TraceRay& ray, const render::TraceBall& ball, double begin, double end,
                   const glm::dvec3& origin = glm::dvec3(0.0))
 {

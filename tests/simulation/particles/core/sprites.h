@@ -8,7 +8,7 @@
 
 namespace fx::test {
 
-/// Born in a disc, thrown up, drawn as sprites: ballistic.
+/// An emitter of sprites that are born in a disc and thrown up; their motion has a closed form.
 inline std::unique_ptr<sim::EmitterDef> spriteEmitter(float rate, base::Range lifetime)
 {
     auto def = rateEmitter(rate);
@@ -27,7 +27,7 @@ inline std::unique_ptr<sim::EmitterDef> spriteEmitter(float rate, base::Range li
     return def;
 }
 
-/// A module that does nothing, so that motion is integrated.
+/// A module that does nothing. With it, motion is integrated.
 class Idle final : public sim::TileOp
 {
 public:

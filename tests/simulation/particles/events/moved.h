@@ -10,7 +10,7 @@
 
 namespace fx::test {
 
-/// Sprites that rest where they are born, `rate` a second.
+/// An emitter of sprites that stay where they are born, `rate` a second.
 inline std::unique_ptr<sim::EmitterDef> dropper(float rate)
 {
     auto def = rateEmitter(rate);

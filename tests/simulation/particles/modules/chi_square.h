@@ -15,7 +15,8 @@ class EqualCells
 {
 public:
     explicit EqualCells(size_t cells) : counts_(cells) {}
-    void add(double share) ///< of the distribution that lies below the sample, 0..1
+    /// adds a sample; @param share value of the cumulative distribution function at the sample, 0..1
+    void add(double share)
     {
         const double cell = share * double(counts_.size());
         ++counts_[cell > 0.0 ? std::min(size_t(cell), counts_.size() - 1) : 0];
@@ -39,15 +40,16 @@ private:
     std::vector<uint64_t> counts_;
 };
 
-/// Value that chi-square with `degrees` degrees of freedom exceeds with the probability with which the normal
-/// distribution exceeds z, by the approximation of Wilson and Hilferty.
+/// Quantile of the chi-square distribution with `degrees` degrees of freedom, by the approximation of Wilson
+/// and Hilferty. A value exceeds it with the same probability with which a normal variable exceeds z.
 inline double chiSquareLimit(double degrees, double z)
 {
     const double part = 2.0 / (9.0 * degrees);
     return degrees * std::pow(1.0 - part + z * std::sqrt(part), 3.0);
 }
 
-/// 1 % for all tests of the shapes together (Sidak, 40 tests): each 1 - 0.99^(1/40) = 2.5e-4, z = 3.48.
+/// Quantile z of the normal distribution for each of 40 tests of the shapes, so that all of them together
+/// fail by chance with a probability of 1 % (Sidak): 1 - 0.99^(1/40) = 2.5e-4 for each gives z = 3.48.
 constexpr double kSidak = 3.48;
 
 inline void expectEven(const EqualCells& cells, const char* what)

@@ -1,5 +1,6 @@
 /// @file tile_stage.h
-/// A single tile as input of modules, and the free flight between modules, written again from tile.h.
+/// A single tile as input of modules, and the free flight between modules, implemented independently from the
+/// comments in tile.h.
 #pragma once
 
 #include "simulation/particles/tile.h"
@@ -41,7 +42,7 @@ public:
     glm::vec3 acceleration(uint32_t i = 0) const { return {tile->ax[i], tile->ay[i], tile->az[i]}; }
     glm::vec3 air(uint32_t i = 0) const { return {tile->ux[i], tile->uy[i], tile->uz[i]}; }
 
-    /// Clears the sums and sets the length of the next step.
+    /// Clears the sums of the tile and sets the length of the next step.
     void begin(float seconds)
     {
         context.seconds = seconds;
@@ -65,7 +66,7 @@ public:
         op.prepare(context, scratch);
         op.run(context, scratch, *tile);
     }
-    /// Free flight under gravity and the accelerations that modules added.
+    /// Moves particles in free flight under gravity and the accelerations that modules have added.
     void fly(const glm::vec3& gravity = glm::vec3(0.0f))
     {
         for (uint32_t i = 0; i < tile->count; ++i) {
