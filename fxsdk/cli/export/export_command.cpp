@@ -51,12 +51,14 @@ public:
 
     base::Status run()
     {
-        if (plan_.maxVoxels > machine_.memory / kBytesPerVoxel)
+        const uint64_t affordable = machine_.memory / kBytesPerVoxel;
+        if (arguments_.voxels && plan_.maxVoxels > affordable)
             return {base::Code::TooLarge, "--voxels " + std::to_string(plan_.maxVoxels) + " may take " +
                                               std::to_string(plan_.maxVoxels * kBytesPerVoxel >> 20) +
                                               " MiB, more than this machine has; give at most " +
-                                              std::to_string(machine_.memory / kBytesPerVoxel)};
-        options_ = {arguments_.voxelSize.value_or(0.0), plan_.maxVoxels, arguments_.half, arguments_.points};
+                                              std::to_string(affordable)};
+        options_ = {arguments_.voxelSize.value_or(0.0), std::min(plan_.maxVoxels, affordable),
+                    arguments_.half, arguments_.points};
         if (!arguments_.voxelSize)
             if (base::Status status = chooseVoxelSize(); !status)
                 return status;
@@ -84,8 +86,9 @@ private:
             if (!moment.ok())
                 return moment.status();
             if (!render::BlockPlan::create(moment->balls, std::max(options_.voxelSize, 1e-9),
-                                           plan_.maxVoxels))
-                options_.voxelSize = render::voxelSizeFor(moment->balls, plan_.maxVoxels, options_.voxelSize);
+                                           options_.maxVoxels))
+                options_.voxelSize =
+                    render::voxelSizeFor(moment->balls, options_.maxVoxels, options_.voxelSize);
             if (plan_.frames.size() == 1)
                 only_ = std::move(*moment);
         }
