@@ -1,8 +1,8 @@
 #include "formulas/field_glow.fx.h"
 #include "field/field_glow.glsl"
 
-// Mean radiance in each cell of the rays of all directions. FX_AGAIN 1: the rays are what is emitted and what is scattered of the
-// light of the first sum, and the result is the logarithm of all orders: formula field-glow (5).
+// Computes the mean over all directions of the radiance in each cell. FX_AGAIN 1: the rays carry the emitted light and the light of
+// the first sum, scattered once. The result is then the logarithm of the light of all orders: formula field-glow (5).
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
 layout(binding = 0) uniform sampler3D rays; // see glow_rays.comp.glsl
 #if FX_AGAIN

@@ -24,5 +24,22 @@ TEST(FrameRange, anythingElseIsRefusedWithTheAllowedForm)
     EXPECT_FALSE(parseFrameRange("0:7200", 1.0).ok()); // beyond the first hour
 }
 
+TEST(FrameRange, oneFileHasOneMomentAndASequenceThoseOfItsRange)
+{
+    const auto still = listFrames({std::nullopt, "", 30.0}, true, 0.5, "a sequence", "a still");
+    ASSERT_EQ(still->size(), 1u);
+    EXPECT_EQ(still->front().tick, base::toTicks(0.5));
+    EXPECT_EQ(listFrames({2.0, "", 30.0}, true, 0.5, "a sequence", "a still")->front().tick,
+              base::toTicks(2.0));
+    const auto frames = listFrames({std::nullopt, "3:5", 10.0}, false, 0.5, "a sequence", "a still");
+    ASSERT_EQ(frames->size(), 3u);
+    EXPECT_EQ(frames->back().number, 5);
+    EXPECT_EQ(frames->back().tick, base::toTicks(0.5));
+    const auto range = listFrames({std::nullopt, "3:5", 10.0}, true, 0.5, "a sequence", "a still");
+    EXPECT_EQ(range.status().message(), "--frames needs a sequence");
+    const auto time = listFrames({1.0, "", 10.0}, false, 0.5, "a sequence", "a still");
+    EXPECT_EQ(time.status().message(), "--time needs a still");
+}
+
 } // namespace
 } // namespace fx::cli

@@ -60,7 +60,7 @@ constexpr std::array<LitSetting, 16> kSettings{
      {"network-32", "", true, true, true, 2, 96, 32},
      {"network-48", "", true, true, true, 2, 96, 48}}};
 
-/// Of the light slices.
+/// Size of the light slices that a setting uses.
 render::SliceResolution resolutionOf(const LitSetting& setting)
 {
     render::SliceResolution resolution;

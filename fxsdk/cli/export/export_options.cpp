@@ -1,12 +1,12 @@
 #include "fxsdk/cli/export/export_options.h"
 
-#include "fxsdk/cli/support/frame_range.h"
 #include "fxsdk/cli/support/named_choice.h"
 #include "rendering/voxelization/block_plan.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace fx::cli {
 namespace {
@@ -24,20 +24,14 @@ base::Status usage(const std::string& message)
 
 base::Status planFrames(const ExportArguments& arguments, ExportPlan& plan)
 {
-    if (!plan.output.isSequence()) {
-        if (!arguments.frames.empty())
-            return usage("--frames needs a sequence (-o name.%04d.vdb)");
-        plan.hasDefaultTime = !arguments.time.has_value();
-        plan.frames.push_back({0, base::toTicks(arguments.time.value_or(kDefaultTime))});
-        return {};
-    }
-    if (arguments.time)
-        return usage("--time needs one file (-o name.vdb); for a sequence give --frames");
-    const auto range = parseFrameRange(arguments.frames, arguments.framesPerSecond);
-    if (!range.ok())
-        return range.status();
-    for (int64_t number = range->first; number <= range->last; ++number)
-        plan.frames.push_back({number, base::toTicks(double(number) / arguments.framesPerSecond)});
+    const bool isSingle = !plan.output.isSequence();
+    auto frames =
+        listFrames({arguments.time, arguments.frames, arguments.framesPerSecond}, isSingle, kDefaultTime,
+                   "a sequence (-o name.%04d.vdb)", "one file (-o name.vdb); for a sequence give --frames");
+    if (!frames.ok())
+        return frames.status();
+    plan.frames = std::move(*frames);
+    plan.hasDefaultTime = isSingle && !arguments.time;
     return {};
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
-#include "foundation/time/ticks.h"
+#include "fxsdk/cli/support/frame_range.h"
 #include "fxsdk/cli/support/output_target.h"
 
 #include <cstdint>
@@ -39,11 +39,7 @@ void addExportOptions(CLI::App& command, ExportArguments& arguments);
 /// What is exported, when, and where it goes.
 struct ExportPlan
 {
-    struct Frame
-    {
-        int64_t number = 0;
-        base::Ticks tick = 0;
-    };
+    using Frame = NumberedFrame;
     NumberedFile output;
     std::vector<Frame> frames;
     bool hasDefaultTime = false; ///< of one file; no option names a time

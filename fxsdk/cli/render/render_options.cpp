@@ -1,6 +1,5 @@
 #include "fxsdk/cli/render/render_options.h"
 
-#include "fxsdk/cli/support/frame_range.h"
 #include "fxsdk/cli/support/named_choice.h"
 #include "rendering/frame/composition_names.h"
 
@@ -12,6 +11,7 @@
 #include <cstdlib>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace fx::cli {
 namespace {
@@ -60,20 +60,14 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
 {
     if (!arguments.times.empty())
         return planTimes(arguments, plan);
-    if (plan.output.isStill()) {
-        if (!arguments.frames.empty())
-            return usage("--frames needs a sequence (-o name.%04d.png) or a video (-o name.mp4)");
-        plan.hasDefaultTime = !arguments.time.has_value();
-        plan.frames.push_back({0, base::toTicks(arguments.time.value_or(kDefaultTime))});
-        return {};
-    }
-    if (arguments.time)
-        return usage("--time needs one PNG or EXR; for a sequence or a video give --frames or --times");
-    const auto range = parseFrameRange(arguments.frames, arguments.framesPerSecond);
-    if (!range.ok())
-        return range.status();
-    for (int64_t number = range->first; number <= range->last; ++number)
-        plan.frames.push_back({number, base::toTicks(double(number) / arguments.framesPerSecond)});
+    const bool isSingle = plan.output.isStill();
+    auto frames = listFrames({arguments.time, arguments.frames, arguments.framesPerSecond}, isSingle,
+                             kDefaultTime, "a sequence (-o name.%04d.png) or a video (-o name.mp4)",
+                             "one PNG or EXR; for a sequence or a video give --frames or --times");
+    if (!frames.ok())
+        return frames.status();
+    plan.frames = std::move(*frames);
+    plan.hasDefaultTime = isSingle && !arguments.time;
     return {};
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "foundation/result/status.h"
-#include "foundation/time/ticks.h"
 #include "fxsdk/cli/render/reference_options.h"
+#include "fxsdk/cli/support/frame_range.h"
 #include "fxsdk/cli/support/output_target.h"
 #include "fxsdk/fxsdk.h"
 #include "rendering/frame/view_types.h"
@@ -61,11 +61,7 @@ struct RenderArguments
 /// Plan of the rendering that the arguments give after checking.
 struct RenderPlan
 {
-    struct Frame
-    {
-        int64_t number = 0; ///< number in file names
-        base::Ticks tick = 0;
-    };
+    using Frame = NumberedFrame;
 
     OutputTarget output;
     int width = 0;  ///< [pixel]

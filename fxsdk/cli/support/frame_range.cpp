@@ -43,4 +43,24 @@ base::Result<FrameRange> parseFrameRange(const std::string& text, double framesP
     return range;
 }
 
+base::Result<std::vector<NumberedFrame>> listFrames(const FrameArguments& arguments, bool isSingleFile,
+                                                    double defaultTime, const std::string& sequenceForm,
+                                                    const std::string& stillForm)
+{
+    if (isSingleFile) {
+        if (!arguments.frames.empty())
+            return base::Status(base::Code::InvalidArgument, "--frames needs " + sequenceForm);
+        return std::vector<NumberedFrame>{{0, base::toTicks(arguments.time.value_or(defaultTime))}};
+    }
+    if (arguments.time)
+        return base::Status(base::Code::InvalidArgument, "--time needs " + stillForm);
+    const auto range = parseFrameRange(arguments.frames, arguments.framesPerSecond);
+    if (!range.ok())
+        return range.status();
+    std::vector<NumberedFrame> frames;
+    for (int64_t number = range->first; number <= range->last; ++number)
+        frames.push_back({number, base::toTicks(double(number) / arguments.framesPerSecond)});
+    return frames;
+}
+
 } // namespace fx::cli

@@ -1,13 +1,15 @@
 /// @file frame_range.h
-/// The argument of `--frames`, and other pairs of whole numbers.
+/// The arguments `--time` and `--frames`, and other pairs of whole numbers.
 #pragma once
 
 #include "foundation/result/status.h"
+#include "foundation/time/ticks.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace fx::cli {
 
@@ -26,5 +28,28 @@ struct FrameRange
 /// @param text FIRST:LAST; empty: the first two seconds
 /// @return InvalidArgument naming the allowed form, and the limits: a million frames within kMaxSceneTime
 base::Result<FrameRange> parseFrameRange(const std::string& text, double framesPerSecond);
+
+/// A moment and its number in file names.
+struct NumberedFrame
+{
+    int64_t number = 0;
+    base::Ticks tick = 0;
+};
+
+/// The arguments of a command that choose moments.
+struct FrameArguments
+{
+    std::optional<double> time; ///< [s] argument of --time
+    std::string frames;         ///< argument of --frames
+    double framesPerSecond = 30.0;
+};
+
+/// Lists the moments of an output. A single file has one moment, at --time or at `defaultTime`.
+/// @param defaultTime [s]
+/// @param sequenceForm, stillForm outputs that --frames and --time need, for messages
+/// @return InvalidArgument for --frames with a single file, --time with a sequence, or a malformed range
+base::Result<std::vector<NumberedFrame>> listFrames(const FrameArguments& arguments, bool isSingleFile,
+                                                    double defaultTime, const std::string& sequenceForm,
+                                                    const std::string& stillForm);
 
 } // namespace fx::cli

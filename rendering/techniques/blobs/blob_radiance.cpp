@@ -226,12 +226,12 @@ glm::vec3 Lines::intensity()
             const glm::vec3 second = glm::cross(way, first);
             // multiples of the golden ratio spread evenly however many there are
             const float part = std::fmod(0.61803399f * (float(k) + 0.5f) + random(i, 3), 1.0f);
-            const float angle = 2.0f * kPi * random(i, 4 + k);
+            const float angle = 2.0f * kPi * random(i, 4 + 2 * k);
             const float out = at(column::Radius, i) * std::sqrt(part);
             const double density =
                 find(position(i) + out * (std::cos(angle) * first + std::sin(angle) * second), way);
             if (density > 0.0)
-                sum += double(share) / density * glm::dvec3(radiance(random(i, 5 + k))); // (3)
+                sum += double(share) / density * glm::dvec3(radiance(random(i, 5 + 2 * k))); // (3)
             all += double(share);
         }
     }

@@ -245,10 +245,9 @@ TEST_F(ViewInvariance, afterTheWarmUpNoFrameCompiles)
 
 TEST_F(ViewInvariance, flyingThroughACloudThePictureNeverJumps)
 {
-    // A jump keeps its size when the path is cut finer; a motion shrinks with the step, here to 1/8. The
-    // light of the glowing gas upon itself has shadow planes that are fitted anew as the eye moves: 1/8 more
-    // is left for them. Light varies smoothly through a gas; where overlapping blobs differ strongly, a
-    // change of their order is seen.
+    // A jump keeps its size when the path is cut finer. A motion shrinks with the step, here to 1/8; the test
+    // allows 1/4, because the light of the gas on itself also changes in small steps (0.207 measured). Light
+    // varies smoothly through a gas. Where overlapping blobs differ strongly, a change of order is visible.
     std::vector<TestBlob> gas = cloud(120);
     for (TestBlob& blob : gas) {
         blob.layer = base::MediaLayer::Smoke;
