@@ -29,13 +29,16 @@ enum class PreferredScattering : uint8_t
 };
 
 /// Drawing hints of an effect. When a picture has several effects, the greatest value of each member applies.
-struct DrawingHints
+/// The alignment is the size: only then does every compiler load and store the struct as an atomic without
+/// libatomic.
+struct alignas(uint16_t) DrawingHints
 {
     PreferredComposition composition = PreferredComposition::None;
     PreferredScattering scattering = PreferredScattering::Automatic;
 
     bool operator==(const DrawingHints&) const = default;
 };
+static_assert(sizeof(DrawingHints) == alignof(DrawingHints));
 
 inline DrawingHints greatest(const DrawingHints& a, const DrawingHints& b)
 {
