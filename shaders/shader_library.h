@@ -11,16 +11,17 @@
 
 namespace fx::shaders {
 
-/// The complete GLSL of the entry point `name` ("blobs/media.frag.glsl"): the version line, `defines`
-/// ("FX_FORM=2 FX_LAYERS=1", separated by blanks or line breaks), and the file with its includes expanded
-/// once each.
-/// @return nothing when `name` or one of its includes does not exist
+/// Returns the complete GLSL of the entry point `name`, such as "blobs/media.frag.glsl". The result consists
+/// of the version line, `defines`, and the file, in which each include is expanded once. Defines such as
+/// "FX_FORM=2 FX_LAYERS=1" are separated by blanks or line breaks.
+/// @return no value if `name` or one of its includes does not exist
 std::optional<std::string> assemble(std::string_view name, std::string_view defines);
 
-/// Text of one file, without expanding includes. Empty when the file does not exist.
+/// Text of one file, without expanding includes; empty if the file does not exist.
 std::string_view text(std::string_view name);
 
-/// The embedded texts of each folder. CMake generates the definition from its list of folders.
+/// The embedded texts of each folder. CMake generates the definition of this function from its list of
+/// folders.
 std::span<const std::span<const base::EmbeddedText>> folders();
 
 } // namespace fx::shaders

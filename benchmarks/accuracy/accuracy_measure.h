@@ -19,7 +19,7 @@ struct AccuracyTask
 };
 
 /// Lists the tasks of `technique`, or of all techniques for "all". If `scene` is not empty, only the tasks of
-/// this scene.
+/// this scene are listed.
 /// @return InvalidArgument for an unknown name; the message suggests the nearest known name
 base::Result<std::vector<AccuracyTask>> accuracyTasks(const std::string& technique, const std::string& scene);
 
@@ -35,7 +35,7 @@ struct MeasureRules
 
 base::Result<AccuracyCurve> measureAccuracy(const AccuracyTask& task, const MeasureRules& rules);
 
-/// Runs the timed part of each setting once, for callgrind. @return false if the technique has no such part
+/// Runs the timed part of each setting once, for callgrind. @return false if the technique has no timed part
 bool countWork(const AccuracyTask& task);
 
 } // namespace fx::cli

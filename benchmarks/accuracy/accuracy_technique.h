@@ -1,8 +1,8 @@
 /// @file accuracy_technique.h
 /// Interface of a technique for fx accuracy: settings with their errors and times.
 ///
-/// To add a technique, add a file in benchmarks/accuracy/techniques/ and an entry in the CMakeLists.txt
-/// there. The file contains a class derived from AccuracyTechnique and a function that describes it.
+/// To add a technique, add a file in benchmarks/accuracy/techniques/ and an entry in the CMakeLists.txt of
+/// this folder. The file contains a class derived from AccuracyTechnique and a function that describes it.
 #pragma once
 
 #include "benchmarks/measure/counted_work.h"
@@ -44,8 +44,8 @@ struct AccuracySample
     double variance = 0; ///< variance of one item, for techniques that use random numbers; 0 for all others
     std::string note;    ///< remark, shown at the end of the row of the table
 
-    /// Meaningful for techniques with an error bound: true if a setting keeps the bound, or if a control
-    /// violates it.
+    /// For techniques with an error bound: true if the setting keeps the bound or, for a control, violates
+    /// the bound.
     bool isAsPromised = true;
 };
 
@@ -53,10 +53,12 @@ struct AccuracyScale
 {
     uint32_t particles = 0; ///< number of particles of the baseline; 0: default of the technique
     uint32_t threads = 1;
-    /// number of frames of the sequence. For this and the next members, 0 is the default of the technique.
+    /// number of frames of the sequence. For this member and the members below, 0 is the default of the
+    /// technique.
     uint32_t frames = 0;
     int width = 0, height = 0; ///< [pixel]
-    /// [1] upper bound of the change of the picture from frame to frame, relative to that of the reference
+    /// [1] upper bound of the change of the picture from frame to frame, relative to the change of the
+    /// reference
     double bound = 0.0;
 };
 
@@ -85,11 +87,11 @@ public:
 protected:
     /// Number of items that one call of work() processes.
     virtual double items() const = 0;
-    /// Stores the errors and counters of the last work(), which ran this setting.
+    /// Stores the errors and counters of the last call of work(), which ran this setting.
     virtual void judge(size_t setting, AccuracySample& outSample) = 0;
 };
 
-/// The error that the plot shows and that defines the front.
+/// The error that the plot shows and that defines the Pareto front.
 enum class ShownError
 {
     Mean,
@@ -100,13 +102,13 @@ struct AccuracyTechniqueEntry
 {
     std::string_view name;
     std::string_view summary;
-    std::string_view item; ///< name of the items that ns_per_item refers to, such as "pixel"
+    std::string_view item; ///< name of the items of the column ns_per_item, such as "pixel"
     ShownError shown;
     std::vector<std::string> scenes;
     size_t usualScenes; ///< if no scene is named, the first `usualScenes` elements of `scenes` run
     bool isScalable;    ///< true: the technique uses the members `particles` and `threads` of AccuracyScale
     std::unique_ptr<AccuracyTechnique> (*make)(const std::string& scene, const AccuracyScale& scale);
-    bool hasFrames = false; ///< true: the technique uses --frames. It takes long, so "all" excludes it
+    bool hasFrames = false; ///< true: the technique uses --frames and takes long; "all" excludes it
 };
 
 /// All techniques, in the order of techniques/CMakeLists.txt.

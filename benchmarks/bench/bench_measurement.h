@@ -1,5 +1,5 @@
 /// @file bench_measurement.h
-/// A subcommand of fx bench. A function in its own file describes it, and fx_measurements() of the
+/// A subcommand of fx bench. A function in its own file describes the subcommand. fx_measurements() in the
 /// CMakeLists.txt beside that file names the function. cmake/FxMeasurements.cmake generates the list.
 #pragma once
 

@@ -33,8 +33,8 @@ T taken(base::Result<T>&& result)
     return std::move(*result);
 }
 
-/// Sets the callback of a subcommand. It calls `measure`, prints the message of a BenchFailure with the name
-/// of the subcommand, and stores the exit code, 0 or 1.
+/// Sets the callback of a subcommand. The callback calls `measure`, prints the message of a BenchFailure with
+/// the name of the subcommand, and stores the exit code, 0 or 1.
 void setMeasurement(CLI::App& command, int& outExitCode, std::function<void()> measure);
 
 /// Adds --size WxH, each 1 to 16384 [pixel].
@@ -43,7 +43,7 @@ void addSizeOption(CLI::App& command, int& width, int& height);
 /// Adds --repeat: number of frames, of which the shortest time is reported, 1 to 1,000,000.
 void addRepeatOption(CLI::App& command, int& repeat);
 
-/// Adds --small: sizes with which a measurement takes about a second; they override other options.
+/// Adds --small: sizes with which a measurement takes about a second. These sizes override other options.
 void addSmallOption(CLI::App& command, bool& isSmall);
 
 /// Adds --validate-hash, hexadecimal with or without 0x.

@@ -36,9 +36,8 @@ struct BenchRow
     double p95Nanoseconds = 0;    ///< [ns] 95th percentile of the time per particle and step
     /// [byte] bytes read and written by a step; for `fx bench frame`: bytes uploaded
     double bytesPerParticle = 0;
-    double bandwidthFraction =
-        /// [1] share of the bandwidth of a copy of the same size with the same threads; 0: unknown.
-        0;
+    /// [1] fraction of the bandwidth of a copy of the same size with the same threads; 0: unknown.
+    double bandwidthFraction = 0;
     /// Hash of all published or sorted data; for `fx bench frame`: hash of the simulation.
     uint64_t hash = 0;
     nlohmann::json more; ///< further members of the JSON line
@@ -65,8 +64,8 @@ struct BenchEntry
 BenchMeasurement measurementOf(const BenchEntry& entry);
 
 /// Measures the requested variants of an entry.
-/// @return one row per variant; InvalidArgument for more than entry.mostCount elements; otherwise the first
-///         error of a variant, such as Interrupted
+/// @return one row per variant; InvalidArgument for more than entry.mostCount elements, or the first error of
+///         a variant, such as Interrupted
 base::Result<std::vector<BenchRow>> measureVariants(const BenchEntry& entry, const BenchSettings& settings);
 
 nlohmann::json toJson(const BenchRow& row);

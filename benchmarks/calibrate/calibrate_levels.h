@@ -40,7 +40,8 @@ struct MeasuredCalibration
 base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules);
 
 /// Selects scalability levels from the front of a curve, from the baseline downwards. Each level is at least
-/// a tenth cheaper than the one above it and has a larger error. At most quality::kMaxSteps.
+/// a tenth cheaper than the next higher level and has a larger error. There are at most quality::kMaxSteps
+/// levels.
 quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve,
                                                const std::vector<quality::Knobs>& knobs);
 

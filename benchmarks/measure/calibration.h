@@ -16,7 +16,7 @@ struct Calibration
 /// Measures the speed on the calling thread in about 50 ms.
 Calibration calibrate();
 
-/// Converts to the member "calibration" of a --json line.
+/// Converts the calibration to the member "calibration" of a --json line.
 nlohmann::json toJson(const Calibration& calibration);
 
 } // namespace fx::cli

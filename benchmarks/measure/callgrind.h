@@ -9,8 +9,8 @@
 
 namespace fx::cli {
 
-/// Whether the valgrind program is in PATH and can run this program. It cannot do so on processors with
-/// instructions that it does not support. The first call takes about a second.
+/// Whether the valgrind program is in PATH and can run this program. False on processors whose instructions
+/// valgrind does not support. The first call takes about a second.
 bool hasCallgrind();
 
 /// Runs this program again under callgrind with the given arguments.

@@ -1,5 +1,6 @@
 /// @file clocks.h
-/// Three clocks [s]. Each counts from a fixed but arbitrary time, so only differences are meaningful.
+/// Three clocks [s]. Each clock counts from a fixed but arbitrary time, so that only differences are
+/// meaningful.
 ///
 /// Threads: any.
 #pragma once

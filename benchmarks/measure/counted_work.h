@@ -1,5 +1,5 @@
 /// @file counted_work.h
-/// Measures time and instructions of one piece of work, without its surroundings.
+/// Measures time and instructions of one piece of work.
 #pragma once
 
 #include <functional>
@@ -17,6 +17,6 @@ MeasuredWork measureWork(const std::function<void()>& work);
 
 } // namespace fx::cli
 
-/// Callgrind counts the instructions inside this call (callgrind.cpp names it). It is plain C, so that its
-/// name is the same for every compiler.
+/// Callgrind counts the instructions inside this call (callgrind.cpp names it). The function has C linkage,
+/// so that its name is the same for every compiler.
 extern "C" void fxAccuracyWork(const std::function<void()>* work);

@@ -10,7 +10,8 @@
 
 namespace fx::cli {
 
-/// Parses a number of particles: "262144", "64^3". 0 if the text is neither, or above 2^28.
+/// Parses a number of particles: "262144", "64^3". 0 if the text has another form or the number is above
+/// 2^28.
 uint32_t particleCount(const std::string& text);
 
 /// Error message such as "unknown case 'sedv', did you mean 'sedov'? There are: ...".

@@ -1,5 +1,5 @@
 /// @file label_places.h
-/// Places the names of points in a plot so that they are readable.
+/// Places the names of points in a plot so that the names are readable.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace fx::cli {
 
-/// Places labels beside their points, one after another, where they cover as little as possible of earlier
-/// ones.
+/// Places labels beside their points, one after another. A label covers as little as possible of the labels
+/// placed before.
 class LabelPlaces
 {
 public:

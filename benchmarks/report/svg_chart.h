@@ -9,8 +9,8 @@
 
 namespace fx::cli {
 
-/// A logarithmic axis. It has marks at every power of ten or at every second one. If the axis covers few
-/// powers of ten, it also has marks at 2 and 5 times each.
+/// A logarithmic axis. The axis has marks at every power of ten or at every second power of ten. If the axis
+/// covers few powers of ten, it also has marks at 2 and 5 times each power of ten.
 struct LogAxis
 {
     double low = std::numeric_limits<double>::infinity();

@@ -1,7 +1,7 @@
 /// @file bench_scene.h
 /// Scenes of the C API, with or without a view, for benchmarks of the cost of instances.
 ///
-/// Threads: only the thread that created it.
+/// Threads: only the thread that created the object.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -36,7 +36,7 @@ public:
     /// Sets a camera 2 m above the origin that looks horizontally, with a field of view of 40 degrees. @param
     /// radians direction; 0 is along -Z
     base::Status look(double radians);
-    /// Sets the position of the camera of draw(). The simulation does not depend on it.
+    /// Sets the position of the camera of draw(). The simulation does not depend on the position.
     void moveTo(double x, double y, double z);
     base::Status setView(const FxViewSettings& settings);
     /// Switches the update of levels of detail off or on.

@@ -1,8 +1,8 @@
 /// @file card_picture.h
-/// Pictures of cards by OpenGL along parallel rays, drawn as views draw them, for comparison with the
-/// integral.
+/// Draws pictures of blobs (Card) by OpenGL along parallel rays, in the same way as views draw blobs. The
+/// pictures are compared with the ray integral.
 ///
-/// Threads: only the thread that created it.
+/// Threads: only the thread that created the object.
 #pragma once
 
 #include "benchmarks/scenes/cards.h"
@@ -35,8 +35,9 @@ public:
     const std::string& renderer() const { return device_->limits().renderer; }
     const base::SnapshotSchema& schema() const { return schema_; }
 
-    /// Creates a snapshot of cards, which are in front of the eye with z along the view direction. Each
-    /// snapshot has a new number, because a view reuses the data of a snapshot with an equal number.
+    /// Creates a snapshot of cards. The coordinate z of a card is its distance from the eye along the view
+    /// direction. Each snapshot has a new number, because a view reuses the data of a snapshot with an equal
+    /// number.
     base::FrameSnapshot snapshotOf(std::span<const Card> cards) const;
 
     /// Sets the distance [m] of an opaque surface for each pixel, rows from the bottom; +inf, or above

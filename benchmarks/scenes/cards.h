@@ -8,7 +8,7 @@
 
 namespace fx::cli {
 
-/// A blob in front of the picture. Ray parameters are z, starting at the near plane.
+/// A blob in front of the eye. The coordinate z is the parameter of the rays, starting at the near plane.
 struct Card
 {
     float x, y, z;      ///< [m]
@@ -21,8 +21,8 @@ struct Card
 /// center of each blob is 2.
 std::vector<Card> isolatedCards(uint32_t count);
 
-/// Blobs evenly in a ball of radius 1, flattened to the field. The optical depth through the center is 4 to
-/// 6.
+/// Blobs distributed evenly in a ball of radius 1 m, flattened to the field. The optical depth through the
+/// center is 4 to 6.
 std::vector<Card> overlappingCards(uint32_t count);
 
 } // namespace fx::cli

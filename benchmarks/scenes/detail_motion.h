@@ -10,11 +10,11 @@ namespace fx::cli {
 struct MotionResidual
 {
     /// [1] root mean square difference of sRGB values between a picture and the previous one. The previous
-    /// picture is first displaced by the motion of the medium. Only pixels are compared of which the medium
-    /// covers at least half.
+    /// picture is first displaced by the motion of the medium. Only pixels with an opacity of at least one
+    /// half are compared.
     std::vector<double> frames;
     double mean = 0.0, worst = 0.0; ///< [1] mean and maximum of `frames`
-    uint32_t births = 0;            ///< number of frames in which a generation of coordinates was born
+    uint32_t births = 0;            ///< number of frames in which a new generation of noise coordinates began
     double atBirths = 0.0; ///< [1] mean of `frames` over the frames counted by `births`; 0 if there are none
 };
 

@@ -2,7 +2,7 @@
 /// Effects of the library with detail of the field, at one time, filling the view. Their pictures are
 /// computed by OpenGL and by the ray integral, without background, glare and shimmer.
 ///
-/// Threads: only the thread that created it, which is the GL thread of its pictures.
+/// Threads: only the thread that created the object, which is the GL thread of its pictures.
 #pragma once
 
 #include "fxsdk/cli/render/snapshot_renderer.h"
@@ -42,7 +42,7 @@ public:
     /// @param time [s] time to be shown first
     static base::Result<std::unique_ptr<DetailScene>> create(const DetailSubject& subject, double time);
 
-    /// Advances to another time. @param time [s] not before the last one
+    /// Advances to another time. @param time [s] not before the last time
     base::Status show(double time);
     /// The present moment; valid until the next show().
     const SceneMoment& moment() const { return moment_; }

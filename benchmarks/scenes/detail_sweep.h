@@ -1,5 +1,6 @@
 /// @file detail_sweep.h
-/// Extinction of an effect with detail relative to that without, during its life.
+/// Extinction of an effect with detail relative to the extinction without detail, during the life of the
+/// effect.
 #pragma once
 
 #include "benchmarks/scenes/detail_scene.h"
@@ -13,7 +14,7 @@ struct ExtinctionSweep
     std::vector<double> ratios; ///< [1]
 };
 
-/// Measures at `count` times from DetailSubject::first to last, by parallel rays.
+/// Measures the ratio at `count` times from DetailSubject::first to last, by parallel rays.
 /// @param side number of rays along a side of the square that covers all balls
 base::Result<ExtinctionSweep> sweepExtinction(const DetailSubject& subject, int count, int side,
                                               const std::function<bool()>& stop);

@@ -16,8 +16,8 @@ constexpr int kExplosionFrames = 60; ///< frames per second
 
 struct ExplosionSetting
 {
-    uint32_t particles = 10'000; ///< 8 .. 20000
-    float soundSpeed = -1;       ///< [m/s] limit on the speed of sound; 0: none; negative: that of the preset
+    uint32_t particles = 10'000; ///< number of particles, 8 .. 20000
+    float soundSpeed = -1;       ///< [m/s] limit of the speed of sound; 0: none; negative: as in the preset
     float flowMach = 0.3f;       ///< [1] see sim::Quality; 0: none
 };
 
@@ -44,8 +44,8 @@ public:
     ExplosionState look();
     /// Publishes the present gas. @return snapshot that is valid until the next call of any function
     const base::FrameSnapshot& publish();
-    /// [1] Median over particles of the distance to the nearest neighbor, in units of the particle's own
-    /// spacing (m / rho)^(1/3): 1 in a lattice, 0.55 for random points, 0.85 to 0.9 in glass. 0 without gas.
+    /// [1] Median over particles of the distance to the nearest neighbor, divided by the particle spacing (m
+    /// / rho)^(1/3). Values: 1 in a lattice, 0.55 for random points, 0.85 to 0.9 in glass, 0 without gas.
     double nearestOverSpacing();
     const sim::StepCounters& counters() const { return counters_; }
 

@@ -33,9 +33,9 @@ struct FlightName
     FlightSubject subject;
     uint32_t frames; ///< number of frames of the whole flight
 
-    /// Whether the flight has a control of a few large balls, in which a change of order is visible: if they
-    /// are blended in sorted order, they violate the bound. In effects of hundreds of balls, the motion of
-    /// the media hides such changes.
+    /// Whether the flight has a control of a few large balls, in which a change of the drawing order is
+    /// visible. If these balls are blended in sorted order, the picture violates the bound. In effects of
+    /// hundreds of balls, the motion of the media hides changes of the drawing order.
     bool hasControl = false;
 };
 

@@ -1,9 +1,9 @@
 /// @file lit_media.h
 /// Media lit by sun and sky, and their pictures by OpenGL, by the ray integral with exact single scattering,
-/// and by path tracing. For measurements of the lighting of media, without background, procedural detail and
-/// post-processing.
+/// and by path tracing. The pictures are used in measurements of the lighting of media. The pictures have no
+/// background, procedural detail and post-processing.
 ///
-/// Threads: only the thread that created it, which is its GL thread.
+/// Threads: only the thread that created the object, which is its GL thread.
 #pragma once
 
 #include "fxsdk/cli/render/blob_list_renderer.h"
@@ -98,9 +98,9 @@ base::Result<LitPicture> traced(std::span<const render::MediumBlob> blobs, const
                                 const LitSize& size, const std::function<bool()>& stop);
 
 /// [1] Root mean square difference from a true picture over the pixels that media cover, relative to the root
-/// mean square of the light there. The noise of the true picture is subtracted.
-/// @param outRelative receives the difference of each such pixel and channel, relative to the same root mean
-/// square; may be null
+/// mean square of the light in these pixels. The noise of the true picture is subtracted.
+/// @param outRelative receives the difference of each of these pixels and channels, relative to the root mean
+/// square of the light; may be null
 double relativeError(const LitPicture& picture, const LitPicture& truth,
                      std::vector<double>* outRelative = nullptr);
 

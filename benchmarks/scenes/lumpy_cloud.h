@@ -1,6 +1,6 @@
 /// @file lumpy_cloud.h
-/// A cloud of 600 balls in 40 lumps within 1.08 m of the origin, lit from one side or from inside, and path
-/// traced pictures of it. It serves for measurements of illumination networks.
+/// A cloud of 600 balls in 40 lumps within 1.08 m of the origin, and path-traced pictures of the cloud. The
+/// light comes from one side or from inside. The cloud is used in measurements of illumination networks.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -70,7 +70,8 @@ struct CloudNetwork
     double albedo = 0.9; ///< [1]
 };
 
-/// Sets the medium and the light of a network to those of a cloud, averaged over each cell.
+/// Sets the medium and the light of a network to the medium and the light of a cloud, averaged over each
+/// cell.
 base::Status give(const LumpyCloud& cloud, const CloudNetwork& form, render::ScatteringNetwork& outNetwork);
 
 /// Two pictures with independent noise for each of two albedos, rows from the top.
@@ -81,13 +82,14 @@ struct CloudTruth
     double seconds = 0.0;
 };
 
-/// Path traced pictures. @param size [pixel] of both sides  @param paths per pixel of each picture
+/// Computes path-traced pictures. @param size [pixel] of both sides @param paths per pixel of each picture
 /// @param stop see RenderCallbacks
 base::Result<CloudTruth> tracedCloud(const LumpyCloud& cloud, const double (&albedos)[2], double anisotropy,
                                      int size, uint32_t paths, const std::function<bool()>& stop);
 
-/// [1] Root mean square error of a picture over the covered pixels, relative to their mean. It uses the
-/// product of the differences from both true pictures, whose noise is zero on average.
+/// [1] Root mean square error of a picture over the covered pixels, relative to the mean of the true pictures
+/// in these pixels. The error is computed from the product of the differences from both true pictures. The
+/// noise of this product is zero on average.
 double cloudError(const std::vector<double>& picture, const CloudTruth& truth, int albedo);
 
 } // namespace fx::cli

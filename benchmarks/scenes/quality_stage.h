@@ -1,7 +1,7 @@
 /// @file quality_stage.h
 /// Frames for measurements of quality: effects on a stage, drawn off screen repeatedly with any settings.
 ///
-/// Threads: only the thread that created it, which is its GL thread.
+/// Threads: only the thread that created the object, which is its GL thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -44,9 +44,9 @@ public:
     /// Sets the budget from the next frame on. @param budget [ms] 0: none
     base::Status setBudget(double budget, StageClock clock);
 
-    /// Simulates up to `tick`, which must not precede that of the last call.
+    /// Simulates up to `tick`. `tick` must not decrease from call to call.
     base::Status simulate(base::Ticks tick) { return effects_->showMoment(tick); }
-    /// Draws the stage as the camera sees it. Frames are drawn over it until the next call.
+    /// Draws the stage as the camera sees it. Frames are drawn over this picture until the next call.
     base::Status look(const scene_file::CameraPath& camera);
     /// Draws one frame and waits for the GPU.
     base::Status draw();

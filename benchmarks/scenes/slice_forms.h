@@ -1,7 +1,7 @@
 /// @file slice_forms.h
-/// Forms of storing the optical depth between a light and every point of a cloud, texel by texel: planes,
-/// planes between the first and the last depth of the medium, and Fourier coefficients. For measurements;
-/// drawing uses planes.
+/// Forms of storing the optical depth between a light and every point of a cloud, texel by texel. The forms
+/// are planes, planes between the first and the last depth of the medium, and Fourier coefficients. The forms
+/// are compared in measurements; views use planes.
 #pragma once
 
 #include "rendering/lights/slices/slice_stack.h"

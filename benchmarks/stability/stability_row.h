@@ -3,7 +3,7 @@
 /// point, and its limit.
 ///
 /// To add a row, add a function that creates its sweeps, and a line in the list at the end of the file in
-/// benchmarks/stability/rows/. A new file also needs an entry in the CMakeLists.txt there.
+/// benchmarks/stability/rows/. A new file also needs an entry in the CMakeLists.txt of this folder.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct StabilityAxis
 
 /// Powers of ten from `from` to `to`. A quick axis has a fifth of the steps, but at least 4.
 StabilityAxis powersOfTen(std::string name, double from, double to, uint32_t perDecade, bool isQuick);
-/// `steps` equal steps. A quick axis has a fifth of them, but at least 4.
+/// `steps` equal steps. A quick axis has a fifth of these steps, but at least 4.
 StabilityAxis evenSteps(std::string name, double from, double to, uint32_t steps, bool isQuick);
 StabilityAxis values(std::string name, std::vector<double> list);
 
@@ -31,7 +31,7 @@ struct StabilitySweep
     std::string name;
     StabilityAxis x, y;
     double limit = 0; ///< upper limit of the error, inclusive; 0: exact
-    /// true: `error` is that of naive code at the same points, which must exceed the limit somewhere
+    /// true: `error` is the error of naive code, which must exceed the limit at one point or more
     bool isControl = false;
     std::function<double(double x, double y)> error;
 };

@@ -16,12 +16,12 @@ struct StabilityMap
 {
     StabilitySweep sweep;
     std::vector<double> errors;
-    double largest = 0; ///< infinity for NaN
+    double largest = 0; ///< largest error; infinity if an error is NaN
     double atX = 0;
     double atY = 0;
 
     bool exceedsLimit() const { return !(largest <= sweep.limit); }
-    /// Whether the errors are within the limit or, for a control, exceed it.
+    /// Whether the errors are within the limit or, for a control, exceed the limit.
     bool isAsItMust() const { return exceedsLimit() == sweep.isControl; }
 };
 
@@ -38,11 +38,11 @@ struct StabilityResult
 struct RunWatch
 {
     std::function<bool()> stop;
-    /// Called with the number of computed points of the row and their total number.
+    /// Callback that receives the number of computed points of the row and the number of all points.
     std::function<void(uint64_t done, uint64_t all)> progress;
 };
 
-/// @return Interrupted
+/// Runs a row. @return Interrupted after a signal
 base::Result<StabilityResult> runStability(const StabilityRow& row, bool isQuick, const RunWatch& watch);
 
 /// Returns text such as "R-01 ok  1.2e-07 of 4.8e-07 in float at s = 3, n = 8; controls break: naive 1.3".

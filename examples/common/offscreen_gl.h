@@ -1,7 +1,8 @@
 /// @file offscreen_gl.h
-/// OpenGL without a window, and a picture to draw effects into: what these programs need of a game.
+/// OpenGL without a window, and a picture into which effects are drawn. The example programs use both in
+/// place of a game.
 ///
-/// Threads: the thread that made the context.
+/// Threads: the thread that created the context.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ namespace example {
 class OffscreenGl
 {
 public:
-    /// Throws std::runtime_error where there is no such context.
+    /// Creates the context. Throws std::runtime_error on failure.
     OffscreenGl();
     ~OffscreenGl();
     OffscreenGl(const OffscreenGl&) = delete;
@@ -24,14 +25,14 @@ private:
     void* context_; ///< EGLContext
 };
 
-/// Finds functions of OpenGL in such a context. @param user is not used
+/// Finds a function of OpenGL. @param user not used
 void* findOffscreenFunction(void* user, const char* name);
 
 /// The textures that effects are drawn into: exposed color in 32-bit floats, and depth.
 class Picture
 {
 public:
-    /// Needs a current context, which must outlive it.
+    /// Creates the textures in the current context, which must outlive the picture.
     Picture(int width, int height);
     ~Picture();
     Picture(const Picture&) = delete;
@@ -40,10 +41,11 @@ public:
     unsigned color() const { return names_[0]; } ///< GL name of an RGBA32F texture
     unsigned depth() const { return names_[1]; } ///< GL name of a DEPTH_COMPONENT32F texture
 
-    /// Paints `rgba` everywhere, at the far plane.
+    /// Sets all pixels to the color `rgba` and to the depth of the far plane.
     void clear(const float rgba[4]);
 
-    /// Writes what toneMap has made of it to a PNG. Throws std::runtime_error where that is not possible.
+    /// Writes the picture to a PNG file. A view must have drawn the picture with FxViewSettings::toneMap.
+    /// Throws std::runtime_error on failure.
     void writePng(const std::string& path) const;
 
 private:

@@ -1,5 +1,6 @@
 /// @file asset_table.h
-/// Images and meshes by id. Presets name them, particles store their ids, and views draw them.
+/// Assets (images and meshes) by id. Presets name assets, particles store their ids, and views draw the
+/// assets.
 ///
 /// Assets never change and live as long as their table. Equal content gets the same id, so a texture that a
 /// hundred presets use is stored once. Threads: any thread may add and read. A mutex serializes additions;
@@ -22,7 +23,7 @@
 
 namespace fx::base {
 
-/// Id of an asset in its table, from 1 to kMaxAssets, so that a float represents it exactly. 0 means no
+/// Id of an asset in its table, from 1 to kMaxAssets, so that a float represents the id exactly. 0 means no
 /// asset.
 using AssetId = uint32_t;
 

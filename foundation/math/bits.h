@@ -1,5 +1,5 @@
 /// @file bits.h
-/// Tests of floating-point values by their bits. No compiler option, such as -ffast-math, removes these
+/// Tests of floating-point values by their bits. Compiler options such as -ffast-math do not remove these
 /// tests.
 #pragma once
 

@@ -28,8 +28,8 @@ public:
     /// A curve with the same value for all t.
     explicit Curve(const std::array<float, N>& constant) { table_.fill(constant); }
     /// Makes a curve from keys.
-    /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump, at which the curve
-    ///         continues with the later key
+    /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump to the value of the
+    ///         later key
     explicit Curve(std::span<const CurveKey<N>> keys);
 
     /// Value at t; t outside [0, 1] (NaN included) is clamped.

@@ -1,6 +1,6 @@
 /// @file elementary.h
-/// Elementary functions for simulation kernels. They give the same bits on every machine; those of the C
-/// library may not.
+/// Elementary functions for simulation kernels. The functions give the same bits on every machine. Functions
+/// of the C library may give different bits.
 ///
 /// Only +, -, *, / and conversions are used, in a fixed order; callers build with -ffp-contract=off.
 #pragma once

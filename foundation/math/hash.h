@@ -1,5 +1,5 @@
 /// @file hash.h
-/// 64-bit hash of state, for determinism checks and cache keys. It is not cryptographic.
+/// 64-bit hash of state, for determinism checks and cache keys. The hash is not cryptographic.
 #pragma once
 
 #include <cstddef>

@@ -10,9 +10,9 @@
 
 namespace fx::base {
 
-/// Allocates from blocks of memory. reset() keeps the blocks, so that a frame that needs no more memory than
-/// the previous frame allocates nothing. Destructors are not called: elements must be trivially destructible.
-/// Threads: one at a time.
+/// Allocates from blocks of memory. reset() keeps the blocks. Therefore a frame allocates nothing if it needs
+/// no more memory than the previous frame. Destructors are not called: elements must be trivially
+/// destructible. Threads: one thread at a time.
 class Arena
 {
 public:

@@ -1,5 +1,5 @@
 /// @file host_memory.h
-/// A std::pmr memory resource that gets memory from the host's allocator and counts it.
+/// A std::pmr memory resource that gets memory from the host's allocator and counts the memory.
 #pragma once
 
 #include <atomic>
@@ -23,8 +23,8 @@ struct AllocatorHooks
 constexpr size_t kLargePage = size_t(2) << 20;
 
 /// Source of all memory that outlives a call. Without hooks, blocks of at least kLargePage are aligned to
-/// kLargePage, and on Linux madvise() requests large pages for them. With small pages, loops that read many
-/// columns at once would miss the TLB. With hooks, the host chooses the pages. Throws std::bad_alloc, which
+/// kLargePage. On Linux, madvise() requests large pages for these blocks. Large pages reduce TLB misses in
+/// loops that read many columns at once. With hooks, the host chooses the pages. Throws std::bad_alloc, which
 /// fxsdk/api turns into FX_ERROR_OUT_OF_MEMORY. Thread-safe if the hooks are thread-safe.
 class HostMemory final : public std::pmr::memory_resource
 {

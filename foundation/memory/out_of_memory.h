@@ -1,5 +1,6 @@
 /// @file out_of_memory.h
-/// A std::bad_alloc whose message states what the memory was for. Its construction allocates nothing.
+/// A std::bad_alloc whose message states the purpose of the memory. The construction of the exception
+/// allocates nothing.
 #pragma once
 
 #include <algorithm>

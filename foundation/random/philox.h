@@ -47,8 +47,8 @@ inline float toUnitFloat(uint32_t word)
     return float(word >> 8) * 0x1.0p-24f;
 }
 
-/// Purpose of a random number. Each purpose has its own stream, so a new purpose does not change the numbers
-/// of others.
+/// Purpose of a random number. Each purpose has its own stream. Therefore a new purpose does not change the
+/// numbers of other purposes.
 enum class RandomPurpose : uint32_t
 {
     BirthPhase,

@@ -1,5 +1,5 @@
 /// @file embedded_text.h
-/// A text file that was compiled into the library (cmake/FxEmbed.cmake makes the tables).
+/// A text file that was compiled into the library (cmake/FxEmbed.cmake generates the tables).
 #pragma once
 
 #include <string_view>

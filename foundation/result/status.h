@@ -1,7 +1,8 @@
 /// @file status.h
 /// The outcome of an operation that can fail: a code that programs branch on and a message for people.
 ///
-/// The codes equal those of the C API (fxsdk/include/fxsdk/fx_base.h); assertions in fxsdk/api check this.
+/// The codes equal the codes of the C API (fxsdk/include/fxsdk/fx_base.h). Assertions in fxsdk/api check the
+/// equality.
 #pragma once
 
 #include <optional>
@@ -38,7 +39,7 @@ enum class Code : int
 /// The code's identifier, such as "invalid-argument".
 const char* codeName(Code code);
 
-/// A code and, when it is not Ok, a message that names the place and the remedy.
+/// A code and, for codes other than Ok, a message that names the cause and the remedy.
 class [[nodiscard]] Status
 {
 public:

@@ -9,8 +9,8 @@
 namespace fx::base {
 
 /// During the lifetime of this object the thread rounds to nearest, flushes denormals to zero and masks
-/// floating-point exceptions. The destructor restores the host's mode. On current processors denormal
-/// operands cost ninety times as much as normal ones, and values of a cooling gas become denormal.
+/// floating-point exceptions. The destructor restores the host's mode. Values of a cooling gas become
+/// denormal. On current processors, operations on denormal values take up to ninety times as long.
 class FloatingPointScope
 {
 public:
@@ -25,7 +25,7 @@ public:
     }
 #else
     FloatingPointScope() = default;
-    ~FloatingPointScope() {} // other processors keep denormals: slower, with equal results in all tests
+    ~FloatingPointScope() {} // other processors keep denormals, which is slower
 #endif
     FloatingPointScope(const FloatingPointScope&) = delete;
     FloatingPointScope& operator=(const FloatingPointScope&) = delete;

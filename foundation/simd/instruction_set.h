@@ -1,5 +1,5 @@
 /// @file instruction_set.h
-/// The vector instructions that the simulation uses. All instruction sets give the same bits; they differ in
+/// The vector instructions that the simulation uses. All instruction sets give the same bits, but differ in
 /// speed.
 ///
 /// Kernels are compiled once for each instruction set with Highway and chosen at run time. Call
@@ -30,14 +30,14 @@ std::optional<InstructionSet> instructionSetOf(std::string_view name);
 /// Limits the instruction set to the value of the environment variable FXSDK_SIMD; an unknown value is
 /// ignored. Only the first call in a process has an effect. Cheap and thread-safe.
 void applyInstructionSetLimit();
-/// Warning about the environment variable FXSDK_SIMD; empty if it is unset or valid.
+/// Warning about the environment variable FXSDK_SIMD; empty if the variable is unset or valid.
 std::string_view instructionSetNote();
 
-/// The instruction set in use: the widest one that both the processor and the limit allow.
+/// The instruction set in use: the widest instruction set that both the processor and the limit allow.
 InstructionSet instructionSet();
 
-/// Replaces the limit of instruction sets. Used in tests and benchmarks. Must not be called while kernels
-/// run.
+/// Replaces the limit of instruction sets. Tests and benchmarks use this function. It must not be called
+/// while kernels run.
 void limitInstructionSet(InstructionSet widest);
 
 } // namespace fx::base

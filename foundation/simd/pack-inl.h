@@ -1,6 +1,5 @@
 /// @file pack-inl.h
-/// SIMD vectors with arithmetic operators, so that formulas can be written with them. Included once for each
-/// instruction set.
+/// SIMD vectors with arithmetic operators for formulas. This file is included once for each instruction set.
 #if defined(FX_PACK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PACK_INL
 #undef FX_PACK_INL

@@ -4,9 +4,9 @@
 ///
 /// Highway's dispatch tables need the name of a function, which an instance of a template does not have. The
 /// kernel is a template `RESULT KERNEL(const JOB<T>&)` of the target namespace. FX_KERNEL_INSTANCES, used in
-/// the target namespace, defines a named function for each of its two instances. FX_KERNEL_DISPATCH, used
-/// where HWY_ONCE holds, defines both specializations of the declared template `RESULT FUNCTION(const
-/// JOB<T>&)`. They call the kernel for the instruction set in use.
+/// the target namespace, defines a named function for each of the two instances of the kernel.
+/// FX_KERNEL_DISPATCH, used where HWY_ONCE holds, defines both specializations of the declared template
+/// `RESULT FUNCTION(const JOB<T>&)`. The specializations call the kernel for the instruction set in use.
 #pragma once
 
 #include "foundation/simd/instruction_set.h"

@@ -1,11 +1,11 @@
 /// @file blob_kind.h
-/// The kind "blob": a ball of participating medium with the polynomial kernel. Included by the techniques
-/// that publish gas and by the passes that draw it, not by the snapshot container.
+/// The kind "blob": a ball of participating medium with the polynomial kernel. The techniques that publish
+/// gas and the passes that draw gas include this header; the snapshot container does not.
 ///
 /// Extinction at distance r from the center is crossSection * W(r; radius) with W(r; R) = 105 / (32 pi R^3)
 /// (1 - (r/R)^2)^2, see shaders/formulas/kernel_optical_depth.fx.h. The medium emits as a gray body: source =
-/// (1 - albedo) * B(temperature) + emission. This is multiplied by the blob's opacity, so that a medium
-/// without extinction emits nothing.
+/// (1 - albedo) * B(temperature) + emission, where B is the luminance of a black body. The source is
+/// multiplied by the blob's opacity. Therefore a medium without extinction emits nothing.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -51,7 +51,8 @@ enum : size_t
 };
 }
 
-/// Layers to which media are assigned. Their order is that of the EXR layers, not the order of drawing.
+/// Layers to which media are assigned. The order of the enumerators is the order of the EXR layers, not the
+/// order of drawing.
 enum class MediaLayer : uint32_t
 {
     Fire,

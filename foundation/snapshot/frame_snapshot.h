@@ -1,13 +1,13 @@
 /// @file frame_snapshot.h
-/// The state of a scene after one step. Simulation passes it to rendering and hosts; they share no other
-/// data.
+/// The state of a scene after one step. The simulation passes snapshots to rendering and hosts, and shares no
+/// other data with them.
 ///
 /// A snapshot is a list of groups in creation order. A group holds the elements of one kind that one solver
 /// of one instance published: typed columns, shared constants, bounds, and an id per element. The id
 /// identifies the same element in the previous snapshot. Many small groups of one kind may be published as
 /// one pool of rows, see pooled_groups.h; readers of the snapshot see ordinary groups. Threads: one thread
-/// writes a snapshot and publishes it through a SnapshotRing. Then it does not change, and any thread may
-/// read it.
+/// writes a snapshot and publishes it through a SnapshotRing. A published snapshot does not change, and any
+/// thread may read it.
 #pragma once
 
 #include "foundation/snapshot/pooled_groups.h"
@@ -23,7 +23,8 @@
 
 namespace fx::base {
 
-/// Identifies the instance and the solver that published a group. It is the same in all snapshots of a scene.
+/// Identifies the instance and the solver that published a group. The name is the same in all snapshots of a
+/// scene.
 struct GroupName
 {
     uint64_t instance = 0;
@@ -48,18 +49,18 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
     /// Number of the publication: 1 for the first published snapshot, then increasing by 1; 0 before the
-    /// first.
+    /// first publication.
     uint64_t sequence() const { return sequence_; }
-    /// Serial number of this content. It is unique among all snapshots of all scenes in the process. begin()
-    /// assigns a new number.
+    /// Serial number of this content. The number is unique among all snapshots of all scenes in the process.
+    /// begin() assigns a new number.
     uint64_t serial() const { return serial_; }
-    /// [s] length of the step that ended with this snapshot; 0 if no step ended with it. Particles that were
-    /// born within the step are drawn from their birth on.
+    /// [s] length of the step that ended with this snapshot; 0 if no step ended with this snapshot. Particles
+    /// that were born within the step are drawn from their birth on.
     float secondsBack() const { return float(toSeconds(step_)); }
     Ticks step() const { return step_; } ///< [tick] length of the step, as passed to begin()
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
     /// The group at `index`. The first call for a pooled group copies the rows of all pools to the pooled
-    /// groups. It allocates nothing.
+    /// groups. The call allocates nothing.
     const SnapshotGroup& group(size_t index) const
     {
         const uint32_t place = placeOf(index);
@@ -83,24 +84,25 @@ public:
 
     /// Hash of the tick and of every id, column, constant and placement, computed at each call.
     uint64_t hash() const { return hashAt(tick_); }
-    /// The hash that this content would have at `tick`. It is needed because a snapshot without elements also
-    /// represents later steps.
+    /// The hash that this content would have at `tick`. This hash is needed because a snapshot without
+    /// elements also represents later steps.
     uint64_t hashAt(Ticks tick) const;
 
     // ---- for the writer, before publication ----
     /// Discards the groups and begins a new content.
     /// @param step [tick] length of the step that ends at `tick`; 0 if no step ends there
     void begin(Ticks tick, uint64_t sequence, Ticks step = 0);
-    /// Adds a group with room for `capacity` elements. The caller fills it and sets its info (count, bounds).
-    /// If any group of an earlier content has enough memory, the memory of that group is reused.
+    /// Adds a group with room for `capacity` elements. The caller fills the group and sets its info (count,
+    /// bounds). If any group of an earlier content has enough memory, the memory of that group is reused.
     /// @param present columns of the kind that the group will have
     SnapshotGroup& addGroup(KindId kind, size_t capacity, ColumnSet present = kAllColumns)
     {
         if (groupCount_ < groups_.size() && groups_[groupCount_].prepareAgain(kind, capacity, present, true))
-            return groups_[groupCount_++]; // the group at this index fits exactly; no other one fits better
+            return groups_[groupCount_++]; // the group at this index fits exactly, and no other group fits
+                                           // better
         return findGroup(kind, capacity, present);
     }
-    /// Does the same as addGroup(), but does not clear the constants. Used by writers that call
+    /// Does the same as addGroup(), but does not clear the constants. Writers use this function if they call
     /// SnapshotGroup::keepsConstants() before they write constants.
     SnapshotGroup& addGroupAgain(KindId kind, size_t capacity, ColumnSet present)
     {
@@ -111,8 +113,8 @@ public:
         return findGroup(kind, capacity, present);
     }
     SnapshotGroup& editGroup(size_t index) { return groups_[index]; }
-    /// Adds a pool of rows. The caller fills it. The memory of the previous content's pool with the same
-    /// index is reused.
+    /// Adds a pool of rows. The caller fills the pool. The memory of the previous content's pool with the
+    /// same index is reused.
     /// @param each capacity of each group of the pool
     PooledRows& addPool(KindId kind, size_t capacity, ColumnSet present, uint32_t each);
     size_t poolCount() const { return poolCount_; }
@@ -139,7 +141,7 @@ private:
     uint64_t serial_;
     Ticks step_ = 0;
     size_t groupCount_ = 0;
-    /// The first groupCount_ groups are valid; the others are kept for their memory.
+    /// The first groupCount_ groups are valid; the memory of the other groups is reused.
     std::pmr::vector<SnapshotGroup> groups_;
     size_t poolCount_ = 0;
     std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ pools are valid

@@ -17,7 +17,7 @@ namespace fx::base {
 enum class GpuModule : uint32_t
 {
     Gravity, ///< gravity, and the uniform wind
-    Lift,    ///< gravity less buoyancy, and the uniform wind; used instead of Gravity
+    Lift,    ///< gravity minus buoyancy, and the uniform wind; replaces Gravity
     Curl,    ///< one octave of curl noise
     Gust,
     QuadraticDrag,
@@ -72,13 +72,13 @@ public:
     uint32_t stepWords = 0; ///< [word] size of the data of all modules in one step, without GpuStepWords
     bool kills = false;     ///< true: particles may die before the end of their lifetime
     bool sticks = false;    ///< true: particles may come to rest permanently
-    /// True: the emitter collides with the host's geometry. If the scene has such geometry, the emitter runs
-    /// on the CPU.
+    /// True: the emitter collides with the host's geometry. If the scene has geometry of the host, the
+    /// emitter runs on the CPU.
     bool dependsOnHost = false;
 };
 
-/// First part of the data of a step, in the layout that the GPU reads. It is the same for all emitters. The
-/// data of the modules follow it.
+/// First part of the data of a step, in the layout that the GPU reads. This part has the same layout for all
+/// emitters. The data of the modules follow.
 struct GpuStepWords
 {
     int64_t endAge;   ///< [tick] time since the step ended
@@ -86,7 +86,7 @@ struct GpuStepWords
     float seconds;    ///< [s] length of the step
     float gravity[3]; ///< [m/s2]
     float wind[3];    ///< [m/s]
-    float ground;     ///< [m] height of the ground plane; -infinity: there is none
+    float ground;     ///< [m] height of the ground plane; -infinity: no ground plane
     uint32_t unused;
 };
 static_assert(sizeof(GpuStepWords) == 4 * kGpuStepHead);

@@ -1,12 +1,12 @@
 /// @file gpu_particles.h
 /// The kind "gpuParticle": the inputs from which an emitter's particles are computed, published instead of
-/// the particles. The emitter writes this kind, and the renderer computes rows of the kind "particle" from
-/// it.
+/// the particles. The emitter writes this kind. The renderer computes rows of the kind "particle" from a
+/// group of this kind.
 ///
 /// A group of this kind has one column of 64-bit words: a GpuParticleMoment, its GpuBirthRuns, its
 /// GpuConditions and its GpuStepRuns, in this order. The constant data of the emitter are in the group's
-/// program. The computed rows, and their order, equal those that the same emitter would publish from the CPU
-/// as the kind "particle". The constants of the group are those of base::particle_constant.
+/// program. The computed rows and their order are those that the same emitter would publish from the CPU as
+/// the kind "particle". The constants of the group are those of base::particle_constant.
 ///
 /// All structures consist of numbers of 4 and 8 bytes without gaps. The low word of an 8-byte number comes
 /// first. shaders/gpu_particles/gpu_particle_words.glsl reads these layouts.
@@ -102,8 +102,8 @@ struct GpuParticleNumbers
     float height;     ///< [m] height of the cone
     float slope[3];   ///< [1] slope of the cone's side in double precision, as the sum of three floats
     /// Red, green, blue, opacity and size over life. Size and opacity multiply the values drawn at birth. A
-    /// curve is stored as samples at equal distances, or as kGpuCurvePieces linear pieces: first the value of
-    /// each piece extrapolated to t = 0, then the slope of each piece, then the t at which each piece begins
+    /// curve is stored as samples at equal distances, or as kGpuCurvePieces linear pieces. The pieces are
+    /// stored as three arrays: values extrapolated to t = 0, slopes, and the t at which each piece begins
     /// (infinite for unused pieces).
     float lifeCurves[5][kGpuCurveSamples];
     float speedCurves[5][kGpuCurveSamples];
@@ -116,7 +116,7 @@ struct GpuParticleFeatures
     GpuShape shape = GpuShape::Point;
     GpuFrames frames = GpuFrames::First;
     bool turned = false; ///< true: the axis is not +Y
-    bool brief = false;  ///< ages fit in 32-bit numbers of ticks
+    bool brief = false;  ///< true: ages fit in 32-bit numbers of ticks
     bool lifeVaries = false;
     bool drags = false;
     bool bySpeed = false;
@@ -146,8 +146,8 @@ public:
     float meanRadius = 0.0f;          ///< [m] approximate mean radius, to estimate costs
 
     /// Computes the particles of `group` on the calling thread, and adds them to `out` as a group of the kind
-    /// "particle", equal to the group that the emitter would publish from the CPU. The schema of `out` must
-    /// contain this kind. Callable from any thread; allocates.
+    /// "particle". The result equals the group that the emitter would publish from the CPU. The schema of
+    /// `out` must contain this kind. Callable from any thread; allocates.
     virtual void replay(const SnapshotGroup& group, FrameSnapshot& out) const = 0;
     /// Appends the words of all steps of `group` that ended after `since`, in order, to `out`. Callable from
     /// any thread; allocates memory for `out` only. Requires features.steps.
@@ -158,7 +158,7 @@ public:
 /// Consecutive births at equal intervals of time, or all at the same time.
 struct GpuBirthRun
 {
-    /// Number of births from the first birth of the run to the next birth: the index of the first one is
+    /// Number of births from the first birth of the run to the next birth: the index of the first birth is
     /// GpuParticleMoment::next - reach.
     uint32_t reach;
     uint32_t unused;
@@ -168,7 +168,7 @@ struct GpuBirthRun
     uint32_t rest[3];     ///< [2^-96] r of formula birth-runs for the first birth
 };
 
-/// Acceleration of all particles from the moment of this condition until that of the next condition.
+/// Acceleration of all particles from the moment of this condition until the moment of the next condition.
 struct GpuCondition
 {
     /// [tick] time since the moment of the condition; for the first condition, at least the age of every
@@ -212,8 +212,8 @@ GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& mom
 /// Number of steps of a run that ended at or before the local time `tick`, if the present local time is
 /// `now`.
 uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick);
-/// True if the state of the particles at `mark` is valid for `group`, so that only the steps after it must be
-/// computed.
+/// True if the state of the particles at `mark` is valid for `group`. Then only the steps after `mark` must
+/// be computed.
 bool continuesFrom(const SnapshotGroup& group, const GpuStepMark& mark);
 /// The mark after the last step of `group`.
 GpuStepMark gpuMarkOf(const SnapshotGroup& group);

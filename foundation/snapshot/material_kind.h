@@ -1,10 +1,10 @@
 /// @file material_kind.h
-/// The kind "material": noise coordinates of balls of medium. The detail of their summed field is evaluated
-/// at these coordinates, so that it moves with the medium. Included by techniques that publish media and by
-/// passes that draw them as fields, not by the snapshot container.
+/// The kind "material": noise coordinates of balls of medium. The detail of the density field, the sum over
+/// all balls, is evaluated at these coordinates. The detail therefore moves with the medium. Techniques that
+/// publish media and passes that draw media as fields include this header; the snapshot container does not.
 ///
 /// A group of this kind follows the group of the kind "blob" of the same solver, and has the same elements in
-/// the same order. A solver publishes it only if its preset sets the detail of the field.
+/// the same order. A solver publishes this kind only if its preset sets the detail of the field.
 ///
 /// There are two generations of coordinates. The generation of number n has the columns Place0 for even n,
 /// Place1 for odd n. The coordinate at a point x is the mean of growth (x - position) + place over the balls
@@ -47,8 +47,8 @@ enum : size_t
     Gain,     ///< [1] amplitude of each octave of the noise, divided by that of the previous octave
     Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps
     Glow,     ///< [1] relative rise of temperature where the noise is one standard deviation above its mean
-    /// [1] Softening of edges as the medium thins. With 0 lumps fall apart, with 1 they keep their form, and
-    /// above 1 they blur.
+    /// [1] Softening of edges as the medium thins. At 0, lumps fall apart; at 1, lumps keep their form; above
+    /// 1, lumps blur.
     Softening,
     Count
 };

@@ -1,11 +1,12 @@
 /// @file particle_kind.h
-/// The kinds "particle", "ribbon" and "light", which emitters publish besides media. Included by the
-/// technique that writes these kinds and by the passes and hosts that draw them, not by the snapshot
-/// container.
+/// The kinds "particle", "ribbon" and "light", which emitters publish besides media. The technique that
+/// writes these kinds, and the passes and hosts that draw them, include this header; the snapshot container
+/// does not.
 ///
-/// A particle keeps its row for its lifetime. Row i of two successive snapshots is the same particle if it is
-/// alive in both and its age in the newer one is at least the time between them. A row of radius 0 is empty.
-/// Consecutive rows of a ribbon with the same strip are joined.
+/// A particle keeps its row for its lifetime. A row of radius 0 is empty. Row i of two successive snapshots
+/// is the same particle under two conditions. The row contains a particle in both snapshots. The age in the
+/// newer snapshot is at least the time between the snapshots. Consecutive rows of a ribbon with the same
+/// strip are joined.
 ///
 /// A color is four binary16 numbers, red in the lowest 16 bits, then green, blue, opacity. Red, green and
 /// blue are linear Rec. 709 and not multiplied by the opacity. The visible luminance is color * (luminance +
@@ -16,7 +17,8 @@
 
 namespace fx::base {
 
-/// Indices of the columns of the kind "particle". Columns after Color exist only for emitters that need them.
+/// Indices of the columns of the kind "particle". Columns after Color exist only for emitters that need these
+/// columns.
 namespace particle_column {
 enum : size_t
 {
@@ -122,7 +124,7 @@ enum : size_t
     Layer, ///< MediaLayer to which light and opacity are added
     Blend, ///< ParticleBlend
     Order, ///< ParticleOrder
-    /// [m] If > 0, the group is sorted as if it were nearer to the camera by this length.
+    /// [m] If > 0, the group is sorted as if the group were nearer to the camera by this length.
     OrderBias,
     Alignment, ///< SpriteAlignment
     AxisX,     ///< [1] local unit vector of the alignments Axis and Plane
@@ -134,7 +136,7 @@ enum : size_t
     /// increases along the velocity.
     Stretch,
     Luminance,   ///< [cd/m2] luminance that color 1 emits
-    Lit,         ///< [1] share of the scene's light that color 1 scatters, 0..1
+    Lit,         ///< [1] fraction of the scene's light that color 1 scatters, 0..1
     Softness,    ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
     Texture,     ///< id of the texture in the AssetTable; 0: a round spot that fades towards its edge
     TileColumns, ///< [1] number of frames of the texture side by side, >= 1
@@ -146,8 +148,8 @@ enum : size_t
     MotionScale, ///< [1] displacement by a motion vector of length 1, in widths of a frame
     Mesh,        ///< id of the mesh in the AssetTable; 0: none
     ArcPerTile,  ///< [m] length of a ribbon per width of the texture; 0: the texture covers the whole strip
-    Edge,        ///< [1] share of a ribbon's half width over which it fades towards its edges, 0..1
-    /// [s] age at which a ribbon ends. It may have some older rows, for interpolation to earlier moments.
+    Edge,        ///< [1] fraction of a ribbon's half width over which its edges fade, 0..1
+    /// [s] age at which a ribbon ends. The ribbon may have older rows, for interpolation to earlier moments.
     TailAge,
     Count
 };

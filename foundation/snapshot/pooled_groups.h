@@ -116,14 +116,14 @@ struct PooledRows
         io.reach = std::max(io.reach, reach);
     }
     /// Makes room for `capacity` rows of the kind. If the arguments equal those of the last call, constants
-    /// and owners are kept.
+    /// and owners do not change.
     /// @param each capacity of each group, at most kMaxGroupRows
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
                  uint32_t each);
 
     SnapshotGroup rows; ///< columns and constants of the rows; of its GroupInfo, only the kind is valid
     std::array<Range, 2> used; ///< ranges of rows that may contain visible elements
-    /// By row: nameOf(member, place) for the member number of its group and its place in that group.
+    /// By row: nameOf(member, place) for the member number of its group and its index in that group.
     std::pmr::vector<uint32_t> owner;
     std::pmr::vector<uint32_t> counts; ///< by member number: number of elements of the group
     uint32_t groupCapacity = 0;        ///< capacity of each group
@@ -136,8 +136,8 @@ struct PooledRows
     size_t velocityColumn = 0; ///< first of the three columns of the velocity; 0: rows have no velocity
     /// [s] a row extends along its velocity, forwards and backwards, by its speed times this time.
     float along = 0;
-    /// [s] Used for rows of arbitrary orientation: speed times this time is added to the radius of a row,
-    /// before multiplication by `corner`.
+    /// [s] For rows of arbitrary orientation: speed times this time is added to the radius of a row, before
+    /// multiplication by `corner`.
     float across = 0;
     float secondsBack = 0;    ///< [s] a row is also drawn along its path during this time before the snapshot
     uint64_t writer = 0;      ///< identifies the writer of `owner`; 0: none
@@ -145,7 +145,7 @@ struct PooledRows
 
 private:
     /// Extends the box of `io` by the path of a moving row.
-    /// @return [m] the radius that RowExtent::reach has to contain
+    /// @return [m] the radius that RowExtent::reach has to include
     float measureMoving(uint32_t row, const glm::vec3& at, float radius, RowExtent& io) const;
 };
 
@@ -178,12 +178,12 @@ public:
     /// Begins a new publication: discards the groups and reserves memory for all. Called by the thread that
     /// writes the snapshot.
     void prepare(const FrameSnapshot& snapshot);
-    /// The group of an entry of the snapshot's roster. Any thread may call this.
+    /// The group of an entry of the snapshot's roster. Any thread may call this function.
     const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t entry);
     /// True if group() has been called since prepare().
     bool isDone() const { return done_.load(std::memory_order_acquire); }
     /// Calls f(group) for all groups in order. Each pooled group is valid only during its call of f; no
-    /// memory is allocated for it. Any thread may call this; calls wait for each other.
+    /// memory is allocated for it. Any thread may call this function; concurrent calls wait for each other.
     template <class F>
     void forEach(const FrameSnapshot& snapshot, F&& f)
     {

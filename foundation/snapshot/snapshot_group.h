@@ -24,10 +24,10 @@ struct GroupInfo
     KindId kind = 0;
     uint64_t instance = 0; ///< identity of the instance within the scene
     uint32_t solver = 0;   ///< index of the solver in its effect
-    uint32_t count = 0;    ///< elements
+    uint32_t count = 0;    ///< number of elements
     Placement placement;   ///< transform from the local space, in which positions in columns are given
     Bounds bounds; ///< bounds in the local space of the placement; they contain every element with its radius
-    /// True: the snapshot's hash does not include this group, because it may be computed on the GPU.
+    /// True: the snapshot's hash does not include this group, because the group may be computed on the GPU.
     bool isCosmetic = false;
 };
 
@@ -37,8 +37,8 @@ class GpuParticleProgram;
 size_t floatsFor(const KindDesc& kind, size_t capacity, ColumnSet present);
 
 /// One group: column-wise elements, sorted by ascending id where the kind has ids. The columns that the group
-/// has are stored one after another, in the order of the kind. Each begins at a multiple of 64 bytes and has
-/// room for capacity() elements, rounded up to 64 bytes.
+/// has are stored one after another, in the order of the kind. Each column begins at a multiple of 64 bytes
+/// and has room for capacity() elements, rounded up to 64 bytes.
 class SnapshotGroup
 {
 public:
@@ -59,7 +59,7 @@ public:
     }
     bool has(size_t index) const { return (present_ >> index & 1) != 0; }
     ColumnSet present() const { return present_; }
-    /// Pointer to the first element of a column of floats. It is valid even if count() is 0.
+    /// Pointer to the first element of a column of floats. The pointer is valid even if count() is 0.
     const float* start(size_t index) const { return place(index); }
     std::span<const float> constants() const { return {constants_.data(), constantCount_}; }
     /// Program of a group of the kind "gpuParticle", see gpu_particles.h; null for other kinds.
@@ -81,8 +81,8 @@ public:
     /// Storage of all columns of the group.
     float* editStorage() { return storage_.data(); }
     size_t capacity() const { return capacity_; }
-    /// True when the group still has the constants that `writer` wrote, so that they need not be written
-    /// again. Otherwise the constants become zero and must be written.
+    /// True when the group still has the constants that `writer` wrote. Then the constants need not be
+    /// written again. When the function returns false, the constants are zero and must be written.
     /// @param writer number that identifies the constants, not 0; in a process, different constants have
     ///         different numbers
     bool keepsConstants(uint64_t writer)
@@ -97,11 +97,12 @@ public:
     /// `kind`.
     bool fits(const KindDesc& kind, size_t capacity, ColumnSet present) const;
     size_t bytes() const { return storage_.capacity() * sizeof(float) + ids_.capacity() * sizeof(uint64_t); }
-    /// Makes room for `capacity` elements of `kind`. The present memory is kept if it is large enough.
+    /// Makes room for `capacity` elements of `kind`. Memory is allocated only if the present memory is too
+    /// small.
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present = kAllColumns);
-    /// Does the same as prepare(), if the last call had the same arguments and the memory has exactly the
-    /// required size; otherwise returns false and does nothing.
-    /// @param forgets true: constants become zero; false: they are kept
+    /// Does the same as prepare() and returns true, if the last call had the same arguments and the memory
+    /// has exactly the required size. Returns false and does nothing in all other cases.
+    /// @param forgets true: constants become zero; false: constants do not change
     bool prepareAgain(KindId kind, size_t capacity, ColumnSet present, bool forgets)
     {
         if (!isExact_ || info_.kind != kind || capacity_ != capacity || present_ != present)
@@ -124,7 +125,7 @@ private:
     const float* place(size_t index) const { return storage_.data() + size_t(lines_[index]) * kRowsPerLine; }
     static constexpr size_t kRowsPerLine = 16; ///< floats in 64 bytes
 
-    // The members used by each publication come first, so that they share cache lines.
+    // The members that each publication uses come first, in common cache lines.
     GroupInfo info_;
     size_t capacity_ = 0;
     ColumnSet present_ = 0;

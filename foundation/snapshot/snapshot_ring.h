@@ -11,15 +11,16 @@
 
 namespace fx::base {
 
-/// A snapshot and the snapshot published before it. Both stay valid and constant until release().
+/// A snapshot and the snapshot published before it. Both snapshots stay valid and constant until release().
 struct SnapshotPair
 {
     const FrameSnapshot* newer = nullptr; ///< null before the first publication
     const FrameSnapshot* older = nullptr; ///< null before the second publication
 };
 
-/// Snapshots in rotation: the two newest published ones, the one being written, and those that readers hold.
-/// The scene thread calls beginWrite() and publish(). Any thread may call acquire() and release(), in pairs.
+/// Snapshots in rotation: the two newest published snapshots, the snapshot that is being written, and the
+/// snapshots that readers hold. The scene thread calls beginWrite() and publish(). Any thread may call
+/// acquire() and release(), in pairs.
 class SnapshotRing
 {
 public:
@@ -27,10 +28,10 @@ public:
 
     /// Begins to write a snapshot.
     /// @param step [tick] length of the step that ends at `tick`; 0 if no step ends there
-    /// @return a snapshot without readers, cleared for writing; if readers hold all snapshots, a new one is
-    ///         added
+    /// @return a snapshot without readers, cleared for writing; if readers hold all snapshots, a new snapshot
+    ///         is added
     FrameSnapshot& beginWrite(Ticks tick, Ticks step = 0);
-    /// Makes the written snapshot the newest one. It must not be changed afterwards.
+    /// Makes the written snapshot the newest one. The snapshot must not be changed afterwards.
     void publish();
     /// Ends writing without publication. The written snapshot becomes SnapshotPair::older at the next
     /// publication, instead of the snapshot that is the newest now.

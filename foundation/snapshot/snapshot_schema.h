@@ -36,8 +36,8 @@ struct KindDesc
     std::string_view name;
     std::span<const ColumnDesc> columns;   ///< columns, with one value per element
     std::span<const ColumnDesc> constants; ///< constants, with one value per group; all are F32
-    /// True: elements have ids and are sorted by them. False: the kind defines another way to match elements
-    /// of two snapshots.
+    /// True: elements have ids and are sorted by id. False: the kind defines another way to match elements of
+    /// two snapshots.
     bool hasIds = true;
 
     /// Two kinds are equal if their names are equal.
@@ -50,7 +50,7 @@ constexpr size_t kMaxConstants = 24; ///< largest number of constants of a kind
 using KindId = uint32_t;
 constexpr KindId kNoKind = ~0u;
 
-/// Set of those columns of a kind that a group has: bit i stands for column i.
+/// Set of columns of a kind that a group has: bit i stands for column i.
 using ColumnSet = uint64_t;
 constexpr ColumnSet kAllColumns = ~ColumnSet(0);
 

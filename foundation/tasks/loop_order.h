@@ -1,8 +1,8 @@
 /// @file loop_order.h
-/// Annotations for ThreadSanitizer, because TBB is not built with it. They state that the calls of a parallel
-/// loop happen after the caller's code before the loop, and before the caller's code after the loop. Calls of
-/// one loop stay unordered, so that races among them are found. Without ThreadSanitizer the functions are
-/// empty.
+/// Annotations for ThreadSanitizer, because TBB is not built with ThreadSanitizer. The annotations state that
+/// the calls of a parallel loop happen after the caller's code before the loop, and before the caller's code
+/// after the loop. Calls of one loop stay unordered, so that races among these calls are found. Without
+/// ThreadSanitizer the functions are empty.
 #pragma once
 
 #if defined(FX_THREAD_SANITIZER)

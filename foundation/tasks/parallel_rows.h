@@ -1,6 +1,6 @@
 /// @file parallel_rows.h
 /// Parallel loops over rows. Each call sets the floating-point mode of the simulation, because worker threads
-/// do not inherit it.
+/// do not inherit this mode.
 #pragma once
 
 #include "foundation/simd/floating_point_scope.h"

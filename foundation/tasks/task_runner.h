@@ -12,8 +12,8 @@ namespace fx::base {
 using LoopBody = void (*)(void* argument, uint32_t begin, uint32_t end);
 
 /// A parallel loop that the host provides. run() must call `body` with ranges of at least `minBatch` indices
-/// that cover every index in [0, count) exactly once; the last range may be shorter. It must return after all
-/// calls of `body` have returned.
+/// that cover every index in [0, count) exactly once; the last range may be shorter. run() must return after
+/// all calls of `body` have returned.
 struct ParallelForHook
 {
     void* user = nullptr;
@@ -21,7 +21,7 @@ struct ParallelForHook
 };
 
 /// Runs loops whose iterations do not depend on each other. Results must not depend on the division of the
-/// range: a body writes only data of its own indices, and sums are computed afterwards over blocks of fixed
+/// range: a body writes only data of its own indices. Sums are computed after the loop over blocks of fixed
 /// size.
 class TaskRunner
 {

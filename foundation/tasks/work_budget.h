@@ -1,6 +1,6 @@
 /// @file work_budget.h
-/// Limit of the work of one update. Work is counted, not timed. So the same calls stop at the same point on
-/// every machine and with any number of threads.
+/// Limit of the work of one update. Work is counted, not timed. Therefore equal calls stop at the same point
+/// on every machine and with any number of threads.
 ///
 /// The unit is about 10 ns of one processor core of the year 2020: a particle that a force moves costs one or
 /// a few units. The units of each kind of work were fitted with `fx bench work-units`, see
@@ -16,8 +16,8 @@ namespace fx::base {
 constexpr uint64_t kNoWorkLimit = UINT64_MAX;
 constexpr double kSecondsPerUnit = 10e-9; ///< [s] approximate time of a unit
 
-/// The number of work units that are left of those granted. Work that has begun continues to the next point
-/// where it can be interrupted, so that the last piece of work may cost more than is left.
+/// The remaining number of work units. Work that has begun continues to the next point where it can be
+/// interrupted. Therefore the last piece of work may cost more than the remaining units.
 class WorkBudget
 {
 public:

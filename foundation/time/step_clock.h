@@ -14,7 +14,7 @@ struct StepPlan
 {
     uint32_t steps = 0;     ///< number of fixed steps to take now
     Ticks firstStep = 0;    ///< [tick] beginning of the first of these steps
-    bool refused = false;   ///< dt was negative or not finite, so that the clock did not advance
+    bool refused = false;   ///< true: dt was negative or not finite, and the clock did not advance
     Ticks droppedTicks = 0; ///< time that was dropped because dt exceeded the maximum
 };
 
@@ -26,20 +26,20 @@ struct ClockState
     double remainder = 0; ///< [tick]
 };
 
-/// Accumulator clock: step k covers [k, k + 1) * stepTicks at any frame rate, so all sequences of dt with the
-/// same sum take the same steps.
+/// Accumulator clock: step k covers [k, k + 1) * stepTicks at any frame rate, so that all sequences of dt
+/// with the same sum take the same steps.
 class StepClock
 {
 public:
     /// @param stepTicks length of a step, > 0
-    /// @param maxFrameTicks [tick] longest dt that is simulated; a longer dt is shortened, and the plan
-    ///         reports the difference in StepPlan::droppedTicks
+    /// @param maxFrameTicks [tick] longest dt that is simulated; a longer dt is shortened, and
+    ///         StepPlan::droppedTicks is the difference
     StepClock(Ticks stepTicks, Ticks maxFrameTicks) : stepTicks_(stepTicks), maxFrameTicks_(maxFrameTicks) {}
 
-    /// Advances by `dt` [s]. 0 does nothing; negative, NaN and infinite values are refused. Plans at most as
-    /// many steps as the longest dt contains, postponed steps included.
+    /// Advances by `dt` [s]. A dt of 0 has no effect; negative, NaN and infinite values are refused. The plan
+    /// has at most as many steps as the longest dt contains; postponed steps are included.
     StepPlan advance(double dt);
-    /// Postpones the last `steps` of a plan to the next plan.
+    /// Postpones the last `steps` steps of a plan to the next plan.
     void postpone(uint32_t steps) { steps_ -= steps; }
     /// Marks one postponed step as taken.
     void takePostponed() { ++steps_; }

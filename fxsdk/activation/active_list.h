@@ -1,5 +1,5 @@
 /// @file active_list.h
-/// The active instances in order of creation. An update visits only these.
+/// The active instances in order of creation. An update visits only the active instances.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace fx::activation {
 
-/// Keeps three parallel arrays sorted by serial, so that results do not depend on the order of waking.
+/// Keeps three parallel arrays, sorted by the order of creation (serial). Results therefore do not depend on
+/// the order in which instances become active.
 class ActiveList
 {
 public:
     explicit ActiveList(std::pmr::memory_resource* memory) : serials_(memory), keys_(memory), slots_(memory)
     {}
 
-    /// Reserves memory, after which insert() allocates nothing as long as the list has at most `count`
-    /// entries.
+    /// Reserves memory for `count` entries. Up to this number, insert() allocates nothing.
     void reserve(size_t count);
     /// Adds an entry.
     /// @param serial order of creation, unique
@@ -26,7 +26,8 @@ public:
     /// Removes an entry. The serial must be in the list.
     void remove(uint64_t serial);
 
-    /// Removes every entry for which finished(key, slot) is true, and keeps the order of the others.
+    /// Removes every entry for which finished(key, slot) is true. The order of the remaining entries does not
+    /// change.
     template <class F>
     void removeIf(F&& finished)
     {

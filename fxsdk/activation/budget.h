@@ -7,13 +7,13 @@
 
 namespace fx::activation {
 
-/// Limits of the total cost of all instances; 0: no limit.
+/// Limits of the total cost of all instances. A limit of 0 means no limit.
 struct Budget
 {
     uint64_t particles = 0;
     double milliseconds = 0;           ///< [ms] limit of the estimated simulation time of a step
     uint64_t bytes = 0;                ///< [byte] limit of the estimated memory of particles
-    double nanosecondsPerParticle = 0; ///< [ns] time per particle and step, for the estimate; 0: measured
+    double nanosecondsPerParticle = 0; ///< [ns] estimated time per particle and step; 0: the time is measured
 
     bool any() const { return particles > 0 || milliseconds > 0 || bytes > 0; }
 };
@@ -31,12 +31,13 @@ struct Candidate
     bool granted = false; ///< result: whether the instance is simulated
 };
 
-/// Hysteresis: factor on the significance of an active instance, so that instances of equal significance do
-/// not alternate.
+/// Hysteresis: the significance of an active instance is multiplied by this factor. Instances of equal
+/// significance therefore do not alternate.
 constexpr double kReluctance = 1.25;
 
-/// Sorts `candidates` by significance, mandatory ones first, and grants those that fit in that order. The
-/// most significant candidate is always granted. Equal inputs give equal results.
+/// Sorts `candidates`: mandatory candidates first, then by decreasing significance. Grants, in this order,
+/// each candidate that fits into the remaining budget. Mandatory candidates are always granted. The most
+/// significant candidate is always granted. Equal inputs give equal results.
 void share(const Budget& budget, double nanosecondsPerParticle, std::span<Candidate> candidates);
 
 } // namespace fx::activation

@@ -21,7 +21,7 @@ struct Ball
     double radius = 0;      ///< [m] infinite when unknown
 };
 
-/// Whether an instance is in sight, or the reason why it is not.
+/// Whether an instance is in sight, or the reason why it is not in sight.
 enum class Sight : uint8_t
 {
     Seen,
@@ -38,7 +38,7 @@ public:
     {
         double maxDistance = std::numeric_limits<double>::infinity(); ///< [m] largest distance from the eye
         double margin = 0;    ///< [m] distance by which the frustum is widened
-        double minPixels = 0; ///< [pixel] smallest radius on the picture; smaller instances are out of sight
+        double minPixels = 0; ///< [pixel] smallest radius on the picture of a visible instance
         double height = 1080; ///< [pixel] height of the picture
     };
     /// Creates the frustum of a camera with a projection that is not degenerate.
@@ -49,23 +49,23 @@ public:
     /// Tests whether a ball is in sight.
     /// @param sight [m] largest distance at which the ball is seen
     Sight judge(const Ball& ball, double sight) const;
-    /// As judge(), with a hysteresis of a tenth of the radius for balls that are in sight. It avoids
-    /// flickering at the boundary of the frustum.
+    /// Tests whether a ball that was in sight is still in sight. The radius and `sight` are enlarged by a
+    /// tenth (hysteresis), which avoids flickering at the boundary of the frustum.
     Sight judgeWithHysteresis(const Ball& ball, double sight) const;
     /// [pixel] radius of the ball on the picture, at most its height.
     double pixels(const Ball& ball) const;
 
 private:
-    /// left, right, bottom, top, behind; the distance of p from a plane is dot(xyz, p) + w
+    /// planes: left, right, bottom, top, behind; the distance of a point p from a plane is dot(xyz, p) + w
     std::array<glm::dvec4, 5> planes_;
     glm::dvec3 eye_;
-    /// [pixel/m] scale of the picture: at a distance of 1 m for perspective, at any distance for orthographic
+    /// [pixel/m] scale of the picture; perspective: at a distance of 1 m; orthographic: at any distance
     double pixelsPerMeter_;
     bool orthographic_;
     Limits limits_;
 };
 
-/// The frusta of all cameras. Without cameras everything is in sight.
+/// The frusta of all cameras. Without cameras every instance is in sight.
 class FocusSet
 {
 public:
@@ -76,8 +76,8 @@ public:
     void add(const Frustum& frustum) { frusta_.push_back(frustum); }
     bool everything() const { return frusta_.empty(); }
 
-    /// Tests whether a ball is in sight of any camera. Returns Seen if one camera sees it; otherwise the
-    /// greatest reason (in the order of Sight) over the cameras.
+    /// Tests whether a ball is in sight of any camera. Returns Seen if a camera sees the ball. Otherwise
+    /// returns the largest value of Sight over all cameras.
     /// @param isSeen whether the ball was in sight before
     Sight judge(const Ball& ball, double sight, bool isSeen) const;
     /// [pixel] Largest radius of the ball on the picture of any camera; 1 without cameras.

@@ -1,6 +1,6 @@
 /// @file sphere_hierarchy.h
-/// A bounding-volume hierarchy of hidden instances. It finds the instances that come into view without
-/// visiting all others.
+/// A bounding-volume hierarchy of hidden instances. A search for the instances that come into view visits
+/// only a part of the tree.
 #pragma once
 
 #include "fxsdk/activation/focus.h"
@@ -46,7 +46,7 @@ public:
                 found(node.key);
                 continue;
             }
-            stack_.push_back(node.child[0]); // never beyond what insert() reserved
+            stack_.push_back(node.child[0]); // insert() has reserved enough memory
             stack_.push_back(node.child[1]);
         }
         return visited;
@@ -59,7 +59,7 @@ private:
         double sight = 0; ///< [m] largest `sight` of the leaves below
         uint32_t parent = kNone;
         uint32_t child[2] = {kNone, kNone};
-        uint32_t height = 0; ///< 0: a leaf
+        uint32_t height = 0; ///< height of the subtree; 0: a leaf
         uint32_t key = 0;
     };
     uint32_t take();
@@ -74,7 +74,7 @@ private:
     std::pmr::vector<Node> nodes_;
     std::pmr::vector<uint32_t> stack_;
     uint32_t root_ = kNone;
-    /// index of the first unused node; `parent` of an unused node is the index of the next one
+    /// index of the first unused node; `parent` of an unused node is the index of the next unused node
     uint32_t free_ = kNone;
     uint32_t unused_ = 0;
     uint32_t leaves_ = 0;

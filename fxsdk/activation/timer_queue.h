@@ -10,7 +10,7 @@
 
 namespace fx::activation {
 
-/// A pending timer. Keys are small numbers; each is in the queue at most once.
+/// A pending timer. Keys are small numbers. Each key is in the queue at most once.
 struct Timer
 {
     base::Ticks start = 0; ///< [tick] scene time
@@ -24,8 +24,8 @@ class TimerQueue
 public:
     explicit TimerQueue(std::pmr::memory_resource* memory) : heap_(memory), slots_(memory) {}
 
-    /// Reserves memory, after which add() allocates nothing as long as keys are at most `key` and the queue
-    /// has at most `count` timers.
+    /// Reserves memory for keys up to `key` and for `count` timers. Within these limits, add() allocates
+    /// nothing.
     void reserve(uint32_t key, size_t count);
     /// Adds a timer. Strong exception guarantee.
     void add(const Timer& timer);

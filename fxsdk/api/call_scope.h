@@ -1,6 +1,6 @@
 /// @file call_scope.h
-/// The thread rules of the C API. They check that an object is called on its thread, and that no other call
-/// on it is in progress.
+/// Checks of the thread rules of the C API: an object is called on its thread only, and no other call on the
+/// object is in progress.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -22,7 +22,7 @@ private:
     std::atomic<std::thread::id> owner_{std::this_thread::get_id()};
 };
 
-/// Guards an object that only one thread uses and that callbacks must not re-enter. It needs no lock.
+/// Guards an object that only one thread uses and that callbacks must not re-enter. The guard needs no lock.
 class SingleCaller
 {
 public:
@@ -56,7 +56,7 @@ public:
             entered_->close();
             entered_ = nullptr;
         }
-        /// the result as a status, constructed on request only, because every call checks the scope
+        /// the result of the checks as a status
         base::Status status() const
         {
             if (entered_)
@@ -73,7 +73,7 @@ public:
 
     /// Whether a call is in progress. [any thread]
     bool busy() const { return busy_.load(std::memory_order_relaxed); }
-    /// Refuses further calls, such as those from callbacks during a destruction.
+    /// Refuses further calls, such as calls from callbacks while the object is destroyed.
     void close()
     {
         closed_.store(true, std::memory_order_relaxed);

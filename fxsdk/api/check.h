@@ -1,5 +1,5 @@
 /// @file check.h
-/// Validation of arguments. Failures name the argument.
+/// Validation of arguments. Error messages name the argument.
 #pragma once
 
 #include "foundation/math/bits.h"
@@ -72,7 +72,7 @@ bool isUnitQuaternion(const float* xyzw);
 glm::quat toRotation(const float* xyzw);
 /// Whether the column-major matrix is orthonormal within 1e-3 and right-handed, with last row 0 0 0 1.
 bool isRigid(const float* matrix);
-/// Reason why the matrix is not a view matrix, with the remedy; null if it is one.
+/// The reason why the matrix is not a view matrix, with the remedy; null for a view matrix.
 const char* viewFault(const float* matrix);
 
 } // namespace fx::api

@@ -6,15 +6,16 @@
 
 namespace fx::api {
 
-/// Reason why the matrix is not a camera's projection from eye to clip space, with the remedy; null if it is
-/// one. Faults: not finite, row-major, for a camera that looks along +Z, without extent, scaled, singular.
-/// Off-center, jittered, mirrored and oblique projections are accepted.
+/// The reason why the matrix is not a camera's projection from eye to clip space, with the remedy; null for a
+/// valid projection. Faults: an element is not finite; the matrix is row-major, scaled or singular; the
+/// camera looks along +Z; the frustum has no extent. Off-center, jittered, mirrored and oblique projections
+/// are accepted.
 const char* projectionFault(const float* projection);
 
-/// Reason why a frame cannot be drawn with a matrix that projectionFault() accepts; null if it can be drawn.
-/// Distances and rays of a frame are computed from single elements, so the matrix must not contain a part of
-/// the view matrix.
-/// @param isReversed near maps to the larger depth
+/// The reason why a frame cannot be drawn with a matrix that projectionFault() accepts; null if the frame can
+/// be drawn. The renderer computes distances and rays from single elements of the matrix. The matrix must
+/// therefore contain no part of the view matrix.
+/// @param isReversed true: near points have the larger depth value
 const char* frameProjectionFault(const float* projection, bool isReversed);
 
 } // namespace fx::api

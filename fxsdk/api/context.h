@@ -31,7 +31,7 @@ enum IdType : uint8_t
 
 using PresetTable = scene::IdTable<std::shared_ptr<const sim::EffectDef>>;
 
-/// The techniques of a context: their preset members and their drawing.
+/// The techniques of a context: the parts that read presets and the parts that draw.
 struct TechniqueLists
 {
     preset::Techniques presets = preset::techniques();
@@ -45,7 +45,7 @@ base::AllocatorHooks toHooks(const FxAllocator& allocator);
 struct FxContext
 {
     /// Creates a context that is ready for use, without GL. Throws std::bad_alloc.
-    /// @param techniques lists that must outlive the context
+    /// @param techniques lists of techniques, which must outlive the context
     explicit FxContext(const FxContextDef& def, const fx::api::TechniqueLists& techniques = {});
     FxContext(const FxContext&) = delete;
     FxContext& operator=(const FxContext&) = delete;
@@ -64,7 +64,7 @@ struct FxContext
     std::unique_ptr<fx::base::TaskRunner> tasks;
 
     fx::api::SharedCaller loading; ///< serializes the loading of presets; entered before `tables`
-    fx::api::SharedCaller tables;  ///< guards the four members below; held briefly
+    fx::api::SharedCaller tables;  ///< guards the four members below; locked only for a short time
     fx::scene::IdCodec ids{this};
     fx::api::PresetTable presets;
     std::pmr::vector<FxScene*> scenes;

@@ -1,6 +1,6 @@
 /// @file guarded.h
-/// The only exception boundary of the C API. It converts a status or an exception to a result code and the
-/// error message of the thread.
+/// The only exception boundary of the C API. The boundary converts a status or an exception to a result code
+/// and the error message of the thread.
 #pragma once
 
 #include "foundation/memory/out_of_memory.h"
@@ -26,7 +26,7 @@ const char* lastError() noexcept;
 /// Writes the error stored by rememberError() to the host's log, if the host has one.
 void logLastError(const FxLog& log, FxResult code) noexcept;
 
-/// Runs the body of a C function. No exception leaves the function; it returns a code.
+/// Runs the body of a C function. Returns a result code; no exception leaves the function.
 /// @param log  log to which failures are written in addition; may be null
 /// @param body callable that returns base::Status
 template <class F>

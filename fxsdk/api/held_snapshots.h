@@ -1,5 +1,5 @@
 /// @file held_snapshots.h
-/// The snapshots that hosts hold now. [any thread]; allocates nothing.
+/// The snapshots that hosts hold now. [any thread]
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -17,9 +17,9 @@ class HeldSnapshots
 public:
     static constexpr uint32_t kCapacity = 16;
 
-    /// Adds a snapshot. Particles that views compute on the GPU are computed here on the CPU.
-    /// @return an id for find() and take(); 0 if already kCapacity snapshots are held, in which case
-    ///         `presentation` is not added
+    /// Adds a snapshot. Computes GPU particles of the snapshot on the CPU.
+    /// @return an id for find() and take(); 0 if kCapacity snapshots are held; then `presentation` is not
+    ///         added
     scene::LocalId add(const scene::Presentation& presentation, std::pmr::memory_resource* memory)
     {
         Held held{presentation, presentation.snapshots, {}};
@@ -69,8 +69,8 @@ private:
     {
         scene::Presentation shown;
         base::SnapshotPair taken; ///< snapshots acquired from the scene
-        /// Copies of the snapshots that contain GPU particles, with these particles computed; null without
-        /// such particles.
+        /// Copies of snapshots with GPU particles. In the copies, the GPU particles are computed. Null for a
+        /// snapshot without GPU particles.
         std::array<std::unique_ptr<base::FrameSnapshot>, 2> replayed;
 
         void replay(const base::FrameSnapshot*& io, size_t which, std::pmr::memory_resource* memory)

@@ -27,16 +27,16 @@ struct FxScene
     /// quality of instances that are created with FX_QUALITY_DEFAULT
     fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium;
     uint64_t updateAllocations = 0; ///< number of allocations during the last update
-    std::pmr::vector<fx::activation::Frustum> foci{&context->memory}; ///< scratch of fxScene_SetFocus
+    /// temporary memory of fxScene_SetFocus()
+    std::pmr::vector<fx::activation::Frustum> foci{&context->memory};
     fx::api::HeldSnapshots held;
-    std::atomic<uint32_t> views{0}; ///< number of views that show this scene
-    double longestFrame;            ///< [s] longest time that one update simulates, FxSceneDef::maxFrameTicks
+    std::atomic<uint32_t> views{0};      ///< number of views that show this scene
+    double longestFrame;                 ///< [s] longest time that one update simulates
     std::atomic<bool> catchingUp{false}; ///< whether the time of the last update exceeded longestFrame
 
     bool isBehind = false; ///< whether the last update left steps for the next one
 
-    // Number of updates for which a view's computation of GPU particles, or a request for rows, remains in
-    // effect.
+    // Number of updates during which gpuSeen and rowsWanted remain above 0 after they were set.
     static constexpr uint32_t kRemembered = 240;
     std::atomic<uint32_t> gpuSeen{0};
     std::atomic<uint32_t> rowsWanted{0};

@@ -34,7 +34,7 @@ inline render::SliceSettings automaticScattering(render::SliceSettings asked,
 }
 
 /// Holds the snapshots of one frame. During the lifetime of this object, the settings that fit the budget
-/// replace those of the host. Threads: [GL thread].
+/// replace the settings of the host. Threads: [GL thread].
 class ShownFrame
 {
 public:
@@ -59,11 +59,11 @@ public:
     ShownFrame& operator=(const ShownFrame&) = delete;
 
     const scene::Presentation& shown() const { return shown_; }
-    /// Whether `frame` has the same inputs, so that gathered data can be reused.
+    /// Whether `frame` has the same inputs as this frame. If so, the gathered data can be reused.
     bool isSameAs(const FxFrameDef& frame) const;
 
     const FxFrameDef def;
-    uint64_t allocations = 0; ///< allocations during the preparation
+    uint64_t allocations = 0; ///< number of allocations during the preparation
 
 private:
     scene::Scene& scene_;

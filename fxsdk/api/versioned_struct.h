@@ -26,8 +26,8 @@ base::Status checkStructSize(uint32_t size, const char* name)
                                      "; fill the struct with its default function"};
 }
 
-/// Copies `defaults` to `out`, then the caller's members over them. Members unknown to this library must be
-/// zero.
+/// Copies `defaults` to `out`, and then replaces the defaults by the caller's members. Members unknown to
+/// this library must be zero.
 template <class T>
 base::Status readStruct(const T* given, const char* name, const T& defaults, T& out)
 {
@@ -46,7 +46,7 @@ base::Status readStruct(const T* given, const char* name, const T& defaults, T& 
     return {};
 }
 
-/// Copies those members of `filled` that the caller's version of T has, and sets members unknown to this
+/// Copies to `io` the members of `filled` that the caller's version of T has. Sets members unknown to this
 /// library to zero. structSize does not change.
 template <class T>
 base::Status writeStruct(const T& filled, T* io, const char* name)

@@ -31,8 +31,8 @@ struct FxView
     FxView(const FxView&) = delete;
     FxView& operator=(const FxView&) = delete;
 
-    /// Replaces all settings except the host's lights. If they enable the activation overlay, the scene
-    /// records its marks.
+    /// Replaces all settings except the host's lights. If the settings enable the activation overlay, the
+    /// scene records the marks of the overlay.
     void setSettings(const fx::render::ViewSettings& settings)
     {
         prepared.reset();
@@ -51,8 +51,8 @@ struct FxView
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< number of allocations during the last frame
-    /// True when the last frame drew no element. As long as the scene is empty, the next frame draws none
-    /// either.
+    /// True when the last frame drew no element. As long as the scene is empty, the next frame draws no
+    /// element either.
     bool sleeps = false;
     /// frame of the sleeping view, already validated; meaningful only while `sleeps`
     FxFrameDef sleptFrame = fxDefaultFrameDef();
@@ -94,8 +94,8 @@ inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
                                  frame.holdQuality != 0 || view.scene->catchingUp.load());
 }
 
-/// Runs `body` as a call inside the view, if the thread rules allow it. As in GL, only one call of a
-/// context may be in progress at a time.
+/// Runs `body` as a call inside the view, if the thread rules allow it. Only one call of a context may be in
+/// progress at a time.
 template <class F>
 FxResult insideView(const char* function, FxView* view, F&& body) noexcept
 {

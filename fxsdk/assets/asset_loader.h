@@ -28,7 +28,7 @@ enum class MissingAsset
     ShowsPlaceholder, ///< image: magenta and black checkerboard; mesh: tetrahedron; motion vectors: zero
 };
 
-/// Loads the assets of one document into one table. Threads: one at a time.
+/// Loads the assets of one document into one table. Threads: one thread at a time.
 class AssetLoader
 {
 public:
@@ -40,15 +40,15 @@ public:
         : resolver_(resolver), table_(table), missing_(missing), folder_(std::move(folder))
     {}
 
-    /// Reads the bytes of the asset `name`, which is relative to the document. @return as
-    /// AssetResolver::read
+    /// Reads the bytes of the asset `name`, which is relative to the document. @return codes of
+    /// AssetResolver::read()
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes);
     /// Hash of all bytes read, in the order of reading; 0 if nothing was read.
     uint64_t contentHash() const { return contentHash_; }
     const base::AssetTable& table() const { return table_; }
 
     /// Loads an image. @param columns, rows numbers of frames by which the image must be divisible, >= 1
-    /// @param outWarning receives the reason for a placeholder; untouched otherwise
+    /// @param outWarning receives the reason for a placeholder; untouched if there is no placeholder
     /// @return NotFound, TooLarge, Parse, Schema (not divisible); the message names the asset and the
     ///         remedy
     base::Result<base::AssetId> image(std::string_view name, ImageUse use, int columns, int rows,

@@ -17,13 +17,14 @@
 
 namespace fx::asset {
 
-/// The host's own storage, such as an archive or a database. It is searched before the folder.
+/// The host's own storage, such as an archive or a database. The resolver searches the storage before the
+/// folder.
 struct ReadHook
 {
     void* user = nullptr;
     /// Passes the asset's bytes to `deliver` in one call and returns 0. Returns 1 when the asset does not
-    /// exist, 2 when it has more than `maxBytes`, and any other number when it cannot be read. `name` ends
-    /// with a zero.
+    /// exist, 2 when the asset has more than `maxBytes`, and any other number when the asset cannot be read.
+    /// `name` ends with a zero.
     int (*read)(void* user, const char* name, uint64_t maxBytes,
                 void (*deliver)(void* sink, const void* data, size_t size), void* sink) = nullptr;
 };
@@ -44,8 +45,8 @@ public:
     /// @return InvalidArgument for a name that is not allowed, NotFound, TooLarge, Io
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes) const;
 
-    /// Path of the file of `name` with all links resolved. The path is empty when the name is not allowed
-    /// or belongs to the library, when the file does not exist, or when a hook is set.
+    /// Path of the file of `name` with all links resolved. The path is empty in four cases: the name is not
+    /// allowed; the name belongs to the library; the file does not exist; a hook is set.
     std::string fileOf(std::string_view name) const;
 
     const std::string& folder() const { return folder_; }

@@ -45,13 +45,13 @@ struct ObjHandler
 };
 
 /// Reads all lines of `text`.
-/// @return all points; Parse with the number of the line and the reason; the error of `face`
+/// @return all points; Parse with the number of the line and the reason; or the error that `face` returned
 base::Result<ObjPoints> parseObj(std::string_view text, const ObjHandler& handler);
 
 /// Removes the next word, delimited by spaces, from `io` and returns it; empty at the end.
 std::string_view takeWord(std::string_view& io);
 
-/// Parses a finite number; false if `word` is none. A number too small for a float becomes 0.
+/// Parses a finite number; false if `word` is not a finite number. A number too small for a float becomes 0.
 bool parseFloat(std::string_view word, float& out);
 
 struct ObjMesh
@@ -60,7 +60,7 @@ struct ObjMesh
     std::vector<uint32_t> indices;
 };
 
-/// maximum for meshes of particles, which are drawn thousands of times
+/// maximum number of triangles of a particle mesh; the mesh is drawn thousands of times
 constexpr size_t kMaxMeshTriangles = 65'536;
 
 /// Reads a mesh for particles. Polygons become fans of triangles; a corner without a normal gets the normal
@@ -71,7 +71,7 @@ base::Result<ObjMesh> readObj(std::string_view text);
 struct ObjTriangles
 {
     std::vector<glm::vec3> positions;
-    std::vector<uint32_t> indices; ///< three a triangle
+    std::vector<uint32_t> indices; ///< three indices per triangle
 };
 
 /// Reads positions only, for simulation. Polygons become fans of triangles.

@@ -1,5 +1,5 @@
 /// @file read_file.h
-/// Reads whole files whose size has been checked first.
+/// Reads whole files after a check of their size.
 #pragma once
 
 #include "foundation/result/status.h"

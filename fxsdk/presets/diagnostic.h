@@ -1,5 +1,5 @@
 /// @file diagnostic.h
-/// Findings about a preset or scene. Each states the place in the file and a remedy.
+/// Findings about a preset or scene. Each finding states a position in the file and a remedy.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ struct Diagnostic
 {
     std::string file;    ///< file name for messages
     int line = 0;        ///< line, from 1; 0 when the finding concerns the whole file
-    int column = 0;      ///< from 1, in bytes
+    int column = 0;      ///< [byte] column, from 1
     std::string pointer; ///< JSON pointer, "" for the whole document
-    /// description of the value found and of the allowed ones, at most 1 KiB, printable UTF-8
+    /// description of the value found and of the allowed values, at most 1 KiB, printable UTF-8
     std::string message;
     bool warning = false; ///< true: the file can be used despite the finding
 };

@@ -6,12 +6,12 @@
 
 namespace fx::preset {
 
-/// Limit of the work of a step of 1/60 s, above which a warning is given. It equals the default budget of an
-/// update, about 100 ms.
+/// Limit of the work of a step of 1/60 s. Above the limit, a warning is given. The limit equals the default
+/// budget of an update, about 100 ms.
 constexpr double kMuchStepWork = 10e6; // [unit]
-/// Limit of the work of the prewarm, above which a warning is given: about 1 s.
+/// Limit of the work of the prewarm, about 1 s. Above the limit, a warning is given.
 constexpr double kMuchStartWork = 100e6; // [unit]
-/// Limit of the memory of an instance, above which a warning is given.
+/// Limit of the memory of an instance. Above the limit, a warning is given.
 constexpr uint64_t kMuchMemory = uint64_t(1) << 30; // [byte]
 
 /// Computes effect.cost. Warns when work or memory exceeds the limits above; the warning names the member to

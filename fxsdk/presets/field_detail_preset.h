@@ -7,7 +7,7 @@
 
 namespace fx::preset {
 
-/// Reads the member "detail" of `element`. If it is absent, `out` does not change.
+/// Reads the member "detail" of `element`. If the member is absent, `out` does not change.
 void readFieldDetail(const PresetValue& element, sim::FieldDetail& out);
 
 } // namespace fx::preset

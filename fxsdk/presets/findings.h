@@ -30,7 +30,7 @@ struct Finding
     size_t offset = kUnknownOffset; ///< [byte] position in the text, when known
 };
 
-/// Maps a JSON pointer of the migrated document to that of the original text.
+/// Maps a JSON pointer of the migrated document to a JSON pointer of the original text.
 struct Renaming
 {
     std::string now;
@@ -41,7 +41,7 @@ class Findings
 {
 public:
     /// Creates an empty collection of findings.
-    /// @param assets loader of the files that the document names; null: there are none
+    /// @param assets loader of the files that the document names; null: the document names no files
     explicit Findings(asset::AssetLoader* assets = nullptr) : assets_(assets) {}
     asset::AssetLoader* assets() const { return assets_; }
 
@@ -62,7 +62,7 @@ public:
     /// The findings with their positions in `text`, in the order of the text.
     std::vector<Diagnostic> locate(std::string_view text, const std::string& file) const;
 
-    static constexpr size_t kLimit = 100; ///< maximum number of findings; further ones are dropped
+    static constexpr size_t kLimit = 100; ///< maximum number of findings; further findings are dropped
 
 private:
     void add(Finding finding);

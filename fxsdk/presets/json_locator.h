@@ -1,5 +1,6 @@
 /// @file json_locator.h
-/// Finds positions in JSON text by parsing it a second time, so that the document stores no positions.
+/// Finds positions in JSON text by parsing the text a second time. The parsed document therefore stores no
+/// positions.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@
 
 namespace fx::preset {
 
-/// Limits of a JSON document. They are checked before or while the document is parsed.
+/// Limits of a JSON document. The limits are checked before or while the document is parsed.
 struct JsonLimits
 {
     uint64_t bytes;         ///< [byte] maximum length of the text
@@ -27,9 +27,8 @@ struct JsonLimits
 constexpr JsonLimits kPresetLimits{uint64_t(4) << 20, 32, 65'536, 4'096, 16'384, uint64_t(32) << 20};
 constexpr JsonLimits kSceneLimits{uint64_t(64) << 20, 32, 4'000'000, 4'096, 16'384, uint64_t(96) << 20};
 
-/// Parses a document. Adds an error and returns nothing if the text is not well formed or not UTF-8, if a
-/// name occurs twice in an object, or if a limit is exceeded. Memory stays below limits.documentBytes plus
-/// one token.
+/// Parses a document. Adds an error and returns nothing if the text is malformed or not UTF-8, a name occurs
+/// twice in an object, or a limit is exceeded. Memory stays below limits.documentBytes plus one token.
 std::optional<nlohmann::json> parseJson(std::string_view text, const JsonLimits& limits, Findings& findings);
 
 } // namespace fx::preset

@@ -1,6 +1,6 @@
 /// @file json_sax.h
-/// Common base of the two readers of JSON text: text position and JSON pointer of a SAX event. Private to the
-/// preset front end.
+/// Common base of the two readers of JSON text: text position and JSON pointer of a SAX event. Only files of
+/// fxsdk/presets include this header.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace fx::preset {
 
 /// Iterator over the text of a JSON document. All copies of an iterator share the furthest position of any
-/// copy. A handler of SAX events reads it to find how far the parser has read.
+/// copy. A handler of SAX events reads this position to find how far the parser has read.
 class TrackedIterator
 {
 public:
@@ -52,8 +52,8 @@ public:
     TrackedIterator begin() { return {text_.data(), &furthest_}; }
     TrackedIterator end() { return {text_.data() + text_.size(), &furthest_}; }
 
-    /// Finds the token of the present event. Must be called first in every event. @return offset at which the
-    /// token begins
+    /// Finds the token of the present event. Every event must call this function first. @return offset at
+    /// which the token begins
     size_t beginToken();
     void key(const std::string& name);
     /// Begins a value and counts it within its array.

@@ -1,6 +1,6 @@
 /// @file order_members.h
-/// Members of a preset that define the drawing order of particles. They require the composition "sorted",
-/// because the other compositions sum media, and a sum does not depend on the order.
+/// Members of a preset that define the drawing order of particles. These members require the composition
+/// "sorted". The other compositions sum media, and a sum does not depend on the order.
 #pragma once
 
 #include "simulation/solver/effect_def.h"
@@ -18,14 +18,14 @@ struct OrderMember
     std::string text;    ///< text of the member, without spaces
 };
 
-/// Lists the members "order" with the value "oldest" or "youngest", and "orderBias" other than 0, by pointer.
+/// Lists the members "order" with the value "oldest" or "youngest", and "orderBias" other than 0.
 /// @param preset a valid preset
 std::vector<OrderMember> orderMembers(const nlohmann::json& preset);
 
-/// Text of the warning about one of these members, without a remedy.
+/// Text of the warning about a result of orderMembers(), without a remedy.
 std::string orderWarning(const OrderMember& member);
 
-/// Whether `composition` sums media, so that their order has no effect.
+/// Whether `composition` sums media. Then the order of particles has no effect.
 inline bool sumsUp(sim::PreferredComposition composition)
 {
     return composition > sim::PreferredComposition::Sorted;

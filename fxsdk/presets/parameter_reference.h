@@ -1,5 +1,6 @@
 /// @file parameter_reference.h
-/// Documentation of every member of presets and scenes. It is generated from the schemas, so that both agree.
+/// Documentation of every member of presets and scenes. The documentation is generated from the schemas and
+/// therefore agrees with them.
 #pragma once
 
 #include <string>

@@ -27,9 +27,9 @@ struct LoadedPreset
 /// Largest preset that is read [byte].
 constexpr uint64_t kPresetBytes = uint64_t(4) << 20;
 
-/// The presets that are compiled in; names are `NAME.fx.json`.
+/// The presets that are compiled into the library; names are `NAME.fx.json`.
 std::span<const base::EmbeddedText> presetLibrary();
-/// The presets and their assets: the library of a resolver.
+/// The presets and their assets, as the library of a resolver.
 std::span<const base::EmbeddedText> libraryFiles();
 
 /// Table to which images and meshes of presets are added.

@@ -58,7 +58,7 @@ public:
                 out = value;
     }
 
-    /// The member as an object; an empty one when it is absent.
+    /// The member as an object; an empty object when the member is absent.
     PresetValue child(const char* member) const;
     /// Number of elements of an array member, 0 when absent.
     size_t size(const char* member) const;
@@ -69,7 +69,7 @@ public:
     /// Reads the bytes of the asset that the member names.
     /// @return the resolver's error, NotFound when the member is absent or no resolver is set
     base::Result<std::string> readAsset(const char* member, uint64_t maxBytes) const;
-    /// Loader of the files that this document names; null if the document may name none.
+    /// Loader of the files that this document names; null if the document may not name files.
     asset::AssetLoader* assets() const { return findings_.assets(); }
 
     const std::string& pointer() const { return pointer_; }

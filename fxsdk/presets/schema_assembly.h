@@ -1,9 +1,9 @@
 /// @file schema_assembly.h
-/// Assembles the JSON Schemas (draft 7) of presets and scenes from the texts in schema/ and those of
+/// Assembles the JSON Schemas (draft 7) of presets and scenes from the texts in schema/ and the texts of
 /// techniques.
 ///
-/// `"x-kind"` names a type of value. It is expanded to the schema of that type. It is also kept for the
-/// documentation, as are `"x-unit"` and `"x-cost"`:
+/// `"x-kind"` names a type of value and is expanded to the schema of that type. The members `"x-kind"`,
+/// `"x-unit"` and `"x-cost"` are kept for the documentation. Types:
 ///   range       a number, or {"min": a, "max": b}
 ///   curve       a number, or {"keys": [[t, value], ...]}
 ///   colorCurve  a color,  or {"keys": [[t, color], ...]}

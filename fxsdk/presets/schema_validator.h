@@ -24,9 +24,9 @@ public:
     SchemaValidator& operator=(const SchemaValidator&) = delete;
 
     /// Adds an error to `findings` for each violation of the schema in `document`, until `findings` is full.
-    /// @param longArrays pointers to array members whose elements are checked one by one, so that the memory
-    ///         for findings stays small in documents with many elements
-    /// @param document modified temporarily, and restored
+    /// @param longArrays pointers to array members whose elements are checked one by one, to limit the
+    ///     memory for findings
+    /// @param document the document; it is modified temporarily, and restored before the return
     void validate(nlohmann::json& document, std::span<const std::string_view> longArrays,
                   Findings& findings) const;
 

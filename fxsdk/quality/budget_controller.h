@@ -1,11 +1,11 @@
 /// @file budget_controller.h
-/// Keeps frames within a time budget by choosing the quality of each technique. It uses no clock and no GL:
-/// frame times and elapsed time are inputs, so equal inputs give equal choices.
+/// Keeps frames within a time budget by choosing the quality of each technique. The code uses neither a
+/// clock nor GL. Frame times and elapsed time are inputs, so equal inputs give equal choices.
 ///
-/// Quality is lowered at once when the predicted time of the next frame exceeds 0.92 of the budget; the
-/// target is 0.8. Quality is raised by one step per technique after 45 frames without a change, but not
-/// within a second after lowering. If a rise is soon followed by a fall, this interval is doubled. Only
-/// drawing is affected, not the simulation.
+/// If the predicted time of the next frame exceeds 0.92 of the budget, quality is lowered at once; the
+/// target is 0.8 of the budget. After 45 frames without a change, quality is raised by one step per
+/// technique, but not within a second after lowering. If quality is lowered soon after a raise, the limit of
+/// 45 frames is doubled. Quality affects only drawing, not the simulation.
 #pragma once
 
 #include "fxsdk/quality/scalability_choice.h"
@@ -17,23 +17,25 @@ namespace fx::quality {
 class BudgetController
 {
 public:
-    static constexpr double kTarget = 0.8; ///< [1] target of the predicted time, as a share of the budget
-    static constexpr double kLimit = 0.92; ///< share of the budget above which quality is lowered at once
+    static constexpr double kTarget = 0.8; ///< [1] target of the predicted time divided by the budget
+    /// [1] predicted time divided by the budget, above which quality is lowered.
+    static constexpr double kLimit = 0.92;
     /// number of frames without a change before quality is raised
     static constexpr uint32_t kCalmFrames = 45;
     static constexpr double kRestSeconds = 1.0; ///< [s] minimum time between a lowering and the next raise
-    /// [s] If quality is lowered within this time after a raise, the number of frames before the next raise
-    /// doubles.
+    /// [s] Time after a raise. If quality is lowered within this time, the number of frames before the next
+    /// raise doubles.
     static constexpr double kProbation = 3.0;
-    static constexpr uint32_t kMaxPatience = 16; ///< maximum factor on kCalmFrames after repeated doubling
+    static constexpr uint32_t kMaxPatience = 16; ///< largest factor of kCalmFrames after repeated doubling
 
-    /// Starts with the highest level of each technique; throws std::bad_alloc. The other functions do not
-    /// allocate.
-    /// @param techniqueLevels 1 to kMaxTechniques, each with increasing costs and decreasing errors
+    /// Starts with the highest level of each technique. Throws std::bad_alloc. All other functions allocate
+    /// no memory.
+    /// @param techniqueLevels levels of 1 to kMaxTechniques techniques; costs must increase and errors
+    ///     decrease from level to level
     explicit BudgetController(std::vector<ScalabilityLevels> techniqueLevels);
 
-    /// Updates the cost model from a finished frame. Results may arrive late, so the caller also passes the
-    /// choice of that frame.
+    /// Updates the cost model from a finished frame. Times may arrive some frames later, so the caller also
+    /// passes the choice of the finished frame.
     /// @param milliseconds [ms] times, one per technique; negative: unknown
     void observe(const Choice& choice, std::span<const double> milliseconds);
 
@@ -41,7 +43,7 @@ public:
     {
         double budget = 0;    ///< [ms] > 0
         double deltaTime = 0; ///< [s] since the last call, >= 0
-        /// true: the frame is not typical, because the host loads or catches up, and quality does not change
+        /// true: quality does not change; for untypical frames, such as during loading
         bool hold = false;
         std::span<const double> weights; ///< [1] >= 0, weight of the error of each technique
     };
@@ -53,10 +55,10 @@ public:
     const CostModel& costs() const { return costs_; }
     double predicted() const { return predicted_; } ///< [ms] predicted time of the last choice
     double error() const { return error_; }         ///< [1] estimated error of the last choice
-    /// whether even the lowest levels are expected to exceed the budget
+    /// true if even the lowest levels are predicted to exceed the budget
     bool isSaturated() const { return saturated_; }
-    uint64_t switches() const { return switches_; } ///< number of frames that changed a choice
-    void reset();                                   ///< starts again at the highest levels
+    uint64_t switches() const { return switches_; } ///< number of frames with a changed choice
+    void reset();                                   ///< resets the choice to the highest levels
 
 private:
     struct Memory ///< changes of one technique

@@ -1,7 +1,7 @@
 /// @file calibration_file.h
 /// Reads and writes quality calibrations as JSON text. Messages name file, position and remedy.
 ///
-/// Threads: any; nothing is shared between calls.
+/// Threads: any; calls share no data.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -14,7 +14,7 @@
 
 namespace fx::quality {
 
-/// Largest calibration that is read [byte].
+/// [byte] Largest size of a calibration.
 constexpr size_t kCalibrationBytes = size_t(64) << 10;
 
 /// Parses a calibration.
@@ -22,14 +22,14 @@ constexpr size_t kCalibrationBytes = size_t(64) << 10;
 /// @return Parse, TooLarge, Version, Schema with the first findings, one per line
 base::Result<Calibration> readCalibration(std::string_view text, const std::string& displayName);
 
-/// The calibration that is built in.
+/// Returns the built-in calibration.
 base::Result<Calibration> builtInCalibration();
 
 nlohmann::ordered_json toJson(const Calibration& calibration);
 nlohmann::ordered_json toJson(const Knobs& knobs);
 /// Formats knobs for display: {"particles": 0.5, "detail": true} gives "particles 0.5, detail on".
 std::string toText(const Knobs& knobs);
-/// Writes the text that readCalibration() reads, one level per line.
+/// Returns a calibration as text for readCalibration(), one level per line.
 std::string calibrationText(const Calibration& calibration);
 
 } // namespace fx::quality

@@ -16,18 +16,18 @@ struct ChoiceInputs
     std::span<const double> weights; ///< [1] >= 0, importance of each technique on the screen
 };
 
-/// [ms] Time of a choice that the cost model predicts.
+/// [ms] Predicted time of a choice, from the cost model.
 double predictedMilliseconds(const ChoiceInputs& in, const Choice& choice);
-/// [1] Sum of the errors of the levels, weighted by the techniques' weights.
+/// [1] Sum of the errors of the chosen levels, each times the weight of its technique.
 double estimatedError(const ChoiceInputs& in, const Choice& choice);
 
-/// Raises levels, beginning at `from`, as long as `milliseconds` are not exceeded. Each time it takes the
-/// rise with the largest decrease of error per millisecond; a rise may skip levels. Returns `from` if `from`
-/// is already too slow.
+/// Raises levels, beginning at `from`, within a predicted time of `milliseconds`. Each step is the raise
+/// with the largest decrease of error per millisecond. A raise may skip levels. Returns `from` if `from` is
+/// already too slow.
 /// @param most upper limit of the level of each technique
 Choice climb(const ChoiceInputs& in, const Choice& from, const Choice& most, double milliseconds);
 
-/// The highest level of each technique.
+/// Returns the highest level of each technique.
 Choice highest(std::span<const ScalabilityLevels> techniqueLevels);
 
 } // namespace fx::quality

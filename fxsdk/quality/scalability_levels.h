@@ -1,5 +1,5 @@
 /// @file scalability_levels.h
-/// Cost and error of a technique at each level. Quality is chosen by them.
+/// Cost and error of a technique at each level. The budget controller chooses levels by cost and error.
 #pragma once
 
 #include "rendering/techniques/draw_techniques.h"
@@ -16,16 +16,17 @@ namespace fx::quality {
 
 constexpr size_t kMaxTechniques = 8; ///< maximum number of techniques in a choice
 constexpr size_t kMaxSteps = 16;     ///< maximum number of levels of one technique
-constexpr size_t kMaxKnobs = 16;     ///< maximum number of knobs of all techniques
+constexpr size_t kMaxKnobs = 16;     ///< maximum number of knobs (settings) of all techniques
 
-/// Settings that a level lowers, by render::QualityKnob::name. All other settings keep the host's values.
+/// Settings (knobs) that a level lowers, by render::QualityKnob::name. All other settings keep the host's
+/// values.
 class Knobs
 {
 public:
     struct Setting
     {
         std::string_view name; ///< has static storage
-        float value;           ///< as for render::QualityKnob::lower
+        float value;           ///< argument of render::QualityKnob::lower
     };
 
     Knobs() = default;
@@ -43,23 +44,24 @@ private:
     size_t count_ = 0;
 };
 
-/// One setting of a technique.
+/// One quality level of a technique.
 struct ScalabilityLevel
 {
     double cost = 0; ///< [1] time relative to the highest level, >= 0
-    /// [1] mean difference from the picture of the highest level, relative to the light in that picture
+    /// [1] mean difference from the picture of the highest level, divided by the mean light of that picture
     double error = 0;
     Knobs knobs;
 };
 
-/// The useful levels of one technique. Each level has a higher cost and a lower error than the one before.
+/// The useful levels of one technique. Each level has a higher cost and a lower error than the previous
+/// level.
 struct ScalabilityLevels
 {
     std::string technique;
     std::vector<ScalabilityLevel> steps; ///< 1 to kMaxSteps
 
-    /// Composition of the views to which these levels apply; empty: all views whose composition has no levels
-    /// of its own.
+    /// Composition of the views to which the levels apply. Empty: the levels apply to all compositions
+    /// without specific levels.
     std::optional<render::Composition> composition = {};
 };
 
@@ -69,10 +71,10 @@ struct Calibration
     std::vector<ScalabilityLevels> techniqueLevels;
 };
 
-/// The levels of each technique for views with `composition`, in the order of the calibration.
+/// Returns the levels of each technique for views with `composition`, in the order of the calibration.
 std::vector<ScalabilityLevels> levelsFor(const Calibration& calibration, render::Composition composition);
 
-/// Calls f(knob) for every render::QualityKnob of the techniques, in their order.
+/// Calls f(knob) for every render::QualityKnob of the techniques, in the order of techniques.
 template <class F>
 void forEachKnob(F&& f, render::DrawTechniques techniques = render::drawTechniques())
 {
@@ -82,13 +84,13 @@ void forEachKnob(F&& f, render::DrawTechniques techniques = render::drawTechniqu
                 f(knob);
 }
 
-/// The knobs of `first`, and those of `second` that `first` does not contain.
+/// Returns the knobs of `first`, and the knobs of `second` that are not in `first`.
 Knobs merged(const Knobs& first, const Knobs& second);
 
-/// Index of the chosen level of each technique.
+/// For each technique, index of the chosen level.
 using Choice = std::array<uint8_t, kMaxTechniques>;
 
-/// Lowers `ioSettings` to the values of the knobs; never raises them.
+/// Lowers `ioSettings` to the values of the knobs. Settings are never raised.
 void apply(const Knobs& knobs, render::ViewSettings& ioSettings);
 
 } // namespace fx::quality

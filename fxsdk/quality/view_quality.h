@@ -2,7 +2,7 @@
 /// Applies the levels chosen by the controller to each frame of a view, and passes frame times to the
 /// controller.
 ///
-/// Threads: [GL thread]. Steady state allocates nothing.
+/// Threads: [GL thread]. Repeated frames allocate no memory.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -13,7 +13,7 @@
 
 namespace fx::quality {
 
-/// The host's budget.
+/// The host's time budget.
 struct BudgetOptions
 {
     double milliseconds = 0; ///< [ms] time budget of a frame; 0: settings are used unchanged
@@ -23,32 +23,31 @@ struct BudgetOptions
 class ViewQuality
 {
 public:
-    /// Sets the options of the budget. If no calibration was set, the built-in one is used.
+    /// Sets the options of the budget. If no calibration was set, the built-in calibration is used.
     base::Status setOptions(const BudgetOptions& options);
     const BudgetOptions& options() const { return options_; }
     /// Replaces the scalability levels and resets the cost model. Strong guarantee.
     void setCalibration(Calibration calibration);
 
-    /// Forces the settings of `knobs`, for measurements; empty ends this. Frames are timed, and the cost
-    /// model does not change.
+    /// Forces the settings of `knobs`, for measurements. Frames are timed, but the cost model does not
+    /// change. Empty: settings are no longer forced.
     void force(const std::optional<Knobs>& knobs) { forced_ = knobs; }
 
-    /// Lowers the renderer's settings for the next frame. end() restores them.
+    /// Lowers the renderer's settings for the next frame. end() restores the settings.
     void begin(render::ViewRenderer& renderer, double deltaTime, bool hold);
     void end(render::ViewRenderer& renderer);
-    /// Collects the available frame times. begin() and end() call it too.
+    /// Collects the available frame times. begin() and end() also call this function.
     void collect(render::ViewRenderer& renderer);
 
-    /// Clock in use: Off without a budget; otherwise Gpu or Host as requested. Empty if GL has no timestamps;
-    /// quality is fixed then.
+    /// The clock in use. Off: there is no budget. Empty: GL has no timestamps, and quality is fixed.
     std::optional<render::TimingClock> clock() const { return clock_; }
-    /// Whether the controller chose the settings of the last frame.
+    /// True if the controller chose the settings of the last frame.
     bool isControlled() const
     {
         return hasCalibration() && !forced_ && clock_ && *clock_ != render::TimingClock::Off;
     }
-    /// The controller for the composition of the last frame; null before a calibration is set. The last of
-    /// its techniques represents passes whose cost no technique can lower.
+    /// Returns the controller for the composition of the last frame, or null before a calibration is set.
+    /// The controller's last technique represents passes with constant cost.
     const BudgetController* controller() const
     {
         return hasCalibration() ? &*controllers_[active_] : nullptr;
@@ -56,7 +55,7 @@ public:
     const Choice& choice() const { return chosen_; } ///< levels of the last frame
     bool wasHeld() const { return held_; }
     std::span<const double> weights() const { return weights_; } ///< weights of the last frame
-    /// Times of the last finished frame; empty before the first one.
+    /// Times of the last finished frame; empty before the first finished frame.
     const std::optional<render::GroupTimes>& times() const { return times_; }
 
 private:
@@ -67,7 +66,8 @@ private:
     bool hasCalibration() const { return controllers_[0].has_value(); }
     std::optional<BudgetController>& active() { return controllers_[active_]; }
 
-    /// One controller for each composition that a host can request. Either all are set or none is.
+    /// One controller for each composition that a host can request. Either all controllers are set, or no
+    /// controller is set.
     std::array<std::optional<BudgetController>, render::kCompositionCount> controllers_;
     size_t active_ = 0;
     std::optional<Knobs> forced_;

@@ -1,6 +1,6 @@
 /// @file id_table.h
-/// A table of values with generational ids, which are stale after the removal of their value, and their
-/// 64-bit encoding.
+/// A table of values with generational ids, and the 64-bit encoding of ids. An id becomes stale when its
+/// value is removed.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -18,9 +18,9 @@ namespace fx::scene {
 constexpr unsigned kIdPartBits = 24; ///< bits of the index, and bits of the generation
 constexpr uint64_t kIdPartMask = (uint64_t(1) << kIdPartBits) - 1;
 
-/// Identity within one table: index (24 bits) | generation of that index (24 bits); 0 for none. The same
-/// calls give the same identities in every run, so identities may be hashed. Ids of the C API differ from run
-/// to run (see IdCodec).
+/// Identity of a value within one table: index (24 bits) and generation of the index (24 bits); 0: no value.
+/// Equal sequences of calls give equal identities in every run, so identities may be hashed. Ids of the C
+/// API differ from run to run (see IdCodec).
 using LocalId = uint64_t;
 
 constexpr uint32_t indexOf(LocalId id)
@@ -28,11 +28,12 @@ constexpr uint32_t indexOf(LocalId id)
     return uint32_t(id & kIdPartMask);
 }
 
-/// A table of T. Removed indices are reused first-in first-out, so that an index stays unused for as long as
-/// possible. An index whose generations are used up is never used again, so ids are unique.
+/// A table of T. Free indices are reused in the order of their removal (first-in first-out), so that an
+/// index stays unused for as long as possible. An index is retired when all its generations have been used,
+/// so ids are unique.
 ///
-/// An index takes a few bytes. Values are stored densely in a separate array. The length of that array is the
-/// largest number of simultaneous values, independent of the number of indices.
+/// An index takes a few bytes. Values are stored densely in a separate array. The length of the array is the
+/// largest number of simultaneous values so far.
 template <class T>
 class IdTable
 {
@@ -44,13 +45,13 @@ public:
         : slots_(memory), values_(memory), freePlaces_(memory), capacity_(capacity), lastUse_(lastUse)
     {}
 
-    /// Adds a value. Strong exception guarantee. @return its id; 0 when the table is full
+    /// Adds a value. Strong exception guarantee. @return id of the value; 0 if the table is full
     LocalId add(T value)
     {
         if (count_ == capacity_ || (firstFree_ == kNone && slots_.size() == kIdPartMask))
             return 0;
         if (freePlaces_.empty())
-            makePlace(); // may throw, as emplace_back() may; nothing throws afterwards
+            makePlace(); // may throw, like emplace_back(); the following code cannot throw
         if (firstFree_ == kNone) {
             slots_.emplace_back();
             firstFree_ = lastFree_ = uint32_t(slots_.size() - 1);
@@ -63,14 +64,14 @@ public:
         return (uint64_t(slot.use) << kIdPartBits) | index;
     }
 
-    /// Reverts the last add(): later ids are the same as if it had not been called. Requires that no value
-    /// was added or removed since. Allocates nothing.
+    /// Reverts the last add(). Later ids do not depend on the reverted call. No other value may have been
+    /// added or removed since the add(). Allocates no memory.
     void cancel(LocalId id)
     {
         const uint32_t index = indexOf(id);
         Slot& slot = slots_[index];
         drop(slot);
-        if (--slot.use == 0) { // the index was created by that add()
+        if (--slot.use == 0) { // the reverted add() has created the index
             slots_.pop_back();
             return;
         }
@@ -80,7 +81,8 @@ public:
         firstFree_ = index;
     }
 
-    /// Finds a value; null when the id is stale. The pointer is valid until the next add() or remove().
+    /// Returns the value of an id, or null if the id is stale. The pointer is valid until the next add() or
+    /// remove().
     T* find(LocalId id)
     {
         const uint32_t index = indexOf(id);
@@ -89,7 +91,7 @@ public:
         return &values_[slots_[index].link];
     }
 
-    /// Removes a value. The id must name a value of this table. Allocates nothing.
+    /// Removes a value. The id must name a value of this table. Allocates no memory.
     void remove(LocalId id)
     {
         const uint32_t index = indexOf(id);
@@ -105,14 +107,14 @@ public:
         lastFree_ = index;
     }
 
-    /// The value at `index`, which must be in use.
+    /// Returns the value at `index`. The index must be in use.
     T& at(uint32_t index) { return values_[slots_[index].link]; }
     const T& at(uint32_t index) const { return values_[slots_[index].link]; }
     LocalId idAt(uint32_t index) const { return (uint64_t(slots_[index].use) << kIdPartBits) | index; }
 
     uint32_t count() const { return count_; }
 
-    /// Calls f(index, value) for all values by ascending index.
+    /// Calls f(index, value) for all values, by ascending index.
     template <class F>
     void forEach(F&& f) const
     {
@@ -138,8 +140,8 @@ public:
         writer.value(kNone);
     }
 
-    /// Restores identities into an empty table; restoreValue() returns the values. Memory grows with the
-    /// bytes read and the number of values, which must not exceed the capacity.
+    /// Restores identities into an empty table. restoreValue() returns the values. The number of values must
+    /// not exceed the capacity. Memory grows with the number of bytes read and the number of values.
     template <class F>
     void restore(sim::StateReader& reader, F&& restoreValue)
     {
@@ -171,12 +173,12 @@ private:
     static constexpr uint32_t kNone = ~0u;
     struct Slot
     {
-        uint32_t use = 0;      ///< number of times the index has been used, its generation
-        uint32_t link = kNone; ///< index of the value while in use, otherwise the next free index
+        uint32_t use = 0;      ///< generation: number of times the index has been used
+        uint32_t link = kNone; ///< if used: position of the value in values_; if free: the next free index
         bool used = false;
     };
 
-    /// Adds a free place to the array of values. Strong exception guarantee.
+    /// Adds an unused element to the array of values. Strong exception guarantee.
     void makePlace()
     {
         if (freePlaces_.capacity() <= values_.size()) // drop() must not fail
@@ -222,8 +224,8 @@ private:
         }
     }
 
-    std::pmr::vector<Slot> slots_; ///< by index
-    std::pmr::vector<T> values_;   ///< values, in any order; Slot::link is the index
+    std::pmr::vector<Slot> slots_; ///< slots; the position is the index
+    std::pmr::vector<T> values_;   ///< values, in any order; Slot::link is an index in this array
     std::pmr::vector<uint32_t> freePlaces_;
     uint32_t capacity_;
     uint32_t lastUse_;
@@ -232,9 +234,9 @@ private:
     uint32_t lastFree_ = kNone;
 };
 
-/// Converts local identities to ids of the C API and back: index 24 | generation 24 | owner 8 | type 8 bits.
-/// The owner bits and an offset of the generation differ from object to object. Therefore an id of another
-/// owner is mistaken for a valid one with a probability of at most 2^-32.
+/// Converts local identities to ids of the C API and back. An id consists of index (24 bits), generation (24
+/// bits), owner (8 bits) and type (8 bits). The owner bits and an offset of the generation differ from
+/// object to object. Therefore an id of another owner is accepted with a probability of at most 2^-32.
 class IdCodec
 {
 public:
@@ -251,7 +253,8 @@ public:
         return (id & kIdPartMask) | (generation << kIdPartBits) | (owner() << 48) | (uint64_t(type) << 56);
     }
 
-    /// Converts an id of the C API to a local identity; 0 when `bits` is not an id of this owner and type.
+    /// Converts an id of the C API to a local identity. Returns 0 if `bits` is not an id of this owner and
+    /// type.
     LocalId decode(uint64_t bits, uint8_t type) const
     {
         if (bits >> 56 != type || ((bits >> 48) & 0xFF) != owner())

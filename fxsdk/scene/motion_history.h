@@ -1,5 +1,5 @@
 /// @file motion_history.h
-/// Extremes of placement and wind of an instance over the lifetime of its particles.
+/// Records the extremes of placement and wind of an instance over the lifetime of its particles.
 ///
 /// Time is divided into intervals at least as long as the longest lifetime. All living particles were born
 /// within the last two intervals. Two sets of extremes therefore suffice, however often the host moves the
@@ -21,10 +21,10 @@ struct BoundsInputs
 {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}; ///< [m] world, range of positions
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-    float smallest = std::numeric_limits<float>::infinity(); ///< [1] scale
+    float smallest = std::numeric_limits<float>::infinity(); ///< [1] smallest scale
     float largest = 0;
     float wind = 0;                ///< [m/s] world, wind of the host
-    float localWind = 0;           ///< [m/s] local
+    float localWind = 0;           ///< [m/s] wind in local space
     double speed = 0;              ///< [m/s] world, largest speed of births, in the instance's time
     uint32_t slowest = UINT32_MAX; ///< see sim::InstanceClock::rate
 
@@ -39,22 +39,21 @@ public:
     /// @param now [tick] scene time, increasing
     /// @param seconds [s] longest lifetime of particles, in the instance's time
     void note(base::Ticks now, const BoundsInputs& is, float seconds);
-    /// Restarts the current interval at `now`. For an instance whose local time has not advanced since the
-    /// last call of note(): the scene time in between does not age its particles.
+    /// Restarts the current interval at `now`. The function is for an instance whose local time has not
+    /// advanced since the last call of note(), so that its particles have not aged.
     void restart(base::Ticks now) { begun_ = now; }
-    /// Marks the past as unknown.
+    /// Marks the extremes of the past as unknown.
     void forget() { unknown_ = 2; }
 
     bool isKnown() const { return unknown_ == 0; }
-    /// Whether all recorded inputs equal the present ones. Recording the present ones again then has no
-    /// effect.
+    /// True if all recorded inputs equal the present inputs. Then another call of note() has no effect.
     bool isSettled() const;
     BoundsInputs all() const;
 
 private:
     BoundsInputs last_, newer_, older_;
     base::Ticks begun_ = 0;
-    int unknown_ = 0; ///< number of intervals that must end until the past is known
+    int unknown_ = 0; ///< number of intervals that must end until the extremes are known
 };
 
 } // namespace fx::scene

@@ -1,6 +1,6 @@
 /// @file scene.h
-/// A scene: the table of existing instances over the simulated world, the active instances, and the snapshots
-/// for views.
+/// A scene: the table of all instances, the simulated world of the active instances, and the snapshots for
+/// views.
 ///
 /// Threads: one thread at a time (the scene thread); acquire() and release() from any thread.
 #pragma once
@@ -37,28 +37,28 @@ struct SceneOptions
     uint32_t maxInstances = 65'536;
     sim::Environment environment;
     bool shareInstances = true; ///< false: identical instances are simulated one by one
-    bool culling = true;        ///< false: every instance is always stepped
-    bool lockStep = false;      ///< true: instances that cannot be caught up bit for bit are never hidden
-    /// time out of sight after which memory is released
+    bool culling = true;        ///< false: instances are never hidden
+    bool lockStep = false;      ///< true: an instance is hidden only if its catch-up is bit-identical
+    /// time out of sight after which the memory of an instance is released
     base::Ticks releaseAfter = 5 * base::kTicksPerSecond;
-    base::Ticks maxCatchUp = 30 * base::kTicksPerSecond; ///< longest absence that is replayed
+    base::Ticks maxCatchUp = 30 * base::kTicksPerSecond; ///< longest time out of sight that is replayed
     uint64_t catchUpSteps = 200'000; ///< particle steps that one update may spend on replays
     /// [unit of base::WorkBudget] largest amount of work of one update
     uint64_t workBudget = base::kNoWorkLimit;
 };
 
-/// Lifecycle state of an instance. An update does not visit dormant, hidden, resting and finished instances.
+/// Lifecycle state of an instance. An update visits only active and waking instances.
 enum class InstanceState : uint32_t
 {
     Dormant,  ///< before its start; not in the world
     Active,   ///< stepped and shown
     Finished, ///< after its end; not in the world
     Waking,   ///< in sight again and catching up
-    Resting,  ///< has no particles, and no births before a known time
-    Hidden,   ///< out of sight: paused
+    Resting,  ///< has no particles, and no birth is due yet
+    Hidden,   ///< paused, because it is out of sight
 };
 
-/// Why an instance is not active.
+/// Reason why an instance is not active.
 enum class Reason : uint32_t
 {
     None,
@@ -68,7 +68,7 @@ enum class Reason : uint32_t
     TooSmall,
     Occluded,   ///< marked as occluded by the host
     Budget,     ///< hidden by the budget, because other instances are more significant
-    CatchingUp, ///< its past is being simulated
+    CatchingUp, ///< its missed steps are being simulated
     NothingMoves,
     Ended,
 };
@@ -82,36 +82,36 @@ struct Mark
     Reason reason;
 };
 
-/// Hints of the host about the significance of an instance.
+/// The host's hints about the significance of an instance.
 struct ActivationHints
 {
-    float priority = 1;    ///< [1] factor on the size on the picture
-    float maxDistance = 0; ///< [m] largest distance at which it is seen; 0: no limit
+    float priority = 1;    ///< [1] factor of the size on the picture
+    float maxDistance = 0; ///< [m] largest distance at which the instance is visible; 0: no limit
     bool occluded = false;
 };
 
-/// Counters of the last update; all but the estimate are exact.
+/// Counters of the last update.
 struct UpdateCounters
 {
     uint32_t judged = 0;   ///< number of instances and tree nodes that were tested against the frusta
     uint32_t hidden = 0;   ///< number of instances that went out of sight
-    uint32_t returned = 0; ///< number of instances that have reached the present again
-    uint32_t denied = 0;   ///< number of instances that are now in sight but beyond the budget
+    uint32_t returned = 0; ///< number of instances that have finished catching up
+    uint32_t denied = 0;   ///< present number of instances that are in sight, but hidden by the budget
     base::Ticks catchUpTicks = 0;
     uint64_t catchUpParticleSteps = 0;
-    uint64_t workUnits = 0; ///< [unit of base::WorkBudget] work, including that of catching up
+    uint64_t workUnits = 0; ///< [unit of base::WorkBudget] work of the update, including catch-ups
     sim::StepCounters work;
 };
 
-/// Initial values of an instance. The caller has validated them.
+/// Initial values of an instance. The caller must validate the values.
 struct InstanceSetup
 {
     std::shared_ptr<const sim::EffectDef> effect;
     uint64_t seed = 0;
-    base::Ticks startTick = 0; ///< if it is in the past, the instance starts with the next step
+    base::Ticks startTick = 0; ///< start; for a past tick, the instance starts with the next step
     base::Placement placement;
-    /// Placement at the last step, if the host has moved the instance since. Set only if the effect depends
-    /// on it.
+    /// Placement at the last step, if the host has moved the instance since the last step. Set only if the
+    /// effect depends on its placement.
     std::optional<base::Placement> cameFrom = {};
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
@@ -123,29 +123,29 @@ struct InstanceSetup
 /// Exact counts since the scene was created, unless marked "now".
 struct SceneCounters
 {
-    uint32_t instances = 0;   ///< now; sum of the six counters below
+    uint32_t instances = 0;   ///< now; sum of the following six counters
     uint32_t dormant = 0;     ///< now
     uint32_t active = 0;      ///< now
     uint32_t finished = 0;    ///< now
     uint32_t waking = 0;      ///< now
     uint32_t resting = 0;     ///< now
     uint32_t hidden = 0;      ///< now
-    uint32_t simulations = 0; ///< now; at most `active`, because identical instances share one
+    uint32_t simulations = 0; ///< now; at most `active`, because identical instances share one simulation
     uint64_t steps = 0;
     uint64_t wakeFailures = 0;
     uint64_t refusedUpdates = 0;
-    uint64_t catchUpsSkipped = 0; ///< number of absences that were too long to be replayed
+    uint64_t catchUpsSkipped = 0; ///< number of times that an instance was hidden too long for a replay
     base::Ticks droppedTicks = 0;
     sim::StepCounters work;
 };
 
-/// Input of a view: two steps and the position of the shown time between them.
+/// Input of a view: the snapshots of two steps, and the shown moment between the steps.
 struct Presentation
 {
     base::SnapshotPair snapshots;
     double interpolation = 0; ///< [0, 1), 0 shows the older step
     double time = 0;          ///< [s] scene time of the picture
-    /// Drawing hints of all instances that have not ended. They do not depend on the camera.
+    /// Drawing hints of all instances that have not ended. The hints do not depend on the camera.
     sim::DrawingHints hints;
 };
 
@@ -155,29 +155,30 @@ public:
     Scene(const SceneOptions& options, const base::SnapshotSchema* schema, base::TaskRunner* tasks,
           std::pmr::memory_resource* memory);
 
-    /// Adds an instance. Strong guarantee, also when memory is exhausted. @return 0 when the scene is full
+    /// Adds an instance. Strong guarantee, also if memory is exhausted. @return 0 if the scene is full
     LocalId add(InstanceSetup setup);
     bool contains(LocalId id) { return instances_.find(id) != nullptr; }
 
-    // If an earlier update has left a step incomplete, changes take effect at the end of that step. A step
+    // If an earlier update has left a step incomplete, changes take effect at the end of the step. A step
     // ends with its publication.
 
     // The id must name an instance of this scene.
     void remove(LocalId id);
-    /// Returns the state of an instance. In lock-step mode the instance is first caught up, so that the
-    /// result does not depend on cameras.
+    /// Returns the state of an instance. In lock-step mode, the instance is first caught up. So the result
+    /// does not depend on cameras.
     InstanceState state(LocalId id);
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     /// @param rate see sim::InstanceClock
     void setRate(LocalId id, uint32_t rate);
-    /// Moves an instance to a local time. The next update() publishes the result, even if that update takes
+    /// Moves an instance to a local time. The next update() publishes the result, even if the update takes
     /// no step.
     /// @return InvalidArgument before the start and after the end of the instance
     base::Status seek(LocalId id, base::Ticks local);
     /// Triggers the host event `name` of an instance's preset `count` times.
-    /// @return NotFound when its preset has no such event, InvalidArgument before its start
+    /// @return NotFound (the preset has no event of this name), InvalidArgument (the instance has not
+    ///     started)
     base::Status postEvent(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
 
@@ -187,24 +188,24 @@ public:
         InstanceState state = InstanceState::Finished;
         Reason reason = Reason::None;
         sim::CatchUp policy = sim::CatchUp::Replay;
-        base::Ticks lag = 0;     ///< time not simulated yet
-        double significance = 0; ///< [pixel] times priority
+        base::Ticks lag = 0;     ///< time that has not been simulated yet
+        double significance = 0; ///< [pixel] size on the picture, times priority
         double reach = 0;        ///< [m] world; infinite when unknown
         uint32_t particles = 0;
         double milliseconds = 0; ///< estimated time of a step
     };
     Activity activity(LocalId id);
 
-    /// Sets the frusta that decide visibility. Strong guarantee. @param frusta empty: every instance is in
-    /// sight
+    /// Sets the view frusta, against which instances are tested. Strong guarantee. @param frusta empty:
+    /// every instance is in sight
     void setFocus(std::span<const activation::Frustum> frusta);
     void setBudget(const activation::Budget& budget);
 
-    /// Replaces the geometry that effects collide with; null for none. Strong guarantee.
+    /// Replaces the geometry that effects collide with; null: no geometry. Strong guarantee.
     /// @param cellSize see sim::DistanceField::build
-    /// @return the error of building the field
+    /// @return the error of sim::DistanceField::build
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
-    /// As setCollisionMesh(), but with a field that has already been built.
+    /// Replaces the collision geometry by a field that has already been built.
     void setCollisionField(std::shared_ptr<const sim::DistanceField> field)
     {
         world_.setField(std::move(field));
@@ -218,47 +219,50 @@ public:
     }
     /// Number of invalid results of the contact callback since the last call.
     uint64_t takeContactFaults() { return world_.takeContactFaults(); }
-    /// See sim::World::setGpuParticles.
+    /// Selects whether particles are computed on the GPU, see sim::World::setGpuParticles.
     void setGpuParticles(bool onGpu) { world_.setGpuParticles(onGpu); }
 
-    /// Advances by dt [s] and publishes the last two of the steps taken. If the work budget is used up before
-    /// all steps are complete, the next updates continue them, and simulated time lags. If memory is
-    /// exhausted in a step, throws std::bad_alloc after all steps: time has advanced, and instances without
-    /// memory are missing.
-    /// @return false when dt was negative or not finite; then only the counter of refused updates has changed
+    /// Advances the scene by dt [s] and publishes the last two steps. If the work budget is used up before
+    /// all steps are complete, the next updates continue the steps, and simulated time lags. If memory is
+    /// exhausted in a step, the function throws std::bad_alloc after all steps. Then time has advanced, and
+    /// instances without memory are missing.
+    /// @return false if dt is negative or not finite; the scene then does not change, except for the counter
+    ///     of refused updates
     bool update(double dt);
 
     SceneCounters counters() const;
     uint32_t particles() const; ///< sum over all active instances
     const UpdateCounters& lastUpdate() const { return update_; }
-    double nanosecondsPerParticle() const; ///< [ns] time of one particle in one step, given or measured
+    /// [ns] time of one particle in one step, from the budget or measured.
+    double nanosecondsPerParticle() const;
     const base::StepClock& clock() const { return clock_; }
-    /// Hash of the published particles of the last step and of the time of that step. It does not depend on
-    /// the division of time into updates.
+    /// Hash of the published particles and of the time of the last step. The hash does not depend on the
+    /// division of time into updates.
     uint64_t stateHash();
 
-    /// Hash of everything that later steps depend on. It excludes the remainder of the clock and so does not
-    /// depend on the frame rate. Hidden instances are first caught up if that does not change later results.
+    /// Hash of all data that later steps depend on. The hash excludes the remainder of the clock, and so
+    /// does not depend on the frame rate. A hidden instance is first caught up, if its catch-up is
+    /// bit-identical.
     uint64_t simulationHash();
     /// Writes the state for restore(). Hidden instances are first caught up.
     void save(sim::StateWriter& writer);
-    /// Function that returns the effect with a fingerprint, for effects that no instance uses; null when it
-    /// does not exist.
+    /// Function that returns the effect with a fingerprint, or null if the effect does not exist. restore()
+    /// calls the function for effects that no instance of the scene uses.
     using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
-    /// Restores the state, including identities, of a scene with the same step, gravity, ground and geometry,
-    /// and publishes it. Strong guarantee.
-    /// @return Parse, NotFound (an effect), InvalidArgument (another step, gravity, ground or
-    /// geometry), Capacity
+    /// Restores a saved state, including identities, and publishes it. Step, gravity, ground and geometry of
+    /// the saved scene must equal the values of this scene. Strong guarantee.
+    /// @return Parse, NotFound (an effect), InvalidArgument (different step, gravity, ground or geometry),
+    ///     Capacity
     base::Status restore(std::span<const std::byte> bytes, const FindEffect& findEffect);
-    /// Calls f(id) for each instance by ascending index.
+    /// Calls f(id) for each instance, by ascending index.
     template <class F>
     void forEach(F&& f) const
     {
         instances_.forEach([&](uint32_t index, const Instance&) { f(instances_.idAt(index)); });
     }
 
-    /// Enables marks for one more view, or disables them for one view. While any view needs marks, each
-    /// update() visits all instances and writes a mark for each. [any thread]
+    /// Enables or disables marks for one view. While a view needs marks, each update() visits all instances
+    /// and writes one mark per instance. [any thread]
     /// @param more true: enable
     void wantMarks(bool more) { marksWanted_.fetch_add(more ? 1 : -1); }
     /// Copies the marks of the last update(). [any thread]
@@ -280,16 +284,17 @@ private:
         sim::CatchUp policy = sim::CatchUp::Replay;
         activation::SphereHierarchy::Leaf leaf = activation::SphereHierarchy::kNone;
         bool hasAlarm = false;
-        bool wasResting = false; ///< whether it was resting when it began to wake
+        bool wasResting = false; ///< true: the instance was resting before it began to wake
         /// true: the instance is waking, and its replay exceeded the work of the update in which it began to
         /// wake
         bool isLate = false;
-        uint32_t lastParticles = 0; ///< number of particles when it was hidden
+        uint32_t lastParticles = 0; ///< number of particles when the instance was hidden
         ActivationHints hints;
         double reach = 0;     ///< [m] world
         float localReach = 0; ///< [m] reach of the effect in local space, in a wind of reachWind
-        float reachWind = -1; ///< [m/s] local; negative before reachWind was measured
-        /// extremes of past placements and winds; null while the present values suffice for the bounds
+        /// [m/s] local wind for which localReach was computed; negative: localReach is not valid.
+        float reachWind = -1;
+        /// extremes of past placements and winds; null: the present values suffice for the bounds
         std::unique_ptr<MotionHistory> past;
     };
     struct Restored; ///< a state that is being restored
@@ -316,7 +321,7 @@ private:
     void makeChanges();
     void letArrive();
     void wait(uint32_t index);
-    /// Tick from which a change made now takes effect.
+    /// Tick from which a present change takes effect.
     base::Ticks present() const
     {
         return clock_.simulated() + (world_.isStepping() ? clock_.stepTicks() : 0);
@@ -363,7 +368,7 @@ private:
     void stageReturned(base::Ticks tick);
     void showSought();
     void heedSought(const base::StepPlan& plan);
-    /// Sets the time that views show. The caller must hold the mutex presentation_, unless nothing is
+    /// Sets the time that views show. The caller must hold the mutex presentation_, unless no particle is
     /// visible.
     void show(base::Ticks newest, double interpolation);
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
@@ -397,21 +402,22 @@ private:
     activation::FocusSet focus_;
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch
-    /// instances that entered the world with a past that is not simulated yet
+    /// instances in the world whose past is not simulated yet
     std::pmr::vector<LocalId> arrived_;
     std::pmr::vector<Seek> seeks_; ///< seeks requested during an incomplete step
     base::WorkBudget work_;        ///< budget of the present update
-    uint64_t stepWork_ = 0;        ///< [unit of base::WorkBudget] work spent on the open step
-    /// [unit of base::WorkBudget] work spent on the open publication, or else on the last one
+    uint64_t stepWork_ = 0;        ///< [unit of base::WorkBudget] work spent on the incomplete step
+    /// [unit of base::WorkBudget] work of the present publication, or of the last publication if none is in
+    /// progress
     uint64_t shownWork_ = 0;
     base::Ticks published_ = 0; ///< scene time of the last publication
-    /// ids of instances whose InstanceSetup::cameFrom is set; may contain other ids
+    /// ids of all instances whose InstanceSetup::cameFrom is set; may contain additional ids
     std::pmr::vector<LocalId> moved_;
     bool visibilityStale_ = false; ///< true: an instance or a camera has moved since visibility was tested
     bool memoryFailed_ = false;
-    bool sought_ = false; ///< true: seek() has taken an instance to a time that is not published yet
+    bool sought_ = false; ///< true: the result of a seek() is not published yet
     UpdateCounters update_;
-    /// Number of empty publications after which a further one has no effect.
+    /// Number of empty publications after which a further empty publication has no effect.
     static constexpr uint32_t kMaxEmptyPublications = 2;
     /// number of consecutive empty publications, counted up to kMaxEmptyPublications + 1
     uint32_t emptyPublications_ = 0;
@@ -423,13 +429,13 @@ private:
     SceneCounters counters_;
     uint64_t nextSerial_ = 0;
 
-    /// guards the publication and the members below, so that acquire() reads consistent values
+    /// guards the publication and the following members, so that acquire() reads consistent values
     std::mutex presentation_;
-    std::atomic<double> interpolation_{0}; ///< changed without the mutex while nothing is visible
-    /// [s] scene time of the picture; changed without the mutex while nothing is visible
+    std::atomic<double> interpolation_{0}; ///< changed without the mutex while no particle is visible
+    /// [s] scene time of the picture; changed without the mutex while no particle is visible
     std::atomic<double> shownTime_{0};
     std::atomic<bool> showsNothing_{false};
-    sim::HintCounts preferring_; ///< numbers of instances by drawing hint, without instances that have ended
+    sim::HintCounts preferring_; ///< for each drawing hint, number of instances that have not ended
     std::atomic<sim::DrawingHints> hints_{sim::DrawingHints()};
     std::pmr::vector<Mark> marks_;
     std::pmr::vector<Mark> newMarks_; ///< marks of the update in progress, written by the scene thread

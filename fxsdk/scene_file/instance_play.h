@@ -1,7 +1,7 @@
 /// @file instance_play.h
-/// Changes of one effect of a scene over time, corresponding to API calls of a host.
+/// Changes of one effect of a scene over time. The changes correspond to API calls of a host.
 ///
-/// All times are those of the scene [s], not of the effect.
+/// All times are scene times [s], except TimeJump::to.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -16,16 +16,16 @@ namespace fx::scene_file {
 /// Placement of the effect at one time.
 struct InstanceKey
 {
-    double time = 0;        ///< [s] later than that of the previous key
+    double time = 0;        ///< [s] later than the time of the previous key
     glm::dvec3 position{0}; ///< [m] world; used only if InstancePlay::moves
     /// [degree] rotation about x, then y, then z; used only if InstancePlay::turns
     glm::dvec3 rotationDegrees{0};
 };
 
-/// A value that is valid from a time on.
+/// A value that is valid from `time` on.
 struct TimedValue
 {
-    double time = 0; ///< [s] later than that of the previous value
+    double time = 0; ///< [s] later than the time of the previous value
     double value = 0;
 };
 
@@ -47,10 +47,11 @@ struct TimeJump
 struct InstancePlay
 {
     std::vector<InstanceKey> keys;
-    bool moves = false;               ///< true: the keys have positions
-    bool turns = false;               ///< true: the keys have rotations
-    std::vector<TimedValue> speed;    ///< [1] speed of the local time; 1 before the first value
-    std::vector<TimedValue> emitting; ///< 1: births, 0: no births; 1 before the first value
+    bool moves = false;            ///< true: the keys have positions
+    bool turns = false;            ///< true: the keys have rotations
+    std::vector<TimedValue> speed; ///< [1] speed of the local time; 1 before the first value
+    /// [1] 1: the effect emits particles, 0: no emission; 1 before the first value.
+    std::vector<TimedValue> emitting;
     std::vector<Trigger> triggers;
     std::vector<TimeJump> jumps;
 
@@ -60,7 +61,7 @@ struct InstancePlay
     }
 };
 
-/// The last value with a time up to `time`; `before` if there is none.
+/// Returns the last value whose time is at most `time`, or `before` if there is no such value.
 double valueAt(const std::vector<TimedValue>& values, double time, double before);
 
 /// Converts angles [degree] to a rotation about x, then y, then z.

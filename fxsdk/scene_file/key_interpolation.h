@@ -10,7 +10,7 @@
 
 namespace fx::scene_file {
 
-/// Derivative at key `i`, common to both adjacent segments; 0 at the first and the last key.
+/// Derivative with respect to time at key `i`, for both adjacent segments; 0 at the first and the last key.
 template <class Key>
 glm::dvec3 tangentAt(const std::vector<Key>& keys, size_t i, glm::dvec3 Key::*member)
 {
@@ -19,16 +19,16 @@ glm::dvec3 tangentAt(const std::vector<Key>& keys, size_t i, glm::dvec3 Key::*me
     return (keys[i + 1].*member - keys[i - 1].*member) / (keys[i + 1].time - keys[i - 1].time);
 }
 
-/// Cubic Hermite interpolation with Catmull-Rom tangents for nonuniform times. Constant before the first and
-/// after the last key.
+/// Cubic Hermite interpolation with Catmull-Rom tangents for nonuniform times. The result is constant before
+/// the first key and after the last key.
 ///
 /// symbol        meaning
 ///   p1, p2      values at the ends of the segment, at times t1 < t2
 ///   p0, p3      values of the neighbors, at times t0 < t1 and t3 > t2; absent at the ends of the path
 ///   s           (t - t1) / (t2 - t1), in [0, 1]
-/// tangents: m1 = (p2 - p0) / (t2 - t0), m2 = (p3 - p1) / (t3 - t1), so that the first derivative is
-/// continuous; 0 at the ends of the path, so that motion starts and stops gently.
-/// @param keys at least one, with rising `time`
+/// Tangents: m1 = (p2 - p0) / (t2 - t0), m2 = (p3 - p1) / (t3 - t1). So the first derivative is continuous.
+/// At the ends of the path, tangents are 0, so that motion starts and stops gently.
+/// @param keys at least one key, with increasing `time`
 template <class Key>
 glm::dvec3 smoothAt(const std::vector<Key>& keys, double time, glm::dvec3 Key::*member)
 {

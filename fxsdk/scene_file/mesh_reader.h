@@ -12,10 +12,10 @@ namespace fx::scene_file {
 
 constexpr size_t kMaxTriangles = 1'000'000;
 
-/// Reads the asset `name`; the same resolver finds its materials. Polygons are triangulated. Colors are the
-/// Kd of the materials, taken as linear and clamped to [0, 1], or 0.5 gray without a material. Missing
-/// normals are replaced by those of the triangles.
-/// @param outWarning names unknown statements of the file; empty if there are none
+/// Reads the asset `name`; `resolver` also finds its materials. Polygons are triangulated. Colors are the Kd
+/// of the materials, in linear space, clamped to [0, 1]. Without a material, the color is 0.5 gray. Missing
+/// normals are replaced by the normals of the triangles.
+/// @param outWarning lists unknown statements of the file; empty if all statements are known
 /// @return the resolver's error, Parse, TooLarge
 base::Result<render::StageMesh> readMesh(const std::string& name, const asset::AssetResolver& resolver,
                                          std::string& outWarning);

@@ -1,5 +1,5 @@
 /// @file preview.h
-/// The member "preview" of a preset, which defines how tools show it.
+/// The member "preview" of a preset, which defines how tools show the preset.
 #pragma once
 
 #include "fxsdk/scene_file/scene_file.h"
@@ -13,7 +13,7 @@ namespace fx::scene_file {
 
 struct Preview
 {
-    std::optional<double> time; ///< [s] time of a still, if the preset states one
+    std::optional<double> time; ///< [s] time of a still picture; empty: the preset states no time
     bool hasCamera = false;     ///< true: the preset defines the camera of the scene
 };
 

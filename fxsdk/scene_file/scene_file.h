@@ -1,7 +1,7 @@
 /// @file scene_file.h
 /// Loads a scene (`*.scene.json`) for tools: camera, lights, background, mesh, instances.
 ///
-/// Not part of libfxsdk. Threads: any; calls share no data.
+/// This code is not part of libfxsdk. Threads: any; calls share no data.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -27,18 +27,18 @@ struct SceneInstance
 {
     size_t preset = 0;                          ///< index into SceneFile::presets
     glm::dvec3 position{0.0};                   ///< [m] world
-    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit quaternion
     float scale = 1.0f;                         ///< > 0
     double start = 0.0;                         ///< [s] scene time, >= 0
     uint64_t seed = 1;
     sim::InstanceParameters parameters;
-    InstancePlay play; ///< changes over time
+    InstancePlay play; ///< changes of the effect over time
 
-    /// Placement at a scene time [s].
+    /// Returns the placement at a scene time [s].
     base::Placement placementAt(double time) const;
 };
 
-/// A preset that instances use. Tools that use the C API load it again from its text.
+/// A preset that instances use. Tools with the C API load the preset again from `text`.
 struct ScenePreset
 {
     std::string name; ///< name of the preset in the scene file
@@ -54,9 +54,10 @@ struct SceneFile
     std::vector<render::SceneLight> lights; ///< lights other than sun and sky
     render::ViewSettings view;              ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
     render::StageBackground background;
-    render::StageMesh mesh;    ///< mesh of the stage; empty when the scene has none
-    std::string meshFile;      ///< path of the mesh; empty: the mesh is in the library, or there is none
-    bool meshCollides = false; ///< whether effects collide with the mesh
+    render::StageMesh mesh; ///< mesh of the stage; empty: the scene has no mesh
+    /// Path of the mesh; empty: the mesh is in the library, or the scene has no mesh.
+    std::string meshFile;
+    bool meshCollides = false; ///< true: effects collide with the mesh
     /// [m] cell size of the collision grid; 0: the smallest size that gives at most four million cells.
     float meshCellSize = 0.0f;
     std::vector<ScenePreset> presets;
@@ -64,10 +65,11 @@ struct SceneFile
     std::vector<preset::Diagnostic> warnings;
 };
 
-/// Drawing hints of the scene: for each member, the greatest value among the presets of the instances.
+/// Returns the drawing hints of the scene: for each member, the greatest value among the presets of the
+/// instances.
 sim::DrawingHints preferredHints(const SceneFile& scene);
 
-/// Largest scene, mesh and image that are read [byte].
+/// [byte] Largest sizes of a scene, of a mesh and of an image.
 constexpr uint64_t kSceneBytes = uint64_t(64) << 20;
 constexpr uint64_t kMeshBytes = uint64_t(64) << 20;
 constexpr uint64_t kImageBytes = uint64_t(256) << 20;

@@ -1,5 +1,6 @@
 /// @file scene_members.h
-/// Readers of the members of a validated scene. Each adds findings for faults that a schema cannot exclude.
+/// Readers of the members of a validated scene. Readers add findings for faults that a schema cannot
+/// exclude.
 #pragma once
 
 #include "fxsdk/assets/asset_resolver.h"
@@ -21,13 +22,13 @@ render::ViewSettings readView(const preset::PresetValue& root);
 /// Reads all members of an instance except "preset".
 SceneInstance readInstance(const preset::PresetValue& instance);
 
-// Opaque surroundings (scene_stage.cpp), with the files that the members name.
+// Opaque surroundings (scene_stage.cpp): members that refer to files.
 
-/// Adds a finding that the asset named by the member could not be read.
+/// Adds a finding: the asset that `member` names could not be read.
 void reportAsset(const preset::PresetValue& value, const char* member, const base::Status& status,
                  preset::Findings& findings);
 
-/// Reads the member "mesh" of a scene into `scene`. If it is absent, `scene` does not change.
+/// Reads the member "mesh" of a scene into `scene`. If the member is absent, `scene` does not change.
 void readSceneMesh(const preset::PresetValue& mesh, const asset::AssetResolver& resolver,
                    preset::Findings& findings, SceneFile& scene);
 
@@ -38,12 +39,12 @@ void readBackground(const preset::PresetValue& background, const asset::AssetRes
 // Changes of an instance over time (instance_play_reader.cpp).
 
 /// Reads the changes of an instance over time.
-/// @param value the instance; findings are added for faults
+/// @param value the instance in the scene; faults are reported as findings
 /// @param start [s] start of the instance
 InstancePlay readPlay(const preset::PresetValue& value, double start);
 
 /// Adds findings for triggers whose event the preset does not define.
-/// @param known names of the preset's events of the kind "host"
+/// @param known names of the preset's host events
 void checkTriggers(const preset::PresetValue& value, const InstancePlay& play,
                    std::span<const std::string> known);
 

@@ -16,19 +16,19 @@ constexpr int kCoarseOctaves = 3; ///< number of octaves of detail in views with
 /// Converts the detail of a group to the layout of the GPU. @param octaves 1 .. kMaxDetailOctaves
 FieldDetailBlock detailBlock(const GroupDetail& detail, int octaves);
 
-/// The texture of the periodic cube of noise (formula lump-noise). makeRoom() creates it; the pass of addTo()
-/// fills it once.
+/// Owns the texture of the periodic cube of noise (formula lump-noise). makeRoom() creates the texture. The
+/// pass that addTo() adds fills the texture once.
 class LumpTileTexture
 {
 public:
     /// Creates the texture if it does not exist.
     /// @return OutOfMemory, InvalidArgument (the context has no textures of this size)
     base::Status makeRoom(GlDevice& device);
-    /// Imports the texture. If the texture is not filled yet, also adds the pass that fills it. Requires
-    /// makeRoom().
+    /// Imports the texture into the graph. If the texture is not filled yet, also adds the pass that fills
+    /// the texture. makeRoom() must have been called.
     [[nodiscard]] ResourceId addTo(FrameGraph& graph);
-    /// Must be called if the passes of the last addTo() have not run; the next addTo() then fills the
-    /// texture.
+    /// Must be called if the pass of the last addTo() has not run. The next addTo() then adds the pass
+    /// again.
     void forget() { isFilled_ = false; }
     void release() { texture_ = {}; }
     uint64_t bytes() const { return texture_.name() != 0 ? texture_.bytes() : 0; }

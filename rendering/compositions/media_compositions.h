@@ -6,7 +6,7 @@
 
 namespace fx::render {
 
-/// Divides each ray into depth intervals (slabs), in which overlapping media are summed.
+/// Divides each ray into depth intervals (slabs), and sums overlapping media in each slab.
 extern const MediaComposition kSlabComposition;
 
 /// Sums the balls of each effect in voxels, and marches rays through the voxels.
@@ -14,7 +14,7 @@ extern const MediaComposition kVolumeComposition;
 
 std::span<const MediaComposition* const> mediaCompositions();
 
-/// The composition for a value; null if it is not built in.
+/// Returns the composition for a value, or null if the composition is not built in.
 const MediaComposition* findComposition(Composition value);
 
 } // namespace fx::render

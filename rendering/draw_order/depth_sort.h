@@ -10,14 +10,15 @@
 
 namespace fx::render {
 
-/// Radix sort that keeps its memory and starts from its last order. If few elements have moved, been added or
-/// been removed since, only these are sorted and merged. The result equals that of a full sort.
+/// Radix sort. The object keeps its memory and its last order. If few elements have been moved, added or
+/// removed since the last call, only the changed elements are sorted and merged into the last order. The
+/// result equals the result of a full sort.
 ///
-/// Stable: equal keys keep the order of the input, so that elements at equal distances do not flicker.
+/// The sort is stable, so elements at equal distances do not flicker.
 class DepthSort
 {
 public:
-    /// Distance that marks elements that are not part of the result.
+    /// Distance (NaN) of absent elements, which the result does not contain.
     static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
     explicit DepthSort(std::pmr::memory_resource* memory)
@@ -29,12 +30,12 @@ public:
     /// @param distances [m] of any sign; elements with the distance NaN are omitted
     /// @return indices into `distances`, farthest first; valid until the next call
     std::span<const uint32_t> farthestFirst(std::span<const float> distances) { return sort(distances, ~0u); }
-    /// Does the same as farthestFirst(), with the nearest element first.
+    /// Sorts elements by increasing distance. Arguments and result are as in farthestFirst().
     std::span<const uint32_t> nearestFirst(std::span<const float> distances) { return sort(distances, 0u); }
 
     void forget() { order_.clear(); } ///< discards the last order, so that the next call sorts all elements
-    /// Number of elements that the last call sorted. It is smaller than the number of returned elements if
-    /// the call started from the last order.
+    /// Number of elements that the last call sorted. The number is smaller than the number of returned
+    /// elements if the call could reuse the previous order.
     size_t sortedElements() const { return sortedElements_; }
 
 private:
@@ -45,7 +46,7 @@ private:
     void sortAll();
     void sortMoved(size_t count);
 
-    /// Keys, whose ascending order is the order of drawing; ~0 for absent elements.
+    /// Key of each element; ~0 for absent elements. The order of drawing is the order of ascending keys.
     std::pmr::vector<uint32_t> keys_;
     std::pmr::vector<uint32_t> order_;
     std::pmr::vector<uint64_t> changed_;   ///< bit set of elements whose keys differ from the previous call
@@ -54,7 +55,7 @@ private:
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;
     std::pmr::vector<uint64_t> scratch_;
-    uint32_t lowest_ = 0, highest_ = 0; ///< smallest and largest key, without those of absent elements
+    uint32_t lowest_ = 0, highest_ = 0; ///< smallest and largest key of the elements that are present
     size_t presentCount_ = 0;
     size_t sortedElements_ = 0;
 };

@@ -1,6 +1,6 @@
 /// @file draw_batcher.h
-/// Divides blobs and groups of particles into batches by depth slabs, so that nearer elements cover farther
-/// ones.
+/// Divides blobs and groups of particles into batches by depth slabs, so that nearer elements are drawn over
+/// farther elements.
 #pragma once
 
 #include "rendering/passes/media_source.h"
@@ -17,13 +17,14 @@ struct DrawStream
 {
     uint32_t batch = 0; ///< index of the stream's batch in its source
     uint32_t count = 0;
-    /// [m] distances of the elements; null: all have `distance`, and the stream is not divided
+    /// [m] Distances of the elements. Null: all elements have the distance `distance`, and the stream is not
+    /// divided.
     const float* distances = nullptr;
-    const uint32_t* order = nullptr; ///< indices of the elements in the order of drawing, farthest first
-    bool isSquared = false;          ///< true: `distances` are squares of distances
-    float distance = 0.0f;           ///< [m]
-    bool adds = false; ///< true: blending is additive, so that the order among such streams does not matter
-    const MediaSource* source = nullptr; ///< draws the elements
+    const uint32_t* order = nullptr;     ///< indices of the elements in the order of drawing, farthest first
+    bool isSquared = false;              ///< true: `distances` are squares of distances
+    float distance = 0.0f;               ///< [m]
+    bool adds = false;                   ///< true: the elements are blended additively
+    const MediaSource* source = nullptr; ///< source that draws the elements
 
     float at(uint32_t i) const;
 };
@@ -38,16 +39,16 @@ public:
 
     static constexpr uint32_t kMaxBatches = 16;
 
-    /// Cuts the streams into batches, farthest first. Streams are not divided if their ranges of distance do
-    /// not overlap or their blending is additive. The range in which other streams overlap is divided into
-    /// slabs of equal thickness: 32, or as many as kMaxBatches batches allow. Slabs are sorted by distance.
-    /// Within a slab, streams are drawn one after the other: first the stream that was drawn last, to avoid a
-    /// state change, then the others by the distance of their centers. Elements in a wrong order are at most
-    /// one slab thickness apart. For two streams, this is 1/13 of the range that they share; for three, 1/6.
+    /// Divides the streams into batches, sorted by decreasing distance. The range of distances in which
+    /// streams overlap is divided into slabs of equal thickness. An overlap of streams with additive
+    /// blending does not count. There are 32 slabs, or fewer if the number of batches would exceed
+    /// kMaxBatches. Within a slab, streams are drawn one after the other. The first stream is the last
+    /// stream of the previous slab, to avoid a state change. The other streams follow by decreasing
+    /// distance. Elements in a wrong order are at most one slab thickness apart.
     ///
-    /// If there are more than kMaxBatches streams, each gives about one batch.
+    /// If there are more than kMaxBatches streams, each stream gives about one batch.
     /// @param streams streams with at least one element each
-    /// @return valid until the next call
+    /// @return batches, valid until the next call
     std::span<const DrawBatch> build(std::span<const DrawStream> streams);
 
 private:

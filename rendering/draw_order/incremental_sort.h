@@ -1,6 +1,6 @@
 /// @file incremental_sort.h
-/// Sorts incrementally: keeps the sorted part of the last order, and merges the moved elements into it. The
-/// loops are vectorized and compiled for each instruction set.
+/// Incremental sort: the sorted part of the last order is kept, and moved elements are merged into the
+/// sorted part. The loops are vectorized and compiled for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace fx::render {
 
-constexpr size_t kSortedBlock = 8; ///< number of sorted elements that share an entry of SortedPart::blockEnds
+constexpr size_t kSortedBlock = 8; ///< number of sorted elements per entry of SortedPart::blockEnds
 
 /// State of a scan of the last order. Elements that are still in ascending order are moved to the front of
 /// the order.
@@ -20,24 +20,24 @@ struct SortedPart
     size_t kept;
     size_t at;
     size_t count;
-    uint64_t last;       ///< key * 2^32 + element of the last sorted element; 0 if no element is sorted
-    uint64_t* displaced; ///< the values key * 2^32 + element of the elements that are out of order
+    uint64_t last;       ///< key * 2^32 + index of the last sorted element; 0 if no element is sorted
+    uint64_t* displaced; ///< key * 2^32 + index of each element that is out of order
     size_t displacedCount;
     size_t mostDisplaced;
 };
 
-/// Continues the scan with one SIMD vector of elements after another. Stops at a vector with an absent
-/// element or with more than one element out of order, or when `displaced` is full.
+/// Continues the scan, one SIMD vector of elements at a time. The scan stops at a vector with an absent
+/// element or with more than one element out of order, and when `displaced` is full.
 void extendSortedByVectors(SortedPart& sorted);
 
 /// Removes the elements of the set `changed` from the last order. The remaining elements are sorted.
 /// @param changed see KeyChanges
 void keepUnchanged(SortedPart& sorted, const uint8_t* changed);
 
-/// Merges elements into the sorted part. Afterwards its `order` contains all elements.
-/// @param moved the values key * 2^32 + element of the elements, ascending
-/// @param count number of moved elements; SortedPart::order must have space for as many elements behind its
-///         sorted part
+/// Merges elements into the sorted part. Afterwards `sorted.order` contains all elements.
+/// @param moved key * 2^32 + index of each moved element, in ascending order
+/// @param count number of moved elements; SortedPart::order must have space for `count` elements behind its
+///     sorted part
 void mergeMoved(const SortedPart& sorted, const uint64_t* moved, size_t count);
 
 } // namespace fx::render

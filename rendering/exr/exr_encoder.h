@@ -2,7 +2,7 @@
 /// Encodes images with named channels as OpenEXR files (scan lines, ZIP).
 ///
 /// The file is encoded in memory, so that the caller can write it completely or not at all. Threads: any. A
-/// call uses up to `threads` worker threads of OpenEXR's own pool. The encoded bytes do not depend on the
+/// call uses up to `threads` worker threads of OpenEXR's thread pool. The encoded bytes do not depend on the
 /// number of workers.
 #pragma once
 
@@ -18,13 +18,13 @@ namespace fx::render {
 
 enum class ExrPrecision
 {
-    Half,  ///< 16 bits, relative error 2^-11; finite values outside its range are written as +-65504
+    Half,  ///< 16 bits, relative error 2^-11; larger finite values are clamped to +-65504
     Float, ///< 32 bits, exact
     Whole, ///< 32 bits, integers from 0 to 2^24; values are rounded and clamped
 };
 
-/// One channel of the image. A value is `values[(row * width + column) * stride + offset]`; the top row is
-/// the first.
+/// One channel of the image. The value of a pixel is `values[(row * width + column) * stride + offset]`. Row
+/// 0 is the top row.
 struct ExrChannel
 {
     /// Name of the channel, such as "R" or "layer.R"; unique in the image, not empty, at most 255 bytes.
@@ -43,7 +43,7 @@ struct ExrImage
     float whiteLuminance = 0.0f; ///< [cd/m2] luminance of a pixel with the value 1; 0 if unknown
 };
 
-/// Adds channels R, G, B, A of an interleaved RGBA image, with `layer` before their names ("fire" gives
+/// Adds channels R, G, B, A of an interleaved RGBA image. `layer` is the prefix of their names ("fire" gives
 /// "fire.R").
 void addRgba(ExrImage& image, const std::string& layer, std::span<const float> rgba, ExrPrecision precision);
 

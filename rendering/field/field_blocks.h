@@ -1,5 +1,5 @@
 /// @file field_blocks.h
-/// Layouts of voxel fields on the GPU; shaders/field/field_blocks.glsl reads them.
+/// Layouts of voxel fields on the GPU. shaders/field/field_blocks.glsl defines equal layouts.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -10,7 +10,8 @@
 namespace fx::render {
 
 constexpr int kBrickCells = 8; ///< number of cells along a side of a brick
-/// number of samples along a side of a brick; samples on its faces are also stored in the neighboring bricks
+/// Number of samples along a side of a brick. Samples on the faces of a brick are also stored in the
+/// neighboring bricks.
 constexpr int kBrickSamples = kBrickCells + 1;
 constexpr int kBrickColumns = 16; ///< number of bricks in the textures along x and along y
 
@@ -21,7 +22,7 @@ struct FieldBlock
     /// xyz number of bricks along each axis; w index of the field's first entry in the table of bricks.
     glm::ivec4 bricks;
     /// x least radius of a ball [m]; y upper bound of the extinction [1/m]; z index of the field's detail +
-    /// 1, or 0 without detail; w index of the field's grid of glow + 1, or 0 without a grid
+    /// 1, 0: no detail; w index of the field's FieldGlowBlock + 1, 0: no grid
     glm::vec4 limits;
 };
 static_assert(sizeof(FieldBlock) == 48);
@@ -29,10 +30,11 @@ static_assert(sizeof(FieldBlock) == 48);
 /// Detail of one field; shaders/field/field_detail.glsl reads this layout.
 struct FieldDetailBlock
 {
-    /// Rows of the affine maps from a point p [m] to noise coordinates [cell], three for each generation. A
-    /// coordinate is dot(xyz, p) + w. The offsets of balls are added to the result.
+    /// Rows of two affine maps from a point p [m] to noise coordinates [cell], three rows for each map. A
+    /// coordinate is dot(xyz, p) + w. The offsets of balls are added to the result. The maps belong to two
+    /// generations of the noise, which are blended.
     glm::vec4 rows[6];
-    glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest and w ramp of FieldDetailNumbers
+    glm::vec4 erosion; ///< x size of lumps [m]; y, z, w thinnest, densest, ramp of FieldDetailNumbers
     /// x gain of FieldDetailNumbers; y weight of the second generation; z cooling and w glow of
     /// FieldDetailNumbers.
     glm::vec4 noise;
@@ -44,37 +46,37 @@ struct FieldDetailBlock
 static_assert(sizeof(FieldDetailBlock) == 160);
 
 constexpr int kGlowCells = 32; ///< number of cells along a side of a grid
-/// Number of blocks along x and y in the texture of rays; one block per direction.
+/// Number of blocks along x and y in the texture GlowTextures::rays. Each direction has one block.
 constexpr int kGlowRays[2] = {8, 4};
 
 /// A grid in which the light that media emit is propagated; shaders/field/field_glow.glsl reads this layout.
 struct FieldGlowBlock
 {
     glm::vec4 corner; ///< xyz lowest corner relative to the eye [m]; w side of a cell [m]
-    /// Like `corner`, for the grid of the last frame from whose light the propagation starts; w 0: there is
-    /// none.
+    /// `corner` of a grid of the last frame. The propagation starts from the light of that grid. w 0: the
+    /// propagation starts without light.
     glm::vec4 before{0.0f};
-    glm::vec4 number{0.0f}; ///< x index of that grid in the last frame
+    glm::vec4 number{0.0f}; ///< x index of the grid of `before` in the last frame
 };
 static_assert(sizeof(FieldGlowBlock) == 48);
 
-/// A brick that contains medium. Its index in the list gives its position in the textures.
+/// A brick that contains medium. The index of a brick in the list gives its position in the textures.
 struct FieldBrickBlock
 {
     uint32_t field;
     uint32_t place; ///< position of the brick in its field, in bricks: x + 1024 y + 1024^2 z
-    uint32_t first; ///< index of the brick's first entry in the list of balls
-    uint32_t count; ///< number of its balls
+    uint32_t first; ///< index of the brick's first ball in the list of balls
+    uint32_t count; ///< number of balls of the brick
 };
 static_assert(sizeof(FieldBrickBlock) == 16);
 
-/// A brick that balls near the eye touch. shaders/field/field_near.comp.glsl reads this layout and that of
-/// NearPartBlock.
+/// A brick that balls near the eye touch. shaders/field/field_near.comp.glsl reads the layouts of
+/// NearBrickBlock and NearPartBlock.
 struct NearBrickBlock
 {
     uint32_t brick; ///< index of the brick
-    uint32_t first; ///< index of its first NearPartBlock
-    uint32_t count; ///< number of its NearPartBlocks
+    uint32_t first; ///< index of the brick's first NearPartBlock
+    uint32_t count; ///< number of NearPartBlocks of the brick
     uint32_t unused;
 };
 static_assert(sizeof(NearBrickBlock) == 16);
@@ -83,7 +85,7 @@ static_assert(sizeof(NearBrickBlock) == 16);
 struct NearPartBlock
 {
     uint32_t number; ///< index of the ball
-    float share;     ///< [1] share of the ball that is removed from the field
+    float share;     ///< [1] fraction of the ball's extinction that is removed from the field
 };
 static_assert(sizeof(NearPartBlock) == 8);
 
@@ -91,7 +93,7 @@ static_assert(sizeof(NearPartBlock) == 8);
 constexpr int kFieldTileColumns = 32, kFieldTileRows = 18;
 constexpr int kFieldTiles = kFieldTileColumns * kFieldTileRows;
 
-/// The fields that are visible in a part of the window.
+/// Range of the list of fields: the fields that are visible in a part of the window.
 struct FieldTileBlock
 {
     uint32_t first; ///< index of the first entry in the list of fields

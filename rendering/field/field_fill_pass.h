@@ -11,14 +11,14 @@ namespace fx::render {
 /// Sums emission, absorption and scattering of balls.
 ///
 /// reads   balls        buffer of BlobInstance
-///         fieldTexels  of FieldTexelPass
+///         fieldTexels  texture written by FieldTexelPass
 ///         bricks       buffer of FieldBrickBlock
-///         brickBalls   buffer of numbers of balls
+///         brickBalls   buffer of indices of balls
 ///         materials    buffer of BlobMaterial, one per ball
-///         lumpTile     of LumpTilePass
+///         lumpTile     texture written by LumpTilePass
 /// writes  textures     emission, absorption and scattering of the balls, and the table of bricks
-/// Each sample is written by one invocation, which adds the balls of the brick in the order of the list. So
-/// equal inputs give equal bits. Formula: kernel-optical-depth (1).
+/// Each sample is written by one invocation, which adds the balls of the brick in the order of the list.
+/// Therefore equal inputs give bit-identical results. Formula: kernel-optical-depth (1).
 class FieldFillPass
 {
 public:
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program of the pass, with or without layers and detail.
+/// Returns the variant of the program with or without layers and detail.
 const ProgramDesc& fieldFillProgram(bool layers, bool detail);
 
 } // namespace fx::render

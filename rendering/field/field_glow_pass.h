@@ -1,5 +1,5 @@
 /// @file field_glow_pass.h
-/// The passes that propagate emitted light through media: fire lights smoke from inside.
+/// The passes that propagate emitted light through media, such as the light of fire through smoke.
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -13,22 +13,23 @@ namespace fx::render {
 /// Textures of the grids of FieldGlowPlan. The grids are stacked along z.
 struct GlowTextures
 {
-    /// RGBA32F rgb emitted light, to which light that is scattered once is added; a extinction.
+    /// RGBA32F rgb: sum of emitted light and light that is scattered once; alpha: extinction.
     ResourceId cells = {};
-    ResourceId scatter = {}; ///< RGBA16F rgb extinction times albedo; a mean cosine of the phase function
-    ResourceId rays = {};    ///< RGBA16F radiance; one block per direction, side by side along x and y
-    ResourceId first = {};   ///< RGBA16F mean radiance of emitted light
-    ResourceId light = {};   ///< RGBA16F logarithm of the mean radiance of emitted and scattered light
+    /// RGBA16F rgb: extinction times albedo; alpha: mean cosine of the phase function.
+    ResourceId scatter = {};
+    ResourceId rays = {};  ///< RGBA16F radiance; one block per direction, side by side along x and y
+    ResourceId first = {}; ///< RGBA16F mean radiance of emitted light
+    ResourceId light = {}; ///< RGBA16F logarithm of the mean radiance of emitted and scattered light
 };
 
-/// Computes the mean radiance in each cell of a grid of the light that media emit and scatter any number of
-/// times.
+/// Computes the mean radiance in each cell of a grid. The radiance includes the light that media emit, and
+/// its multiple scattering.
 ///
-/// reads   fieldTexels    of FieldTexelPass
+/// reads   fieldTexels    texture written by FieldTexelPass
 ///         grids          buffer of FieldGlowBlock
-///         field          filled textures, not yet lit
-///         lumpTile       of LumpTilePass
-/// writes  all of GlowTextures; `light` is the result
+///         field          textures that FieldFillPass has filled, not yet lit
+///         lumpTile       texture written by LumpTilePass
+/// writes  all textures of GlowTextures; `light` is the result
 /// Formula: field-glow.
 class FieldGlowPass
 {

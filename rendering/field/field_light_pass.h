@@ -10,17 +10,17 @@
 
 namespace fx::render {
 
-/// Computes single and multiple scattering of the light of the sun, of point lights, of sky and ground; see
-/// shaders/shared/scattered_light.glsl and shaders/shared/sky_light.glsl.
+/// Computes single and multiple scattering of the light of the sun, of point lights, and of sky and ground.
+/// Shader code: shaders/shared/scattered_light.glsl and shaders/shared/sky_light.glsl.
 ///
-/// reads   fields, bricks  as in FieldFillPass
+/// reads   fields, bricks  buffers of FieldBlock and FieldBrickBlock
 ///         lights          all lights, with light slices
-///         network         light of an illumination network
-///         glow            mean radiance of the light that media emit, of FieldGlowPass
+///         network         moments of the light in illumination networks
+///         glow            result of FieldGlowPass: mean radiance of the light that media emit
 ///         grids           buffer of FieldGlowBlock
-/// writes  textures        without layers, the light is added to the emitted light of the medium; with
-///                         layers, it is written to `scatter`, rgb over the field's largest extinction
-/// The albedos are overwritten: before this pass can run again, FieldFillPass must run.
+/// writes  textures        `medium`: emitted plus scattered light. With layers or detail, instead `scatter`:
+///                         scattered light over the field's largest extinction
+/// The pass overwrites its inputs. FieldFillPass must run before this pass can run again.
 class FieldLightPass
 {
 public:
@@ -32,8 +32,8 @@ public:
         const ViewBlock* view;            ///< view block of the picture
         uint32_t brickCount;              ///< > 0
         ResourceId glow = {}, grids = {}; ///< inputs for emitted light; invalid: no field has a grid
-        /// Moments of the light in illumination networks on the same grids, from NetworkPasses; used instead
-        /// of `glow`.
+        /// Moments of the light in illumination networks on `grids`, from NetworkPasses. If valid, they
+        /// replace `glow`.
         ResourceId network = {};
         int networkCells = 0; ///< number of cells along a side of the network's grids
     };
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program of the pass, with or without layers, detail and illumination networks.
+/// Returns the variant of the program with or without layers, detail and illumination networks.
 const ProgramDesc& fieldLightProgram(bool layers, bool detail, bool network = false);
 
 } // namespace fx::render

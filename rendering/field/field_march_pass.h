@@ -1,6 +1,6 @@
 /// @file field_march_pass.h
-/// The pass that marches rays through all fields of a view, and sums them with balls and cards outside of
-/// fields.
+/// The pass that marches rays through all fields of a view, and through balls and cards (flat particles)
+/// outside of fields.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -9,16 +9,16 @@
 namespace fx::render {
 
 constexpr size_t kFieldMarchPrograms = 2 * 2 * 2;
-/// The program of the pass, with or without layers, detail of fields, and loose media (balls and cards
-/// outside of fields).
+/// Returns the variant of the program with or without layers, detail of fields, and loose media (balls and
+/// cards outside of fields).
 const ProgramDesc& fieldMarchProgram(bool layers, bool detail, bool loose);
 const ProgramDesc& fieldMarchProgramAt(size_t index);
 
 /// Balls and cards outside of fields, listed per tile of 16 x 16 texels as in the composition `slabs`.
 struct LooseMedia
 {
-    /// Buffer with the arguments of a draw of the tiles that are not empty, with or without fields; invalid
-    /// without loose media.
+    /// Buffer with draw arguments for the tiles that contain fields or loose media; invalid without loose
+    /// media.
     ResourceId tiles;
     ResourceId lists; ///< buffer of the indices of balls, see SlabTilePass
     ResourceId balls; ///< texture written by SlabBallPass; invalid: no balls
@@ -32,9 +32,10 @@ struct LooseMedia
 ///
 /// reads   textures         results of FieldFillPass and FieldLightPass; fieldTexels, tiles
 ///         distance         [m] along the ray to opaque geometry
-///         loose            loose media; lights, for its balls
-/// writes  media            as written by MediaPass, drawn over `under`
-/// Parts of the window without fields, balls and cards cost nothing. Keeps no state.
+///         loose            balls and cards outside of fields
+/// writes  media            targets of MediaPass, drawn over `under`
+/// No work is done for parts of the window without fields, balls and cards. The pass keeps no state between
+/// frames.
 class FieldMarchPass
 {
 public:
@@ -47,8 +48,8 @@ public:
         ResourceId lumpTile = {}; ///< texture written by LumpTilePass; invalid: no field has detail
         LooseMedia loose = {};
     };
-    /// Value of SlabTilePass::Inputs::maxOfTile. It is small because each step of a ray reads the whole list
-    /// of a tile.
+    /// Value of SlabTilePass::Inputs::maxOfTile. The value is small, because each step of a ray reads the
+    /// whole list of a tile.
     static constexpr uint32_t kMaxLooseOfTile = 256;
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);

@@ -1,5 +1,5 @@
 /// @file field_near_pass.h
-/// The pass that subtracts shares of balls near the eye from the samples of fields.
+/// The pass that subtracts balls near the eye from the samples of fields.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -8,18 +8,17 @@
 
 namespace fx::render {
 
-/// Subtracts shares of balls near the eye from fields, because these shares are drawn as loose balls. It runs
-/// after the passes that propagate light through fields, because these need the whole medium, and before
-/// FieldLightPass.
+/// Subtracts balls near the eye from fields, completely or in part, because FieldMarchPass integrates the
+/// subtracted part exactly. The pass runs before FieldLightPass, and after the passes that propagate light
+/// through fields. Light propagation needs the whole medium.
 ///
 /// reads   balls        buffer of BlobInstance
-///         fieldTexels  of FieldTexelPass
+///         fieldTexels  texture written by FieldTexelPass
 ///         bricks       buffer of FieldBrickBlock
 ///         nearBricks   buffer of NearBrickBlock
 ///         nearParts    buffer of NearPartBlock
-/// writes  textures     filled, not yet lit; but not the material of detail: fields with detail keep their
-///                      balls. Equal inputs give equal bits.
-/// Formula: voxel-kernel.
+/// writes  textures     textures of FieldFillPass, before FieldLightPass. Fields with detail do not change.
+/// Equal inputs give bit-identical results. Formula: voxel-kernel.
 class FieldNearPass
 {
 public:
@@ -36,7 +35,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// The program of the pass, with or without layers.
+/// Returns the variant of the program with or without layers.
 const ProgramDesc& fieldNearProgram(bool layers);
 
 } // namespace fx::render

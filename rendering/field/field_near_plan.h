@@ -1,11 +1,11 @@
 /// @file field_near_plan.h
 /// Finds the balls near the eye that are integrated exactly along rays instead of through voxels.
 ///
-/// A field is interpolated linearly between its samples. In a dense medium the visible distance may be some
-/// centimeters, much less than a voxel. Then the interpolation errors would fill the picture, and would
-/// change as the eye moves. Therefore a share of each small ball near the eye is removed from its field, and
-/// is drawn as a loose ball. Shares are continuous functions of the position of the eye and of the radius.
-/// The field keeps the remaining share.
+/// A field is interpolated linearly between its samples. In a dense medium, the visible distance may be much
+/// less than a voxel, for example some centimeters. Then interpolation errors would fill the picture, and
+/// would change as the eye moves. Therefore a fraction of the extinction of each small ball near the eye is
+/// removed from the field, and is drawn as a separate ball. The removed fraction is a continuous function of
+/// the distance from the eye and of the radius.
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -20,12 +20,12 @@
 
 namespace fx::render {
 
-/// A ball near the eye, with the share that is removed from its field.
+/// A ball near the eye.
 struct NearBall
 {
     uint32_t number; ///< index in the list of all balls
     uint32_t field;
-    float share; ///< [1] removed share, > 0 and at most 1
+    float share; ///< [1] fraction of the extinction that is removed from the field, > 0 and at most 1
 };
 
 /// Selects the balls and lists the bricks that they touch. Memory is kept from frame to frame. Threads: one
@@ -35,20 +35,22 @@ class FieldNearPlan
 public:
     explicit FieldNearPlan(std::pmr::memory_resource* memory);
 
-    /// [voxel] Balls farther from the eye than this are not near.
+    /// [voxel] Distance from the eye to the surface of a ball at and above which the ball stays in its
+    /// field.
     static constexpr float kReach = 2.0f;
-    /// [voxel] At and above this radius, fields are accurate without removing balls.
+    /// [voxel] Radius at and above which a ball stays in its field, because the voxels resolve it
+    /// accurately.
     static constexpr float kLargest = 5.5f;
-    /// Largest number of near balls in a view. It is limited because each step of a ray near the eye reads
-    /// all of them.
+    /// Largest number of near balls in a view. The number is limited because each step of a ray near the eye
+    /// reads all near balls.
     static constexpr size_t kMost = 128;
 
     void clear();
-    /// Adds a ball that may be near.
+    /// Adds a ball as a candidate. choose() selects the near balls.
     /// @param ball xyz [m] position relative to the eye; w radius [m]
-    /// @param voxel [m] side of a voxel of its field
+    /// @param voxel [m] side of a voxel of the field
     void add(uint32_t number, uint32_t field, const glm::vec4& ball, float voxel);
-    /// Computes the shares of the added balls, in the order in which they were added.
+    /// Selects the near balls among the added balls, and computes NearBall::share.
     void choose();
     std::span<const NearBall> balls() const { return balls_; }
 
@@ -65,7 +67,7 @@ public:
 private:
     struct Candidate
     {
-        NearBall ball; ///< its share is a function of its radius only
+        NearBall ball; ///< the ball; `share` depends only on the radius
         /// [voxel] Distance from the eye to the surface of the ball; negative if the eye is inside.
         float away;
     };

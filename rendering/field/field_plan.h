@@ -1,10 +1,11 @@
 /// @file field_plan.h
-/// Layout of the voxels in which the balls of each effect are summed: lattices, their occupied bricks, the
-/// balls of each brick, and the rectangle of each field in the window.
+/// Layout of the voxels in which the balls of each effect are summed: lattices, occupied bricks, balls of
+/// each brick, and rectangles of fields in the window.
 ///
 /// Lattices are fixed in the world, so that voxels do not move with the effect or the eye. The sides of
-/// voxels are powers of 2^(1/4) m. A brick exists if a ball touches it and it may be visible. A sample sums
-/// the balls of its brick in the order of the list of balls, so that equal inputs give equal bits.
+/// voxels are powers of 2^(1/4) m. A brick exists if a ball touches the brick and the brick may be visible.
+/// The balls of a brick are summed in the order of the list of balls, so that equal inputs give
+/// bit-identical results.
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -29,8 +30,8 @@ struct FieldPlanInputs
     const CameraGeometry* camera;
     int width, height;   ///< [pixel] size of the picture
     int resolution = 96; ///< number of voxels along 16 radii of an effect's balls, 16..256
-    /// Largest number of bricks of all fields together; 0: as many as a full cube with `resolution` voxels
-    /// along a side has.
+    /// Largest number of bricks of all fields together. 0: the number of bricks of a cube with `resolution`
+    /// voxels along a side.
     uint32_t mostBricks = 0;
     bool glows = true; ///< true: emitted light is propagated in grids, see FieldPlan::glows()
     /// Number of cells along a side of each grid of an illumination network, for all fields; 0: no networks.
@@ -48,26 +49,26 @@ public:
 
     std::span<const FieldBlock> fields() const { return fields_; }
     std::span<const FieldBrickBlock> bricks() const { return bricks_; }
-    /// One entry for each possible brick in the box of each field, x fastest: the index of the brick + 1, or
-    /// 0 if there is no brick.
+    /// Table of bricks: one entry for each possible brick in the box of each field, x fastest. An entry is
+    /// the index of the brick + 1, or 0 if there is no brick.
     std::span<const uint32_t> table() const { return table_; }
     std::span<const uint32_t> balls() const { return balls_; } ///< indices of the balls of all bricks
     /// One entry for each part of the window, beginning at clip position -1, -1, x fastest; empty without
     /// bricks.
     std::span<const FieldTileBlock> tiles() const { return tiles_; }
-    /// Indices of the fields of all tiles.
+    /// Indices of the fields, for all tiles. FieldTileBlock gives the range of a tile.
     std::span<const uint32_t> tileFields() const { return tileFields_; }
-    /// Indices of the balls that are too small for the voxels of their effect, in ascending order. They are
-    /// in no brick.
+    /// Indices of the balls that are too small for the voxels of their effect, in ascending order. Bricks do
+    /// not contain these balls.
     std::span<const uint32_t> loose() const { return loose_; }
-    /// Balls near the eye. FieldNearPass subtracts their shares from the bricks.
+    /// Balls near the eye, which FieldNearPass subtracts from the bricks.
     const FieldNearPlan& near() const { return near_; }
     /// Grids in which light is propagated. FieldBlock::limits.w gives the grid of each field.
     std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
     bool isEmpty() const { return bricks_.empty(); }
 
-    /// [m] Least radius of a ball in a field. A smaller ball would fall between samples: its radius is
-    /// increased to this, with the same cross section.
+    /// [m] Least radius of a ball in a field. A smaller ball could fall between samples. Therefore its
+    /// radius is increased to the least radius. Its cross section does not change.
     static float leastRadius(float voxel) { return 2.0f * voxel; }
 
 private:
@@ -103,12 +104,12 @@ private:
     std::pmr::vector<uint32_t> table_;
     std::pmr::vector<uint32_t> balls_;
     std::pmr::vector<uint32_t> loose_;
-    std::pmr::vector<float> peaks_;   ///< [1/m] by brick: sum of the central extinctions of its balls
-    std::pmr::vector<float> emitted_; ///< [exposed m2] by field: emitted light
+    std::pmr::vector<float> peaks_;   ///< [1/m] for each brick: sum of the central extinctions of its balls
+    std::pmr::vector<float> emitted_; ///< [exposed m2] for each field: emitted light
     FieldGlowPlan glow_;
     FieldNearPlan near_;
-    std::pmr::vector<uint32_t> stamps_; ///< by tile: index of the last field that marked it + 1
-    /// Pairs of a tile and a field that is visible in it, in the order of fields.
+    std::pmr::vector<uint32_t> stamps_; ///< for each tile: index + 1 of the last field that was listed
+    /// Pairs of a tile and a field visible in the tile, in the order of fields.
     std::pmr::vector<uint32_t> seen_;
     std::pmr::vector<FieldTileBlock> tiles_;
     std::pmr::vector<uint32_t> tileFields_;

@@ -1,5 +1,5 @@
 /// @file field_slices_pass.h
-/// The pass that adds the change of extinction by the detail of fields to the light slices.
+/// The pass that corrects light slices for the detail of fields.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -11,13 +11,13 @@ namespace fx::render {
 
 extern const ProgramDesc kFieldSlicesProgram;
 
-/// Adds the change of extinction by the detail of fields to light slices.
-/// reads   fieldTexels    of FieldTexelPass
-///         table          table of bricks, of FieldFillPass
+/// Detail of fields changes their extinction. This pass adds the change to the light slices.
+/// reads   fieldTexels    texture written by FieldTexelPass
+///         table          table of bricks, written by FieldFillPass
 ///         change         change of extinction by detail, see FieldTextures
 ///         stacks         buffer of SliceStackBlock
-/// writes  planes         light slices of all lights, which have just been filled with smooth balls
-/// Where a field has no bricks because it is not visible, balls stay smooth.
+/// writes  planes         light slices of all lights; they already contain the balls without detail
+/// Fields have bricks only where they may be visible. Elsewhere the slices contain the balls without detail.
 class FieldSlicesPass
 {
 public:

@@ -1,6 +1,6 @@
 /// @file field_texels.h
-/// Fields, their details and the lists of fields as texels of a texture. Software renderers read textures
-/// many times faster than buffers.
+/// Stores fields, their details and the lists of fields as texels of a texture. Software renderers read
+/// textures many times faster than buffers.
 #pragma once
 
 #include "rendering/field/field_plan.h"
@@ -8,22 +8,23 @@
 
 namespace fx::render {
 
-/// Number of texels in a row; the same constant is in shaders/field/field_blocks.glsl.
+/// Number of texels in a row; equal to the constant in shaders/field/field_blocks.glsl.
 constexpr int kFieldColumns = 1024;
-/// Number of texels in a row of the table of bricks; the same constant is in the shader.
+/// Number of texels in a row of the table of bricks; equal to the constant in
+/// shaders/field/field_blocks.glsl.
 constexpr int kTableColumns = 1024;
-/// number of texels of a FieldDetailBlock; the same constant is in the shaders
+/// number of texels of a FieldDetailBlock; equal to the constant in the shaders
 constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4);
-/// Texture units; the same constants are in the shader.
+/// Texture units; equal to the bindings in shaders/field/field_blocks.glsl.
 constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12;
 
-/// Number of rows of a texture for `count` texels. It is a power of two, so that the texture is seldom
-/// reallocated.
+/// Number of rows of a texture for `count` texels. The number is a power of two, so that the texture is
+/// seldom reallocated.
 int rowsOfTexels(size_t count, int columns);
 
-/// Builds the texels of a frame: first each FieldBlock, with limits.z replaced by the first texel of the
-/// field's detail; then each FieldDetailBlock; then one texel with the field's number for each entry of
-/// FieldPlan::tileFields(). The memory is kept from frame to frame.
+/// Builds the texels of a frame: all FieldBlocks, then all FieldDetailBlocks, then one texel with a field's
+/// index for each entry of FieldPlan::tileFields(). The member limits.z of a FieldBlock is replaced by the
+/// index of the first texel of the field's detail. The memory is kept from frame to frame.
 class FieldTexels
 {
 public:

@@ -8,19 +8,20 @@
 
 namespace fx::render {
 
-/// Three-dimensional textures of kBrickColumns x kBrickColumns bricks a layer.
+/// Three-dimensional textures with kBrickColumns x kBrickColumns bricks along x and y.
 struct FieldTextures
 {
-    ResourceId medium = {}; ///< RGBA32F rgb emitted light [exposed/m]; a extinction [1/m]
-    ResourceId scatter =
-        /// RGBA16F mean albedo and mean cosine of the phase function; with layers, FieldLightPass replaces
-        /// them by light
-        {};
-    ResourceId shares = {}; ///< RGBA16F share of each layer in the extinction; invalid without layers
-    ResourceId table = {};  ///< R32F table of bricks, see shaders/field/field_blocks.glsl
-    /// RGBA16F noise coordinates that balls carry, of each generation; invalid without detail
+    ResourceId medium = {}; ///< RGBA32F rgb: emitted light [exposed/m]; alpha: extinction [1/m]
+    /// RGBA16F rgb: mean albedo; alpha: mean cosine of the phase function. With layers or detail,
+    /// FieldLightPass overwrites the texture with light.
+    ResourceId scatter = {};
+    /// RGBA16F extinction of the layers over the field's largest extinction; invalid without layers.
+    ResourceId shares = {};
+    ResourceId table = {}; ///< R32F table of bricks, see shaders/field/field_blocks.glsl
+    /// RGBA16F rgb: offset of the noise coordinates of each generation, weighted by extinction; invalid
+    /// without detail
     std::array<ResourceId, 2> material = {};
-    /// R32F change of the extinction by detail; invalid without detail
+    /// R32F change of the extinction by detail, over the field's largest extinction; invalid without detail
     ResourceId change = {};
 };
 

@@ -6,13 +6,13 @@
 
 namespace fx::render {
 
-constexpr int kLumpTileTexels = 64; ///< number of texels along a side; the texture has 1 MiB
+constexpr int kLumpTileTexels = 64; ///< number of texels along a side; the size of the texture is 1 MiB
 
 extern const ProgramDesc kLumpTileProgram;
 
 /// Fills the periodic cube of noise.
-/// writes  tile  R32F, three-dimensional, kLumpTileTexels along each side: noise of mean 0 and deviation 1,
-///               equal to class LumpTile of rendering/field_detail
+/// writes  tile  R32F, three-dimensional, kLumpTileTexels along each side: noise of mean 0 and standard
+///               deviation 1, equal to the values of class LumpTile
 /// Formula: lump-noise.
 class LumpTilePass
 {

@@ -1,5 +1,6 @@
 /// @file blob_detail.h
-/// Computes the detail of a group of blobs at a moment between two snapshots, relative to the eye.
+/// Computes the parameters of the detail (procedural noise) of a group of blobs, at a moment between two
+/// snapshots.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -17,13 +18,14 @@ namespace fx::render {
 struct GroupDetail
 {
     FieldDetailNumbers numbers; ///< parameters of formula field-detail; lengths are in the space of the group
-    /// Linear parts of the affine maps from a point p to the noise coordinates of each generation: toCells p
-    /// + first. The offsets of blobs are added to the result.
+    /// Linear parts of two affine maps from a point p to noise coordinates: toCells p + first. The offsets
+    /// of blobs are added to the result. The maps belong to two generations of the noise, which are blended.
     glm::mat3 toCells[2];
     glm::vec3 first[2]; ///< [cell] constant parts of the maps; p [m] is relative to the eye, along world axes
-    /// [1] Scale of the placement: a length in the world divided by the same length in the group.
+    /// [1] Scale of the placement: length in the world divided by length in the group.
     float scale = 1;
-    /// [1] Factor of the eroded extinction, by which its integral equals that of the smooth extinction.
+    /// [1] Factor of the extinction after erosion by noise. The factor restores the integral of the smooth
+    /// extinction.
     float factor = 1;
 };
 
@@ -31,20 +33,21 @@ struct GroupDetail
 /// @param crossSection [m2] in the world  @param radius [m] in the world
 float thinningOf(const GroupDetail& detail, float crossSection, float radius);
 
-/// Reads the group of the kind "material" that follows a group of blobs.
+/// Reads the noise coordinates of blobs from the group of the kind "material", which follows the group of
+/// blobs.
 class BlobDetail
 {
 public:
-    BlobDetail() = default; ///< has no detail
-    /// @param group index of the group of blobs in the newer snapshot
+    BlobDetail() = default; ///< constructs an object without detail
+    /// @param group index of the group of blobs in the newer snapshot of `snapshots`
     /// @param t moment between the snapshots: 0 is the older snapshot, 1 the newer
     BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t);
 
     bool isGiven() const { return chosen_ != nullptr; }
-    /// The parameters of the detail at the moment.
-    /// @param place placement of the group at the moment, relative to the eye
+    /// Returns the parameters of the detail at the moment.
+    /// @param place interpolated placement of the group, relative to the eye
     GroupDetail groupDetail(const base::Placement& place) const;
-    /// Offset of a blob's noise coordinates [cell], for each generation.
+    /// Returns the offset of a blob's noise coordinates [cell] for each generation.
     /// @param newer, older indices of the blob in the newer and in the older group; `older` is used only if
     ///         hasOlder
     /// @param position [m] position of the blob at the shown time, in the space of the group
@@ -53,7 +56,7 @@ public:
 
 private:
     const base::SnapshotGroup* newer_ = nullptr;
-    /// The snapshot group whose generations of coordinates are used at the moment.
+    /// Group whose noise coordinates are used at the moment `t`; null: no detail.
     const base::SnapshotGroup* chosen_ = nullptr;
     FieldDetailNumbers numbers_;
 };

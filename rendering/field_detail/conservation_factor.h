@@ -49,7 +49,7 @@ namespace fx::render {
 struct DetailedCaster
 {
     MediumCaster ball;
-    std::array<glm::vec3, 2> carried; ///< [cell] coordinates of both generations, see BlobDetail
+    std::array<glm::vec3, 2> carried; ///< [cell] offsets of the noise coordinates, see BlobDetail::carried()
     uint64_t id;                      ///< id of the ball, constant during its life
 };
 
@@ -58,14 +58,15 @@ struct DetailedCaster
 class ConservationFactor
 {
 public:
-    /// [1] Least factor; smaller ones would make dense lumps look like mist.
+    /// [1] Least factor. Smaller factors would make dense lumps look like mist.
     static constexpr float kMin = 0.25f;
-    /// [1] Largest factor; larger ones would make remnants of thin medium look solid.
+    /// [1] Largest factor. Larger factors would make remnants of thin medium look solid.
     static constexpr float kMax = 4.0f;
 
     explicit ConservationFactor(std::pmr::memory_resource* memory);
 
-    /// [1] The factor f of formula detail-conservation, kMin .. kMax. Equal input gives equal bits.
+    /// [1] The factor f of formula detail-conservation, kMin .. kMax. Equal input gives bit-identical
+    /// results.
     /// @param balls all balls of the group, visible or not
     float of(const GroupDetail& detail, std::span<const DetailedCaster> balls);
 
@@ -83,8 +84,8 @@ private:
                   const glm::vec3& point) const;
 
     Cells cells_;
-    std::pmr::vector<float> thinning_;   ///< [1] thinning of each ball
-    std::pmr::vector<uint32_t> starts_;  ///< by cell: index of its first entry in inCells_
+    std::pmr::vector<float> thinning_;   ///< [1] symbol v of formula field-detail, for each ball
+    std::pmr::vector<uint32_t> starts_;  ///< for each cell: index of its first entry in inCells_
     std::pmr::vector<uint32_t> inCells_; ///< indices of balls, sorted by cell
 };
 

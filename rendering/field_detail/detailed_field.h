@@ -1,6 +1,6 @@
 /// @file detailed_field.h
-/// Evaluates the field of a group of balls with its detail at single points. It is a simple and slow
-/// reference.
+/// Evaluates the field of a group of balls, with its detail, at single points. The code is a simple and slow
+/// reference implementation.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"
@@ -17,7 +17,7 @@ struct DetailedBall
     glm::vec3 center;   ///< [m]
     float radius;       ///< [m] > 0
     float crossSection; ///< [m2] >= 0
-    glm::vec3 place[2]; ///< [m] noise coordinates of both generations, which move with the ball
+    glm::vec3 place[2]; ///< [m] noise coordinates of both generations at the center, which move with the ball
 };
 
 /// The smooth field of a group of balls, and its extinction with detail. Positions are in the space of the
@@ -34,8 +34,8 @@ public:
     float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
     MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
 
-    /// Computes factor(), by which the eroded field gets the integral of the smooth field: the sum of smooth
-    /// extinctions divided by the sum of eroded extinctions, both at the points of a lattice.
+    /// Computes factor(): the sum of smooth extinctions divided by the sum of eroded extinctions, over the
+    /// points of a lattice. With this factor, the eroded field has the integral of the smooth field.
     /// @param spacing [m] distance of lattice points, at most half of the size of lumps
     void conserveIntegral(float spacing);
     float factor() const { return factor_; } ///< [1] > 0
@@ -47,7 +47,8 @@ private:
     float factor_ = 1;
 };
 
-/// The balls of a group of the kind "blob" and of the group of the kind "material" that belongs to it.
+/// Returns the balls of a group of the kind "blob", with noise coordinates from its group of the kind
+/// "material".
 std::vector<DetailedBall> detailedBalls(const base::SnapshotGroup& blobs,
                                         const base::SnapshotGroup& material);
 

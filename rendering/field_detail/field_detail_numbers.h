@@ -15,22 +15,23 @@ namespace fx::render {
 constexpr int kMaxDetailOctaves = 5;
 constexpr float kMaxDetailGain = 6.0f; ///< upper bound of the symbol n of formula field-detail
 
-/// Constants of a group of the kind "material" at a moment.
+/// Parameters of the detail, from the constants of a group of the kind "material".
 struct FieldDetailNumbers
 {
-    /// One of the two generations of coordinates.
+    /// One of the two generations of noise coordinates, which are blended.
     struct Generation
     {
         float length = 1; ///< [m] size of the largest lumps when the generation began
         float growth = 1; ///< [1] constant Growth0 or Growth1 of foundation/snapshot/material_kind.h
-        /// [cell] Offset of the coordinates, which gives the generations different noise.
+        /// [cell] Offset of the coordinates. The offsets differ, so that the generations have different
+        /// noise.
         glm::vec3 offset{0.0f};
     };
     std::array<Generation, 2> generations; ///< generations in the order of the columns Place0, Place1
     float fade = 0;                        ///< [1] weight of generations[1], 0 .. 1
     float thinnest = 0, densest = 0; ///< [1] t0 and t1 of formula field-detail; densest is 0 without detail
     float ramp = 0.25f;              ///< [1] symbol w of formula field-detail
-    float gain = 0.55f;              ///< [1] amplitude of an octave divided by that of the previous octave
+    float gain = 0.55f;              ///< [1] ratio of the amplitudes of successive octaves
     float cooling = 0, glow = 0;     ///< [1] c and b of formula field-detail
     float softening = 0;             ///< [1] a / v of formula field-detail
 
@@ -49,10 +50,10 @@ struct SmoothMedium
     float thinning = 0;             ///< [1] symbol v of formula field-detail
 };
 
-/// The field with detail.
+/// Effect of the detail on the smooth field at a point.
 struct MediumDetail
 {
-    float share = 1;       ///< [1] extinction divided by that of the smooth field
+    float share = 1;       ///< [1] extinction with detail, divided by smooth extinction
     float temperature = 1; ///< [1] factor of the temperature
     float noise = 0;       ///< [1] symbol z of formula field-detail
 };
@@ -71,7 +72,7 @@ MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, c
 /// most `most` [1/m]. The result is not multiplied by GroupDetail::factor.
 float maxErodedExtinction(const FieldDetailNumbers& numbers, float most);
 
-/// [1] Symbol n m of formula field-detail: mean eroded extinction divided by smooth extinction.
+/// [1] Product n m of symbols of formula field-detail: mean eroded extinction divided by smooth extinction.
 /// @param extinction [1/m] smooth extinction
 float meanErodedShare(const FieldDetailNumbers& numbers, float extinction, float thinning = 0);
 

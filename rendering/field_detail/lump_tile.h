@@ -9,14 +9,15 @@
 
 namespace fx::render {
 
-constexpr int kLumpCells = 8; ///< period of the cube, in cells
-/// [1] mean of lumpAt(), see tests/rendering/core/test_field_detail.cpp
+constexpr int kLumpCells = 8; ///< [cell] period of the cube
+/// [1] Mean of lumpAt(). Test: tests/rendering/core/test_field_detail.cpp
 constexpr float kLumpMean = 0.54464f;
-/// [1] Standard deviation of lumpAt(). With linear interpolation between 64 texels it is 5 % less.
+/// [1] Standard deviation of lumpAt(). The values of a tile with 64 texels along a side have a 5 % smaller
+/// deviation, due to linear interpolation.
 constexpr float kLumpDeviation = 0.13360f;
 
-/// Hash of a corner or a cell of the lattice, 0 .. 2^24 - 1; equal to the hash in
-/// shaders/field/lump_tile.comp.glsl.
+/// Hash of a corner or a cell of the lattice, 0 .. 2^24 - 1. shaders/field/lump_tile.comp.glsl computes the
+/// same hash.
 uint32_t lumpHash(uint32_t x, uint32_t y, uint32_t z, uint32_t purpose);
 
 /// Symbol B of formula lump-noise, 0 .. 1.
@@ -40,7 +41,7 @@ private:
     std::vector<float> values_;
 };
 
-/// The tile that all renderers share. It is filled at the first call. Callable from any thread.
+/// Returns a tile for all renderers. The first call fills the tile. Callable from any thread.
 const LumpTile& sharedLumpTile();
 
 } // namespace fx::render

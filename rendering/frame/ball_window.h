@@ -1,6 +1,6 @@
 /// @file ball_window.h
-/// Computes the rectangle of the window that a ball covers. It equals the rectangle that
-/// shaders/shared/blob_quad.glsl draws, before clipping.
+/// Computes the rectangle of the window that a ball covers. shaders/shared/blob_quad.glsl draws the same
+/// rectangle, before clipping.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -11,12 +11,12 @@
 
 namespace fx::render {
 
-/// [pixel] Least radius with which blobs are drawn. With this radius, the sum over the pixels differs from
-/// the light of the blob by at most 6 %.
+/// [pixel] Least radius with which blobs are drawn. With this radius, the sum of the pixel values differs
+/// from the light of the blob by at most 6 %.
 inline constexpr float kMinPixels = 1.15f;
 
-/// Slopes of the two tangents from the eye to a ball, in the plane of one screen axis and the view axis;
-/// limited to +-1e9. Equal to tangentSlopes() of blob_quad.glsl.
+/// Slopes of the two tangents from the eye to a ball, in the plane of one screen axis and the view axis. The
+/// slopes are limited to +-1e9. blob_quad.glsl has an equal function.
 /// @param c, depth [m] coordinates of the center along the screen axis and along the view axis
 inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)
 {
@@ -31,7 +31,7 @@ inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)
             highDepth > 0.0f ? (c * l + depth * radius) / highDepth : kAll};
 }
 
-/// Range of clip coordinates of a ball along one screen axis, the smaller one first.
+/// Range of clip coordinates of a ball along one screen axis, as least and greatest coordinate.
 /// @param c, depth [m] coordinates of the center along the screen axis and along the view axis
 inline std::pair<float, float> clipRange(const CameraGeometry& camera, int axis, float c, float depth,
                                          float radius)

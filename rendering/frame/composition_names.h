@@ -16,7 +16,7 @@ inline constexpr std::pair<std::string_view, Composition> kCompositionNames[] = 
     {"automatic", Composition::Automatic},
 };
 
-/// Name of a composition; empty if the value has no name.
+/// Returns the name of a composition; empty if the value has no name.
 constexpr std::string_view nameOf(Composition composition)
 {
     for (const auto& [name, value] : kCompositionNames)

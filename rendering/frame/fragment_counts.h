@@ -1,6 +1,5 @@
 /// @file fragment_counts.h
-/// Types for the number of fragments of a frame with each size of layers, and for the share of the picture
-/// that media cover.
+/// Types for the number of fragments of a frame, and for the share of the picture that media cover.
 #pragma once
 
 #include <array>
@@ -9,7 +8,8 @@
 
 namespace fx::render {
 
-/// Width and height of layers may be those of the picture divided by one of these numbers.
+/// Divisors of the size of layers: width and height of a layer are the picture's width and height divided by
+/// one of these numbers.
 inline constexpr std::array<int, 3> kLayerDivisors = {1, 2, 4};
 
 /// Number of fragments, for each divisor in kLayerDivisors.
@@ -21,11 +21,12 @@ inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
         ioSum[i] += counts[i];
 }
 
-/// Shares of the picture that techniques cover, [0, 1). They are weights of the errors of scalability levels.
+/// Fractions of the picture that media cover, [0, 1). The errors of scalability levels are weighted by these
+/// fractions.
 struct ScreenShare
 {
-    double media = 0; ///< share covered by blobs
-    double hot = 0;   ///< share covered by blobs with heat
+    double media = 0; ///< fraction covered by blobs
+    double hot = 0;   ///< fraction covered by hot blobs
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file row_revisions.h
-/// Revisions of the rows of particles and ribbons, by group. Equal revisions mean equal rows. They occur for
-/// rows that have not changed since an earlier snapshot, and for instances of a shared simulation.
+/// Revisions of the rows of particles and ribbons, by group. Equal revisions mean equal rows. Rows get equal
+/// revisions if they have not changed since an earlier snapshot, or if instances share one simulation.
 ///
 /// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
@@ -27,10 +27,11 @@ struct RowRevision
 struct SnapshotRowRevisions
 {
     std::span<const RowRevision> parts; ///< ranges of all groups, one group after another
-    /// Index of the first part of each group, and the number of parts; empty: each group has one part.
+    /// Index of the first part of each group, followed by the number of parts. Empty: each group has one
+    /// part.
     std::span<const size_t> begin;
-    /// by group: index of the first group with the same rows, possibly the group itself; empty: all groups
-    /// differ
+    /// For each group: index of the first group with equal rows, possibly the group itself. Empty: all
+    /// groups differ.
     std::span<const uint32_t> alike;
 
     std::span<const RowRevision> of(size_t group) const
@@ -66,11 +67,11 @@ public:
 
 private:
     static constexpr uint32_t kNone = ~0u;
-    /// by pool of the newer snapshot: index of the equal pool of the older one, or kNone
+    /// For each pool of the newer snapshot: index of the equal pool of the older snapshot, or kNone.
     std::pmr::vector<uint32_t> same_;
 };
 
-/// Assigns revisions to the groups of some kinds, for successive snapshots.
+/// Assigns revisions to the rows of groups, for successive snapshots.
 class RowRevisions
 {
 public:
@@ -81,7 +82,7 @@ public:
     /// Assigns a revision to the rows of each group.
     /// @param older null, or a snapshot of the same scene; rows that are equal in both snapshots get equal
     ///         revisions
-    /// @param before revisions of the rows of `older`; empty: they are unknown
+    /// @param before revisions of the rows of `older`; empty: the revisions are unknown
     /// @param kinds kinds of groups that get revisions; pools always get revisions
     /// @param ioLast last assigned revision; increased for each new revision
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
@@ -96,7 +97,8 @@ private:
     std::pmr::vector<RowRevision> parts_;
     std::pmr::vector<RowRevision> before_;
     std::pmr::vector<uint32_t> alike_;
-    std::pmr::vector<uint32_t> table_; ///< hash table of groups, by a sample of their rows; open addressing
+    /// Hash table of groups with open addressing; the hash uses a sample of the rows.
+    std::pmr::vector<uint32_t> table_;
     SamePools pools_;
 };
 

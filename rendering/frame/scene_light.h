@@ -1,5 +1,5 @@
 /// @file scene_light.h
-/// Lights of a scene besides sun and sky.
+/// Lights of a scene, except sun and sky.
 #pragma once
 
 #include <glm/vec3.hpp>

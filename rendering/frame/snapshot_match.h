@@ -13,16 +13,18 @@ namespace fx::render {
 
 constexpr size_t kNoGroup = ~size_t(0);
 
-/// Index of the group of `older` with the given name (instance, solver and kind); kNoGroup if there is none.
-/// @param older may be null @param hint index that is tested first, because the group most likely has it
+/// Returns the index of the group of `older` with the given name (instance, solver and kind), or kNoGroup if
+/// `older` has no such group.
+/// @param older may be null @param hint most likely index of the group, which is tested first
 size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint);
 
-/// Placement of a group, relative to `eye`, interpolated by `t` towards the newer snapshot.
+/// Returns the placement of a group relative to `eye`, interpolated between the snapshots; t = 1 gives the
+/// newer snapshot.
 /// @param older may be null
 base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
                             const glm::dvec3& eye);
 
-/// World velocity of each point that is fixed in the local space of a group.
+/// World velocity of points that are fixed in the local space of a group, as an affine function.
 struct PlaceDrift
 {
     glm::mat3 turn{0.0f};  ///< [1/s]
@@ -31,7 +33,7 @@ struct PlaceDrift
     glm::vec3 at(const glm::vec3& local) const { return turn * local + shift; }
 };
 
-/// World velocity due to the motion of the placement.
+/// Computes the world velocity due to the motion of the placement.
 /// @param older null: the placement is constant
 /// @param seconds [s] time between the two snapshots
 PlaceDrift placeDrift(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float seconds);

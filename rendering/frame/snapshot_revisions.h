@@ -1,5 +1,6 @@
 /// @file snapshot_revisions.h
-/// Revisions of snapshots. Equal revisions mean equal content, so that data derived from it can be reused.
+/// Revisions of snapshots. Equal revisions mean equal content, so that data derived from the content can be
+/// reused.
 ///
 /// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
@@ -13,23 +14,24 @@
 namespace fx::render {
 
 /// Tests whether all groups, ids, columns, constants and placements of two snapshots are equal, bit for bit.
-/// The comparison ends at the first difference, so it is cheap for snapshots of moving particles. Pooled rows
-/// are compared in the order of the pool: equal groups with another order of pooled rows count as different.
+/// The comparison ends at the first difference, so it is cheap for snapshots of moving particles. Pooled
+/// rows are compared in the order of the pool. Snapshots with equal rows in a different order count as
+/// different.
 bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b);
 
-/// Revisions of the two snapshots of a frame; 0 if there is no snapshot.
+/// Revisions of the two snapshots of a frame. A revision is 0 if the snapshot does not exist.
 struct RevisionPair
 {
     uint64_t newer = 0;
     uint64_t older = 0;
 
     bool operator==(const RevisionPair&) const = default;
-    /// True if every moment between the two snapshots looks the same.
+    /// True if both snapshots have equal content.
     bool isSteady() const { return newer == older; }
 };
 
-/// Assigns revisions to snapshots: equal content gets an equal revision. A snapshot is compared with its
-/// predecessor once. While nothing moves in a scene, all its snapshots have the same revision.
+/// Assigns revisions to snapshots. A snapshot is compared once with its predecessor, and gets the same
+/// revision if the content is equal. While nothing moves in a scene, all snapshots have the same revision.
 class SnapshotRevisions
 {
 public:
@@ -52,11 +54,11 @@ private:
     {
         explicit Known(std::pmr::memory_resource* memory) : rows(memory) {}
 
-        uint64_t snapshot = 0; ///< FrameSnapshot::serial(); 0: none
+        uint64_t snapshot = 0; ///< FrameSnapshot::serial() of the snapshot; 0: the entry is unused
         uint64_t revision = 0;
         RowRevisions rows;
     };
-    const Known* find(const base::FrameSnapshot& snapshot) const; ///< null if not found
+    const Known* find(const base::FrameSnapshot& snapshot) const; ///< null if `snapshot` is not in known_
     void remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older, uint64_t revision);
 
     std::pmr::vector<const base::KindDesc*> rowKinds_;

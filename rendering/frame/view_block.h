@@ -1,6 +1,5 @@
 /// @file view_block.h
-/// The uniform block that the passes of a view share: rays of pixels, camera axes, constants to linearize
-/// depth.
+/// The uniform block for all passes of a view: rays of pixels, camera axes, constants to linearize depth.
 #pragma once
 
 #include "rendering/frame/view_types.h"

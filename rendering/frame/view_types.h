@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// Mapping of distance to depth-buffer values. The host chooses it.
+/// Mapping of distance to depth-buffer values. The host chooses the mapping.
 enum class DepthConvention : uint8_t
 {
     Standard, ///< the near plane has the smaller depth value
@@ -37,22 +37,22 @@ struct CameraView
 /// Model by which the optical depth of a blob along a ray is computed.
 enum class BillboardForm : uint8_t
 {
-    /// a flat card whose opacity depends only on the distance from its center, as for classical particles.
+    /// A flat card. Its opacity depends only on the distance from its center, as for classical particles.
     Planar,
-    Constant, ///< a homogeneous ball with the same total extinction; [USS06]
+    Constant, ///< a homogeneous ball with the total extinction of the kernel; [USS06]
     Kernel,   ///< the quartic kernel of the gas, with its exact integral over the visible part of a ray
 };
 
-/// Way in which overlapping media are combined. rendering/compositions has an entry for each value except
+/// Way in which overlapping media are combined. rendering/compositions implements all values except
 /// Automatic.
 enum class Composition : uint8_t
 {
-    Sorted, ///< balls and cards are blended one after another, the farthest first
-    Slabs,  ///< all media are summed in slabs along each ray; the result does not depend on their order
-    /// Balls of an effect are summed in voxels, through which rays march; the result does not depend on their
-    /// order.
+    Sorted, ///< balls and cards (flat particles) are blended one after another, the farthest first
+    Slabs, ///< all media are summed in slabs along each ray; the result does not depend on the order of media
+    /// Balls of an effect are summed in voxels, and rays march through the voxels. The result does not
+    /// depend on the order of balls.
     Volume,
-    Automatic, ///< the composition that the visible effects prefer; the caller of the renderer chooses it
+    Automatic, ///< the caller of the renderer chooses the composition that the visible effects prefer
 };
 constexpr size_t kCompositionCount = size_t(Composition::Automatic);
 
@@ -66,7 +66,7 @@ inline Composition resolved(Composition asked, Composition preferred)
 namespace view_output {
 enum : uint32_t
 {
-    InstanceId = 1,   ///< id of the instance with the largest share in the pixel
+    InstanceId = 1,   ///< id of the instance that contributes most to the pixel
     Motion = 2,       ///< [pixel] motion since the previous frame
     FirstDepth = 4,   ///< [m] distance at which media begin to be visible
     MeanDepth = 8,    ///< [m] mean distance of visible particles
@@ -93,7 +93,7 @@ struct Lighting
 struct HostLight
 {
     glm::dvec3 position{0.0};  ///< [m] world
-    glm::vec3 intensity{0.0f}; ///< [cd] intensity in the direction of its maximum
+    glm::vec3 intensity{0.0f}; ///< [cd] largest intensity over all directions
     float radius = 0.05f;      ///< [m] > 0, radius of the glowing ball
     glm::vec3 axis{0, -1, 0};  ///< unit vector, direction in which a spot emits
     float cosInner = -1.0f;    ///< [1] cosine of the angle up to which a spot has its full intensity
@@ -116,8 +116,8 @@ struct HostLights
 /// Size of the light slices of a light.
 struct SliceResolution
 {
-    /// Number of texels along a side of a plane of the sun, 8..512, a multiple of 8. Point lights have half
-    /// as many.
+    /// Number of texels along a side of a plane of the sun, 8..512, a multiple of 8. Planes of point lights
+    /// have half of this number.
     int texels = 128;
     int planes = 32; ///< number of planes, 3..128; 1 and 2 become 3; 0: media cast no shadow
 
@@ -131,9 +131,9 @@ struct SliceSettings
     SliceResolution resolution;
     int castingPoints = 2; ///< number of brightest point lights for which media cast shadows, 0..4
     int samples = 2;       ///< number of points along a ray through a ball at which light is sampled, 1..4
-    bool multiple = true;  ///< true: with multiple scattering
-    /// True: multiple scattering by an illumination network where media are drawn in voxels. False: by a
-    /// formula.
+    bool multiple = true;  ///< true: multiple scattering is computed
+    /// True: an illumination network computes multiple scattering, for media that are drawn in voxels.
+    /// False: a formula computes multiple scattering.
     bool network = false;
     /// True: the caller of the renderer sets `multiple` and `network` to the values that the visible effects
     /// prefer.
@@ -143,8 +143,8 @@ struct SliceSettings
     uint8_t networkCells = 0;
     int refreshFrames = 1; ///< number of frames between updates of the planes for moving media, 1..16
 
-    /// True: texels and planes are fixed in the world. False: they move with media and eye, which serves to
-    /// measure the difference.
+    /// True: texels and planes are fixed in the world. False: texels and planes move with media and eye.
+    /// Only measurements of the difference use false.
     bool snapped = true;
 
     bool operator==(const SliceSettings&) const = default;
@@ -153,15 +153,15 @@ struct SliceSettings
 /// Heat shimmer.
 struct ShimmerSettings
 {
-    float strength = 1.0f;   ///< [1] factor of every offset; with 0 the picture does not change, bit for bit
-    float maxOffset = 12.0f; ///< [pixel] largest offset in a picture of 720 pixels height
+    float strength = 1.0f;   ///< [1] factor of every offset; 0: the picture does not change at all
+    float maxOffset = 12.0f; ///< [pixel] largest offset, for a picture height of 720 pixels
 };
 
-/// Glare by redistribution of overflow, [UBT96].
+/// Glare: light above the saturation level (overflow) is distributed over the picture, [UBT96].
 struct DazzleSettings
 {
     bool enabled = true;
-    float white = 8.0f; ///< [1] exposed value at which the sensor saturates, > 0
+    float white = 8.0f; ///< [1] exposed luminance at which the sensor saturates, > 0
     /// Sensor law f(over) = over (a + b exp(-c over)), where `over` is the overflow of a pixel in units of
     /// `white`. For a clean lens, `a` is about 0.01. With a = 1, the whole overflow is distributed to other
     /// pixels.
@@ -175,24 +175,24 @@ struct DazzleSettings
 /// Level of detail of distant effects. The simulation does not depend on these settings.
 struct LodSettings
 {
-    /// [1] Number of blobs that an effect draws: one per `bias` pixels of its disc on the picture, and at
-    /// least twelve. These blobs are enlarged to represent the others. 0: all blobs are drawn.
+    /// [1] Number of pixels per drawn blob: an effect draws one blob per `bias` pixels of its disc on the
+    /// picture, and at least twelve. The drawn blobs are enlarged to represent all blobs. 0: all blobs are
+    /// drawn.
     float bias = 0.0f;
 
     /// [pixel] Largest radius on the picture at which an effect is drawn as an impostor; at most
     /// kMaxImpostorPixels. 0: no impostors.
     float impostorPixels = 0.0f;
-    /// Limited by the 32 x 32 texels of an impostor, which include a margin.
+    /// [pixel] Upper limit of impostorPixels. An impostor has 32 x 32 texels, including a margin.
     static constexpr float kMaxImpostorPixels = 13.0f;
 
-    /// True: levels and impostors do not change when the camera moves. This serves to measure the effect of
-    /// such changes on the picture.
+    /// True: levels and impostors do not change when the camera moves. Only measurements use true.
     bool hold = false;
 
     bool operator==(const LodSettings&) const = default;
 };
 
-/// Settings that apply to all frames until the host changes them.
+/// Settings for all frames until the host changes the settings.
 struct ViewSettings
 {
     float exposureEv100 = 13.0f; ///< [EV100]
@@ -206,29 +206,32 @@ struct ViewSettings
     int slabs = 16; ///< number of slabs along each ray, 6 or 16, for Composition::Slabs
     /// Number of voxels along 16 radii of an effect's balls, 16..256, for Composition::Volume.
     int voxels = 96;
-    /// True: rendering restores every GL state that it changes; false: the host restores it.
+    /// True: the renderer restores every GL state that it changes. False: the host restores the state.
     bool saveState = true;
     bool detail = true; ///< true: draw the procedural detail of blobs
-    /// [1] Share of the particles that are drawn, (0, 1]. They are enlarged to keep the total cross section.
+    /// [1] Fraction of the particles that are drawn, (0, 1]. The drawn particles are enlarged to keep the
+    /// total cross section.
     float particleShare = 1.0f;
     bool toneMap = false; ///< true: write display-referred values
     /// True: also write fire, smoke, dust, depth and optical depth to separate textures.
     bool layerOutputs = false;
-    uint32_t outputs = 0; ///< bits of view_output; with 0, there is no pass, program or memory for outputs
-    /// True: count contributing fragments and read statistics back. This adds a pass and waits for the GPU.
+    uint32_t outputs = 0; ///< bits of view_output; 0: no outputs are rendered, at no cost
+    /// True: count contributing fragments and read statistics back. The count needs an additional pass and
+    /// waits for the GPU.
     bool countOverdraw = false;
     LodSettings lod;
     /// True: draw the boxes of FrameRequest::overlay, which the caller of the renderer fills.
     bool overlay = false;
-    /// Least divisor of layers: 1, 2 or 4. Media and transparent particles are drawn at no more than 1, 1/2
-    /// or 1/4 of the picture's width and height. Opaque particles are always drawn at the full size.
+    /// Least divisor of layers: 1, 2 or 4. Media and transparent particles are drawn to layers, with at most
+    /// 1, 1/2 or 1/4 of the picture's width and height. Opaque particles are always drawn at the full size.
     int layerDivisor = 1;
-    /// Largest estimated number of fragments per frame. If it is exceeded, layers are drawn smaller. 0: no
-    /// limit.
+    /// Largest estimated number of fragments per frame. If the number is exceeded, the size of layers is
+    /// reduced. 0: no limit.
     uint64_t fragmentBudget = 0;
 };
 
-/// The host's shadow map of the sun: depth of the host's opaque surfaces as visible from the sun.
+/// The host's shadow map of the sun: depth of the host's opaque surfaces, rendered from the direction of the
+/// sun.
 struct HostShadowMap
 {
     uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: surfaces cast no shadow on media
@@ -244,16 +247,16 @@ struct HostTargets
 {
     /// 2-D texture with the opaque picture [cd/m2 times exposure]; media are drawn into it
     uint32_t color = 0;
-    uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
-    /// Used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0 of
-    /// this framebuffer.
+    uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: no surface occludes media
+    /// GL name of a framebuffer. If useFramebuffer is true, media are blended into its attachment of draw
+    /// buffer 0.
     uint32_t framebuffer = 0;
     bool useFramebuffer = false; ///< true: draw into `framebuffer` (0 is the window) instead of `color`
     int width = 0;               ///< [pixel]
     int height = 0;              ///< [pixel]
 };
 
-/// Maps ids of instances in snapshots to the ids that the host uses; without a function, both are equal.
+/// Maps ids of instances in snapshots to the host's ids. Without a function, the ids are equal.
 struct InstanceNames
 {
     uint64_t (*name)(const void* owner, uint64_t instance) = nullptr;
@@ -262,7 +265,7 @@ struct InstanceNames
     uint64_t of(uint64_t instance) const { return name ? name(owner, instance) : instance; }
 };
 
-/// A box in the activation overlay, which draws its edges.
+/// A box whose edges are drawn in the activation overlay.
 struct OverlayBox
 {
     glm::vec4 centerHalf; ///< [m] xyz center relative to the camera's origin; w half of the side
@@ -275,38 +278,38 @@ struct FrameRequest
     CameraView camera;
     HostTargets targets;
     HostShadowMap sunShadow;
-    /// [s] time since the last frame of this view; used only for the adaptation of the glare
+    /// [s] time since the last frame of this view; used only for the adaptation of glare
     double deltaTime = 0.0;
     double interpolation = 1.0; ///< [0, 1] moment between the older and the newer snapshot
     double time = 0.0;          ///< [s] scene time, which animates noise
     bool resetHistory = false;  ///< true: the camera has jumped, so that adaptation starts from this frame
     std::span<const OverlayBox> overlay{}; ///< boxes that are drawn over the finished picture
-    InstanceNames instances;               ///< used for ViewSettings::outputs; constant for a scene
+    InstanceNames instances;               ///< maps ids for ViewSettings::outputs; constant for a scene
 };
 
-/// Counters of one rendered frame. Counts are exact unless called estimated.
+/// Counters of one rendered frame. Counts are exact, except where the comment says "estimated".
 struct FrameStatistics
 {
     uint32_t blobs = 0;          ///< blobs that were drawn
     uint32_t blobsCulled = 0;    ///< blobs that were omitted because they are outside of the view
     uint32_t blobsNonFinite = 0; ///< blobs that were omitted because a value was not finite
-    uint32_t blobsThinned = 0;   ///< blobs that were omitted by the level of detail
+    uint32_t blobsThinned = 0;   ///< blobs that the level of detail omitted
     uint32_t impostors = 0;      ///< effects drawn as impostors
-    uint32_t impostorsTaken = 0; ///< number of impostors rendered in this frame
-    /// Number of groups of blobs by the share that is drawn: all; at least 1/2; at least 1/8; less.
+    uint32_t impostorsTaken = 0; ///< number of impostor images rendered in this frame
+    /// Number of groups of blobs with a drawn fraction of 1; at least 1/2; at least 1/8; less than 1/8.
     uint32_t lodGroups[4] = {0, 0, 0, 0};
     uint64_t particles = 0;        ///< drawn sprites, meshes and pieces of ribbons
     uint64_t sprites = 0;          ///< number of sprites in `particles`
     uint64_t meshes = 0;           ///< number of meshes in `particles`
     uint64_t ribbonPieces = 0;     ///< number of pieces of ribbons in `particles`
     uint64_t gpuParticles = 0;     ///< drawn particles whose rows the GPU computed
-    uint64_t particlesThinned = 0; ///< particles that were omitted by the level of detail
+    uint64_t particlesThinned = 0; ///< particles that the level of detail omitted
     uint64_t particlesOrdered = 0; ///< drawn particles that were sorted by depth or age
     /// [byte] Size of the data of blobs and particles that were uploaded for this frame.
     uint64_t uploadedBytes = 0;
     /// [byte] Size of the rows that were uploaded for earlier steps and are reused.
     uint64_t keptRowBytes = 0;
-    /// [byte] size of the rows that were not uploaded because they equal those of another group
+    /// [byte] size of the rows that were not uploaded because another group has equal rows
     uint64_t sharedRowBytes = 0;
     uint64_t sortedElements = 0; ///< number of elements that were sorted by distance or age for this frame
     /// True: the gathered, sorted and uploaded data of the last frame were reused.
@@ -317,7 +320,7 @@ struct FrameStatistics
     /// Number of programs that were compiled during this frame; 0 after warm-up.
     uint32_t programsCompiled = 0;
     uint64_t textureBytes = 0; ///< [byte] size of the textures that the view has allocated
-    /// [byte] size that the frame's transient resources would have without sharing memory
+    /// [byte] size of the frame's transient resources if they did not share memory
     uint64_t unsharedBytes = 0;
     uint64_t sharedBytes = 0;   ///< [byte] size of the frame's transient resources, which share memory
     uint64_t coveredPixels = 0; ///< texels of layers that media cover; counted only with countOverdraw
@@ -325,11 +328,13 @@ struct FrameStatistics
     uint64_t shadedFragments = 0;
     /// Estimated fragments of the bounding rectangles of blobs and particles, at the size of layers.
     uint64_t estimatedFragments = 0;
-    /// divisor of layers in this frame: as in the settings, or larger to keep within fragmentBudget
+    /// divisor of layers in this frame: ViewSettings::layerDivisor, or larger to keep within fragmentBudget
     int layerDivisor = 1;
-    /// Entries in the lists of all tiles. This counter and the next two are set only with countOverdraw.
+    /// Entries in the lists of all tiles. listedBalls, spilledBalls and spilledCards are set only with
+    /// countOverdraw.
     uint64_t listedBalls = 0;
-    /// Entries that were dropped because lists were full. The listed balls are weighted to represent them.
+    /// Entries that were dropped because lists were full. The listed balls are weighted to represent the
+    /// dropped balls.
     uint64_t spilledBalls = 0;
     /// Fragments of sprites, ribbons and impostors that were dropped because lists were full.
     uint64_t spilledCards = 0;

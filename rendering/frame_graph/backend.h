@@ -1,9 +1,9 @@
 /// @file backend.h
-/// Interface of passes to a graphics API: draws and dispatches, each with its complete state.
+/// Interface between passes and a graphics API. Each draw and each dispatch specifies its complete state.
 ///
-/// No state persists between calls, so passes cannot depend on the state of other passes. All changes of GL
-/// state are in one place (rendering/gl/gl_backend.cpp). There are two backends: OpenGL, and one for tests
-/// that records calls.
+/// No state persists between calls, so passes cannot depend on the state of other passes. Only
+/// rendering/gl/gl_backend.cpp changes GL state. There are two backends: a backend for OpenGL, and a
+/// recording backend for tests.
 #pragma once
 
 #include <cstddef>
@@ -46,17 +46,17 @@ constexpr size_t formatBytes(Format format)
     return 0;
 }
 
-/// Id of a version of a texture or buffer in the frame graph.
+/// Id of one version of a texture or buffer in the frame graph.
 struct ResourceId
 {
     uint32_t index = ~0u;
     bool valid() const { return index != ~0u; }
 };
 
-/// One program: names of embedded sources (shaders/) and the macro definitions of one permutation.
-/// Descriptions are constants with static storage. rendering/passes/programs.cpp lists those of the frame's
-/// own passes, and DrawTechnique::programs those of a technique, so that all permutations can be compiled in
-/// advance.
+/// Description of one shader program: names of the embedded sources (shaders/) and macro definitions of one
+/// permutation. Descriptions are constants with static storage. To compile all permutations in advance,
+/// rendering/passes/programs.cpp lists the programs of the frame, and DrawTechnique::programs lists the
+/// programs of a technique.
 struct ProgramDesc
 {
     const char* name;
@@ -100,7 +100,7 @@ struct BufferBinding
 {
     uint32_t binding;
     ResourceId buffer;
-    uint64_t offset = 0;    ///< [byte] begin of the range, a multiple of GlLimits::storageAlignment
+    uint64_t offset = 0;    ///< [byte] begin of the range; a multiple of GlLimits::storageAlignment
     uint64_t bytes = 0;     ///< [byte] size of the range; 0: up to the end of the buffer
     bool isUniform = false; ///< true: a std140 block at uniform binding 1; false: a storage buffer
 };
@@ -109,7 +109,7 @@ struct BufferBinding
 struct DrawCall
 {
     const ProgramDesc* program = nullptr;
-    /// Color targets, all of the same size, which is that of the viewport. Output to an invalid target is
+    /// Color targets. All targets and the viewport have the same size. Output to an invalid target is
     /// discarded.
     std::span<const ResourceId> targets = {};
     std::span<const TextureBinding> textures = {};
@@ -120,8 +120,9 @@ struct DrawCall
     uint32_t instances = 1;
     ResourceId depthTarget = {}; ///< depth texture; if it is valid, depth is tested and written
     bool reversedDepth = false;  ///< true: the depth test is GREATER; false: LESS
-    /// Buffer with indirect draw arguments, which a dispatch has written. It begins with vertices, instances,
-    /// 0, 0 as 32-bit words. If valid, it replaces the members `vertices` and `instances`.
+    /// Buffer with indirect draw arguments, which a dispatch has written. The buffer begins with vertices,
+    /// instances, 0, 0 as 32-bit words. If valid, `indirect` replaces the members `vertices` and
+    /// `instances`.
     ResourceId indirect = {};
 };
 
@@ -146,7 +147,7 @@ public:
 
     virtual void clear(ResourceId texture, const float (&rgba)[4]) = 0;
     virtual void draw(const DrawCall& call) = 0;
-    /// Runs a compute program. The program sees all earlier writes; later operations see the writes of the
+    /// Runs a compute program. The program sees all earlier writes. Later operations see the writes of the
     /// program.
     virtual void dispatch(const DispatchCall& call) = 0;
     virtual void upload(ResourceId buffer, std::span<const std::byte> bytes) = 0;
@@ -157,7 +158,7 @@ public:
     virtual int height(ResourceId texture) const = 0;
 };
 
-/// The bytes of a trivially copyable struct with std140 layout, for uniforms.
+/// Returns the bytes of a trivially copyable struct with std140 layout.
 template <class T>
 std::span<const std::byte> asUniforms(const T& block)
 {

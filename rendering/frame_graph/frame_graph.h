@@ -1,11 +1,12 @@
 /// @file frame_graph.h
-/// The passes of one frame with their declared reads and writes. Unread results are not computed, and
-/// resources of disjoint lifetimes share memory.
+/// Graph of the passes of one frame, with their declared reads and writes. Unread results are not computed.
+/// Resources with disjoint lifetimes share memory.
 ///
 /// Use: begin(), import external resources, addPass() in order of execution, keep() the results, compile(),
-/// execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). After misuse (use of an old version, reading
-/// an unwritten resource, an empty size), status() has the error and nothing is executed. A frame allocates
-/// nothing if an earlier frame was at least as large. Threads: one thread at a time.
+/// execute(). Source of the idea: O'Donnell, "FrameGraph" (GDC 2017). After misuse, status() returns an
+/// error and no pass is executed. Misuse is the use of an old version, a read of an unwritten resource, or
+/// an empty size. A frame allocates nothing if an earlier frame was at least as large. Threads: one thread
+/// at a time.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -36,7 +37,7 @@ struct BufferDesc
     size_t bytes = 0;      ///< > 0
 };
 
-/// A physical texture, which one or more virtual textures use during a frame; a backend creates it.
+/// A texture that a backend creates. One or more textures of the graph use it during a frame.
 struct PhysicalTexture
 {
     int width, height;
@@ -46,7 +47,7 @@ struct PhysicalTexture
 class FrameGraph
 {
 public:
-    /// Argument of the setup function of a pass, which declares the resources of the pass.
+    /// Argument of the setup function of a pass. The setup function declares the resources of the pass.
     class Builder
     {
     public:
@@ -54,7 +55,8 @@ public:
         ResourceId create(const BufferDesc& desc);
         void read(ResourceId resource);
         /// Declares a write and returns the new version. Later passes must not read the old version. A write
-        /// also reads the old version (blending, partial update), unless this pass created the resource.
+        /// also counts as a read of the old version (blending, partial update), unless the same pass created
+        /// the resource.
         [[nodiscard]] ResourceId write(ResourceId resource);
         /// Declares that the pass is executed even if its results are not read.
         void sideEffect();
@@ -68,18 +70,20 @@ public:
 
     explicit FrameGraph(std::pmr::memory_resource* memory);
 
-    /// Removes the passes and resources of the last frame, but keeps their memory.
+    /// Removes the passes and resources of the last frame. Allocated memory is kept.
     void begin();
 
     /// Adds a texture or buffer that exists outside of the graph. @param name GL name
     ResourceId importTexture(const TextureDesc& desc, uint32_t name);
-    /// Adds a framebuffer of the host as a color target. Passes can draw to it but not sample it.
+    /// Adds a framebuffer of the host as a color target. Passes can draw to the framebuffer, but cannot
+    /// sample it.
     ResourceId importFramebuffer(const TextureDesc& desc, uint32_t framebuffer);
     ResourceId importBuffer(const BufferDesc& desc, uint32_t name);
 
-    /// Adds a pass. `setup(Builder&)` is called at once, may capture by reference, and declares the resources
-    /// of the pass. It returns a function `execute(Backend&)`, which execute() calls later. This function
-    /// captures resource ids and other data by value: at most kExecuteBytes of trivially copyable state.
+    /// Adds a pass. `setup(Builder&)` is called at once and declares the resources of the pass. `setup` may
+    /// capture by reference. `setup` returns a function `execute(Backend&)`, which FrameGraph::execute()
+    /// calls later. The returned function captures data by value: at most kExecuteBytes of trivially
+    /// copyable state.
     template <class Setup>
     void addPass(std::string_view name, Setup&& setup)
     {
@@ -92,16 +96,16 @@ public:
                      [](void* state, Backend& backend) { (*static_cast<Execute*>(state))(backend); });
     }
 
-    /// Marks a result of the frame: passes that contribute to it are not culled.
+    /// Marks a resource as a result of the frame. Passes that contribute to the resource are not culled.
     void keep(ResourceId resource);
 
-    /// Culls passes, orders them (declaration order is kept), computes lifetimes and assigns physical
-    /// textures.
+    /// Culls passes, computes the lifetimes of resources and assigns physical textures. The remaining passes
+    /// keep the order of their declaration.
     void compile();
     void execute(Backend& backend);
 
-    /// The first misuse since begin(): the code Internal, with pass and resource in the message. compile()
-    /// does not change this status.
+    /// Returns the error of the first misuse since begin(), or Ok. The error has the code Internal, and its
+    /// message names pass and resource. compile() does not change the status.
     const base::Status& status() const { return status_; }
 
     // ---- results of compile(), for backends, statistics and tests ----
@@ -117,13 +121,13 @@ public:
         uint32_t importedName = 0;
         uint32_t physical = ~0u; ///< index of the physical texture or buffer; ~0 if imported or never used
     };
-    /// The resource to which a version belongs.
+    /// Returns the resource to which a version belongs.
     const Resource& resource(ResourceId id) const { return resources_[versions_[id.index].resource]; }
     /// True if the id belongs to a resource of this frame.
     bool contains(ResourceId id) const { return id.index < versions_.size(); }
     std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
-    /// Planned memory of the frame's transient resources, without imported ones.
+    /// Planned memory of the frame's transient resources, without imported resources.
     struct Memory
     {
         uint64_t unshared; ///< [byte] size of the resources if they did not share memory
@@ -132,7 +136,8 @@ public:
     Memory memory() const;
     std::span<const std::string_view> executedPasses() const { return executed_; }
     uint32_t culledPasses() const { return static_cast<uint32_t>(passes_.size() - executed_.size()); }
-    /// True if the executed pass with this index declared to read (write) any version of the resource.
+    /// True if the executed pass with this index declared a read of any version of the resource.
+    /// passWrites() tests for writes.
     bool passReads(size_t executedIndex, ResourceId id) const
     {
         return passAccesses(executedIndex, id, false);
@@ -154,8 +159,8 @@ private:
         uint32_t resource;
         uint32_t number;   ///< number of the version; 0 before the first write of this frame
         uint32_t writer;   ///< index of the pass that wrote the version; kNone for number 0
-        uint32_t previous; ///< the version that was replaced by this write
-        bool needed;       ///< an executed pass reads the version, or it was passed to keep()
+        uint32_t previous; ///< index of the version that the write replaced
+        bool needed;       ///< true: an executed pass reads the version, or the version was passed to keep()
     };
     struct Access
     {
@@ -172,7 +177,7 @@ private:
         void (*run)(void* state, Backend& backend);
         alignas(std::max_align_t) std::byte state[kExecuteBytes];
     };
-    /// The use of a resource: indices of executed passes.
+    /// Lifetime of a resource, as indices of executed passes.
     struct Lifetime
     {
         uint32_t latest; ///< latest version of the resource
@@ -203,12 +208,12 @@ private:
     std::pmr::vector<Version> versions_;
     std::pmr::vector<Pass> passes_;
     std::pmr::vector<Access> accesses_;
-    std::pmr::vector<uint32_t> executedIndex_; ///< by executed pass: its index in passes_
+    std::pmr::vector<uint32_t> executedIndex_; ///< for each executed pass: its index in passes_
     std::pmr::vector<std::string_view> executed_;
     std::pmr::vector<PhysicalTexture> physicalTextures_;
     std::pmr::vector<size_t> physicalBuffers_;
     std::pmr::vector<uint32_t> order_; ///< scratch: transient resources, sorted by first use
-    /// Scratch: index of the pass that last uses each physical resource.
+    /// Scratch: for each physical resource, index of the last pass that uses it.
     std::pmr::vector<uint32_t> busyUntil_;
 };
 

@@ -1,6 +1,6 @@
 /// @file recording_backend.h
-/// A backend without graphics, for tests. It records the operations of passes and checks them against the
-/// declarations of the passes.
+/// A backend without graphics, for tests. The backend records the operations of passes, and compares the
+/// operations with the declarations of the passes.
 ///
 /// Threads: one thread at a time.
 #pragma once
@@ -27,7 +27,8 @@ public:
         Copy,
     };
 
-    /// One operation with copies of its arguments; members that do not apply to its kind are empty.
+    /// One operation, with copies of its arguments. Members that do not apply to the kind of operation are
+    /// empty.
     struct Operation
     {
         Kind kind = Kind::Draw;
@@ -55,8 +56,9 @@ public:
     std::vector<Operation> operationsOf(std::string_view pass) const;
     size_t count(Kind kind) const;
 
-    /// One sentence per violation of the rules of the graph: use of an undeclared resource, sampling of a
-    /// current render target, targets of unequal size, a draw without a program. Empty for correct passes.
+    /// Violations of the rules of the graph, one sentence each; empty for correct passes. Violations are use
+    /// of an undeclared resource, sampling of a current render target, targets of unequal size, and draws
+    /// without a program.
     const std::vector<std::string>& violations() const { return violations_; }
 
     void beginPass(std::string_view name) override;

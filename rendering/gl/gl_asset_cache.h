@@ -1,8 +1,9 @@
 /// @file gl_asset_cache.h
-/// Images and meshes of an asset table as GL objects. They are created when a frame first uses them.
+/// Cache of GL objects for the images and meshes of an asset table. An object is created when a frame first
+/// uses the object.
 ///
-/// An image becomes a texture array with one layer for each frame of its atlas and with all mip levels, so
-/// that texture filtering does not mix neighboring frames. Threads: [GL thread].
+/// An image becomes a texture array with one layer for each frame of its atlas, so that texture filtering
+/// does not mix neighboring frames. The array has all mip levels. Threads: [GL thread].
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -15,7 +16,7 @@
 
 namespace fx::render {
 
-/// A frame atlas on the GPU.
+/// A texture array on the GPU, with one layer per frame of an image atlas.
 struct GlAtlas
 {
     uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY
@@ -24,7 +25,7 @@ struct GlAtlas
     int frames = 1;
 };
 
-/// A mesh on the GPU: a storage buffer of vertices (8 floats each) and then indices.
+/// A mesh on the GPU: a storage buffer with vertices (8 floats each), followed by indices.
 struct GlMesh
 {
     uint32_t buffer = 0;
@@ -44,15 +45,16 @@ public:
     GlAssetCache(const GlAssetCache&) = delete;
     GlAssetCache& operator=(const GlAssetCache&) = delete;
 
-    /// The texture array of image `id`, which has `columns` x `rows` frames, row by row from the upper left.
-    /// If no image has this id, the result is one white texel.
+    /// Returns the texture array of image `id`. The image has `columns` x `rows` frames, row by row from the
+    /// upper left. If no image has this id, the result has one white texel.
     /// @return OutOfMemory, InvalidArgument (more frames than the context's arrays have layers)
     base::Result<GlAtlas> atlas(const base::AssetTable* table, base::AssetId id, int columns, int rows);
-    /// The buffer of mesh `id`.
+    /// Returns the buffer of mesh `id`.
     /// @return OutOfMemory, NotFound if no mesh has this id
     base::Result<GlMesh> mesh(const base::AssetTable* table, base::AssetId id);
 
-    void release();                           ///< deletes all objects; they are created again on use
+    /// Deletes all objects; the next use of an object creates it again.
+    void release();
     uint64_t bytes() const { return bytes_; } ///< [byte] size of all objects
 
 private:

@@ -1,16 +1,16 @@
 /// @file gl_backend.h
-/// Executes a compiled FrameGraph with OpenGL 4.5. There is one backend per view. It keeps its textures from
-/// frame to frame.
+/// Executes a compiled FrameGraph with OpenGL 4.5. There is one backend per view. A backend keeps its
+/// textures from frame to frame.
 ///
 ///     graph.compile();
 ///     GlStateGuard guard(device);
 ///     if (backend.beginFrame(graph)) { graph.execute(backend); }
 ///     const base::Status status = backend.endFrame();
 ///
-/// Each draw has exactly the state that it declares. beginFrame() sets all states; later calls set only
-/// differences. GlStateGuard lists the affected states. The host's clip control and multisampling are used
-/// and not changed. A frame with the same resources as the last frame allocates nothing. No draw makes GL
-/// queries. Threads: [GL thread].
+/// Each draw has exactly the state that it declares. beginFrame() sets all states. Later calls set only the
+/// states that differ. GlStateGuard lists the affected states. The clip control and multisampling of the
+/// host are not changed. A frame with the same resources as the last frame allocates nothing. No draw makes
+/// GL queries. Threads: [GL thread].
 #pragma once
 
 #include "foundation/result/status.h"
@@ -33,7 +33,7 @@ namespace fx::render {
 /// Encoding of colors that a frame writes to targets of an sRGB format.
 enum class SrgbTargets : uint8_t
 {
-    Light, ///< passes write linear light; OpenGL blends it linearly and encodes it
+    Light, ///< passes write linear light; OpenGL blends in linear space and encodes the result
     Codes, ///< passes write encoded values, which are stored without conversion
 };
 
@@ -41,9 +41,9 @@ class GlBackend final : public Backend
 {
 public:
     static constexpr uint32_t kTextureUnits = GlDrawState::kUnits;
-    static constexpr uint32_t kImageUnits = 7;      ///< number of texture units, 0..6
+    static constexpr uint32_t kImageUnits = 7;      ///< number of image units, 0..6
     static constexpr uint32_t kStorageBindings = 8; ///< number of storage bindings, 0..7
-    /// Number of uniform bindings: 0 for the uniforms of the call, and 1.
+    /// Number of uniform bindings. Binding 0 is for DrawCall::uniforms, binding 1 for uniform buffers.
     static constexpr uint32_t kUniformBindings = 2;
     /// Number of color targets, the minimum that OpenGL 4.5 guarantees.
     static constexpr uint32_t kColorTargets = 8;
@@ -52,7 +52,8 @@ public:
 
     /// Creates or reuses the textures and buffers of `graph`, and sets the state that all draws share.
     /// `graph` must be compiled and stay valid until endFrame(). A pending GL error of the host is discarded.
-    /// @return the graph's own status, GlFailed (context lost), OutOfMemory, InvalidArgument (size)
+    /// @return the error of FrameGraph::status(), GlFailed (context lost), OutOfMemory, InvalidArgument
+    ///     (size)
     base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light);
     /// Ends the frame. @return status()
     base::Status endFrame();
@@ -69,10 +70,10 @@ public:
     bool owns(uint32_t texture) const { return pool_.owns(texture); }
 
     uint32_t drawCalls() const { return drawCalls_; } ///< number of draws and dispatches of the last frame
-    /// [byte] Size of all pooled textures and buffers.
+    /// [byte] Size of all textures and buffers of the backend.
     uint64_t pooledBytes() const { return pool_.bytes() + uniforms_.bytes(); }
-    /// Sets the timer, whose functions are called when a pass begins; null: no timer. It must stay valid
-    /// while it is set.
+    /// Sets the timer that is notified when a pass begins; null: no timer. The timer must stay valid while
+    /// it is set.
     void setTimer(GlPassTimer* timer) { timer_ = timer; }
     void releasePool(); ///< deletes all pooled objects; the next frame creates them again
 
@@ -106,7 +107,7 @@ private:
     GlUniformRing uniforms_;
     GlDrawState state_;
     GlPassTimer* timer_ = nullptr;
-    size_t pass_ = 0; ///< index of the running pass among the executed ones
+    size_t pass_ = 0; ///< index of the running pass among the executed passes
     uint32_t drawCalls_ = 0;
     bool hasDrawn_ = true; ///< true: draws were issued since the last barrier, in this frame or before
 };

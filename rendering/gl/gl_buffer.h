@@ -1,5 +1,5 @@
 /// @file gl_buffer.h
-/// A buffer with immutable storage. The CPU writes it with glNamedBufferSubData.
+/// A buffer with immutable storage. The CPU writes to the buffer with glNamedBufferSubData.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -33,8 +33,8 @@ private:
     size_t bytes_ = 0;
 };
 
-/// Replaces `ioBuffer` by a larger buffer if it has less than `bytes`. The size of a new buffer is the next
-/// power of two. Afterwards, the content is undefined. Does nothing for 0 bytes.
+/// Replaces `ioBuffer` by a larger buffer if the size of `ioBuffer` is less than `bytes`. The size of a new
+/// buffer is the next power of two, and its content is undefined. Does nothing for 0 bytes.
 /// @return OutOfMemory
 base::Status makeRoom(GlDevice& device, GlBuffer& ioBuffer, size_t bytes, const char* label);
 

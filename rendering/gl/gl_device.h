@@ -1,7 +1,7 @@
 /// @file gl_device.h
 /// Data about one OpenGL context: functions, limits, compiled programs, allocated bytes.
 ///
-/// Threads: [GL thread], the thread on which the context is current; this includes create() and destruction.
+/// Threads: [GL thread], the thread on which the context is current, also for create() and the destructor.
 /// Ownership: all objects created with a device must be destroyed before the device.
 #pragma once
 
@@ -22,10 +22,10 @@
 
 namespace fx::render {
 
-/// Limits of the context. They are queried once, when the device is created.
+/// Limits of the context, queried when the device is created.
 struct GlLimits
 {
-    int version = 0;           ///< version of OpenGL: 10 major + minor
+    int version = 0;           ///< version of OpenGL: 10 * major + minor
     int textureSize = 0;       ///< [pixel] largest width and height
     int volumeSize = 0;        ///< [pixel] largest side of a texture of three dimensions
     int uniformAlignment = 0;  ///< [byte] alignment of offsets into uniform buffers
@@ -39,8 +39,8 @@ struct GlLimits
 class GlDevice
 {
 public:
-    /// A function that replaces embedded GLSL. It returns the complete text of the source `name` with
-    /// `defines`, or nothing to use the embedded text.
+    /// A function that replaces embedded GLSL. The function returns the complete text of the source `name`
+    /// with `defines`. If it returns no text, the embedded text is used.
     using SourceOverride =
         std::function<std::optional<std::string>(std::string_view name, std::string_view defines)>;
 
@@ -61,15 +61,15 @@ public:
 
     /// Compiles the program `desc` in advance, unless it is compiled already. `desc` must have static
     /// storage, because programs are identified by the address of their description.
-    /// @return GlFailed with stage, file and the driver's log; NotFound when a source does not exist
+    /// @return GlFailed with stage, file and the driver's log; NotFound if a source does not exist
     base::Status compile(const ProgramDesc& desc);
 
-    /// A program whose macro definitions are computed at run time: `like` with its defines replaced by
-    /// `defines`. Equal arguments return the same object during the lifetime of the device.
+    /// Returns a program description with macro definitions that are computed at run time: a copy of `like`
+    /// with `defines`. Equal arguments return the same object during the lifetime of the device.
     const ProgramDesc& generated(const ProgramDesc& like, std::string_view defines);
 
-    /// GL name of the program. If it is not compiled yet, it is compiled now and counted in lateCompiles(). 0
-    /// if compilation fails; `outStatus` then has the reason.
+    /// Returns the GL name of the program. If the program is not compiled yet, it is compiled now and
+    /// counted in lateCompiles(). If compilation fails, the result is 0, and `outStatus` has the reason.
     uint32_t program(const ProgramDesc& desc, base::Status& outStatus);
 
     /// Number of programs compiled since creation, including lateCompiles().
@@ -86,7 +86,7 @@ public:
     void countTextureBytes(int64_t change) { textureBytes_ += static_cast<uint64_t>(change); }
     void countBufferBytes(int64_t change) { bufferBytes_ += static_cast<uint64_t>(change); }
 
-    /// Discards pending GL errors. Returns the first one, or Ok without errors. @param where text for the
+    /// Discards pending GL errors. Returns the first error, or Ok without errors. @param where text for the
     /// message
     base::Status takeError(std::string_view where);
 

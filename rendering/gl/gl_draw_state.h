@@ -1,7 +1,7 @@
 /// @file gl_draw_state.h
-/// Sets the GL state for drawing: all states once per frame, then only those that differ between draws.
+/// Sets the GL state for drawing: all states once per frame, then only the states that differ between draws.
 ///
-/// From reset() on, the state is cached, so that no other code may set GL state until the frame ends.
+/// From reset() on, the state is cached. Therefore no other code may set GL state until the frame ends.
 /// gl_touched_state.cpp lists the states that this class changes.
 #pragma once
 
@@ -36,7 +36,7 @@ public:
 
 private:
     static constexpr uint32_t kTargets = 8;
-    static constexpr uint32_t kUnknown = ~0u; ///< not a GL name
+    static constexpr uint32_t kUnknown = ~0u; ///< marks an unknown GL name
 
     struct Unit
     {
@@ -45,7 +45,7 @@ private:
     };
 
     GlDevice& device_;
-    GlVertexArray vertexArray_; ///< vertex array without attributes, because shaders fetch their data
+    GlVertexArray vertexArray_; ///< vertex array without attributes; shaders fetch their data from buffers
     std::array<GlSampler, 5> samplers_;
     uint32_t program_ = kUnknown;
     uint32_t framebuffer_ = kUnknown;

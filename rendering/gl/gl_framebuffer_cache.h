@@ -12,7 +12,8 @@
 
 namespace fx::render {
 
-/// GL names of the attached textures. 0 means no attachment, and may occur between other color attachments.
+/// GL names of the attached textures. 0 means no attachment. Color attachments with and without a texture
+/// may be in any order.
 struct GlAttachments
 {
     std::array<uint32_t, 8> colors{};
@@ -32,9 +33,9 @@ public:
     /// Deletes framebuffers that have not been used for many frames.
     void beginFrame();
 
-    /// Finds or creates the framebuffer with these attachments.
-    /// @param foreign true: an attachment belongs to the host, which may have deleted the texture and reused
-    ///         its name; therefore attachments are set and checked again once per frame
+    /// Finds or creates the framebuffer with `attachments`.
+    /// @param foreign true: an attachment belongs to the host. Attachments are then set and checked again
+    ///     once per frame, because the host may have deleted the texture and reused its name
     /// @return GlFailed with the reason why the framebuffer is incomplete
     base::Result<uint32_t> find(const GlAttachments& attachments, bool foreign);
 

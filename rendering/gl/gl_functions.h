@@ -1,9 +1,9 @@
 /// @file gl_functions.h
-/// The OpenGL functions of one context. They are loaded through the host, and calls are counted. The library
-/// does not link to an OpenGL library.
+/// The OpenGL functions of one context. The host's loader loads the functions, and their calls are counted.
+/// The library does not link to an OpenGL library.
 ///
-/// Members have the names of the functions without "gl": gl.DrawArraysInstanced(...). A hook is called before
-/// every call and can suppress the call; tests inject faults with it.
+/// Members have the names of the functions without "gl": gl.DrawArraysInstanced(...). A hook is called
+/// before every GL call, and can suppress the call. Tests use the hook to inject faults.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -15,8 +15,8 @@
 
 namespace fx::render {
 
-/// The host's loader. It returns a function of the current context by its name ("glDrawArrays"), or null if
-/// it does not exist.
+/// The host's loader. The loader returns a function of the current context by its name ("glDrawArrays"), or
+/// null if the function does not exist.
 struct GlLoader
 {
     void* user = nullptr;
@@ -27,8 +27,8 @@ struct GlLoader
 struct GlCallMonitor
 {
     uint64_t calls = 0;
-    /// Called before each GL function, with its name including "gl". If it returns false, the call is
-    /// suppressed and returns zero. Only tests set a hook.
+    /// Called before each GL function, with the name of the function including "gl". If the hook returns
+    /// false, the GL call is suppressed and returns zero. Only tests set a hook.
     std::function<bool(const char* name)> hook;
 };
 
@@ -49,7 +49,7 @@ public:
     }
 
     /// Loads the function.
-    /// @return false if the loader does not find it
+    /// @return false if the loader does not find the function
     bool load(const GlLoader& loader, const char* name, GlCallMonitor& monitor)
     {
         name_ = name;

@@ -1,6 +1,6 @@
 /// @file gl_mapped_buffer.h
-/// A persistently mapped buffer. The CPU writes to the memory that draws read; a fence signals that draws
-/// have finished reading.
+/// A persistently mapped buffer. The CPU writes to memory that draws read. A fence signals that draws have
+/// finished reading.
 ///
 /// Threads: [GL thread].
 #pragma once

@@ -1,5 +1,5 @@
 /// @file gl_messages.h
-/// Counts messages of the driver by KHR_debug, for contexts that were created with debug = true.
+/// Counts the driver's KHR_debug messages, for contexts that were created with debug = true.
 #pragma once
 
 #include "rendering/gl/gl_device.h"
@@ -19,7 +19,7 @@ public:
     GlMessages& operator=(const GlMessages&) = delete;
 
     uint32_t errors() const { return errors_; } ///< number of messages of the type error
-    /// Number of messages of high severity, including errors.
+    /// Number of messages of high severity, of any type.
     uint32_t highSeverity() const { return highSeverity_; }
     /// Number of messages that are errors or have high severity; 0 for a correct program.
     uint32_t serious() const { return serious_; }

@@ -9,8 +9,8 @@
 
 namespace fx::render {
 
-/// Owner of a GL object. Its destructor deletes the object and requires the current context. `Delete` is the
-/// glDelete... function of the table.
+/// Owner of a GL object. The destructor deletes the object; the context must be current then. `Delete` is
+/// the pointer to a glDelete... member of GlFunctions.
 template <auto Delete>
 class GlName
 {

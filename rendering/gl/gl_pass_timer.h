@@ -1,6 +1,6 @@
 /// @file gl_pass_timer.h
-/// Measures times of groups of passes. It uses timestamps of the GPU, which are read some frames later
-/// without waiting, or a clock of the host, with waiting for the GPU after each group.
+/// Measures times of groups of passes, with one of two clocks. Timestamps of the GPU are read some frames
+/// later without waiting. With a clock of the host, the timer waits for the GPU after each group.
 ///
 /// Threads: [GL thread]. Allocates nothing after construction.
 #pragma once
@@ -26,22 +26,23 @@ enum class TimingClock : uint8_t
 /// Times of one finished frame.
 struct GroupTimes
 {
-    uint64_t tag = 0;                                  ///< argument that was passed to beginFrame()
-    std::array<double, kMaxPassGroups> milliseconds{}; ///< times of the groups, by their number in PassGroups
-    double total() const                               ///< [ms]
+    uint64_t tag = 0; ///< argument that was passed to beginFrame()
+    /// Times of the groups, indexed by the numbers of PassGroups.
+    std::array<double, kMaxPassGroups> milliseconds{};
+    double total() const ///< [ms]
     {
         return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
     }
 };
 
-/// A function that returns the time of a host's clock [ms], relative to any origin.
+/// A function that returns the time of a clock of the host [ms]. The origin of time is arbitrary.
 using HostClock = double (*)();
 double steadyMilliseconds();
 
 class GlPassTimer
 {
 public:
-    static constexpr size_t kFrames = 6; ///< largest number of frames whose results are pending
+    static constexpr size_t kFrames = 6; ///< largest number of frames with pending results
     /// Largest number of timestamps of one frame. If the group changes more often, the remaining passes are
     /// counted in the last group.
     static constexpr size_t kStamps = 12;
@@ -53,17 +54,17 @@ public:
 
     const PassGroups& groups() const { return groups_; }
 
-    /// True if GL can measure time. If its counter has 0 bits, all times would be 0.
+    /// True if OpenGL can measure time, which requires a time counter with more than 0 bits.
     bool hasGpuClock();
 
     /// Begins a frame. @param tag number that is returned with the times
     void beginFrame(TimingClock clock, uint64_t tag);
     void beginPasses(); ///< Must be called before the first pass of the frame.
     void beginPass(std::string_view name);
-    void endFrame(bool succeeded); ///< Ends the frame. A frame that failed gives no result.
+    void endFrame(bool succeeded); ///< Ends the frame. A failed frame gives no result.
 
-    /// Returns the times of the oldest finished frame, and removes them. Does not wait. @return false if no
-    /// result is available
+    /// Moves the times of the oldest finished frame to `out`. Does not wait. @return false if no result is
+    /// available
     bool take(GroupTimes& out);
 
     HostClock hostClock = steadyMilliseconds;
@@ -72,7 +73,7 @@ private:
     struct Frame
     {
         std::array<uint32_t, kStamps> queries{};
-        std::array<size_t, kStamps> groups{}; ///< by index of a timestamp: group of the passes that follow it
+        std::array<size_t, kStamps> groups{}; ///< for each timestamp: group of the passes after the timestamp
         std::array<double, kStamps> host{};   ///< [ms]
         size_t stamps = 0;
         uint64_t tag = 0;
@@ -84,7 +85,7 @@ private:
     GlDevice& device_;
     PassGroups groups_;
     std::array<Frame, kFrames> frames_;
-    size_t first_ = 0;   ///< index of the oldest frame whose result is pending
+    size_t first_ = 0;   ///< index of the oldest frame with a pending result
     size_t waiting_ = 0; ///< number of pending frames
     Frame* open_ = nullptr;
     size_t group_ = 0;

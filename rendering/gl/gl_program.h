@@ -1,5 +1,5 @@
 /// @file gl_program.h
-/// A linked program. Use GlDevice::compile() and GlDevice::program(), which cache them.
+/// A linked program. GlDevice::compile() and GlDevice::program() create and cache programs.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -15,7 +15,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// One stage of a program to be linked.
+/// Source text of one stage of a program.
 struct GlStageSource
 {
     GLenum stage;     ///< GL_VERTEX_SHADER, GL_FRAGMENT_SHADER, GL_COMPUTE_SHADER

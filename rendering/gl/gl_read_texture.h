@@ -1,5 +1,5 @@
 /// @file gl_read_texture.h
-/// Copies pictures from the GPU for tools and tests. Waits for the GPU.
+/// Functions that copy pictures from the GPU for tools and tests. They wait for the GPU.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ std::vector<float> readDepthTexture(GlDevice& device, uint32_t texture, int widt
 std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height,
                                       int channels = 1);
 
-/// Reads the first color attachment of a framebuffer, or the window's back buffer for 0. The result is as for
-/// readTexture().
+/// Reads the first color attachment of a framebuffer, or the window's back buffer for framebuffer 0. Values
+/// and their order are as in readTexture().
 std::vector<float> readFramebuffer(GlDevice& device, uint32_t framebuffer, int width, int height,
                                    int channels);
 

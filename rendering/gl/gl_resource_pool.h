@@ -1,5 +1,6 @@
 /// @file gl_resource_pool.h
-/// The textures and buffers that the frame graphs of a view use. They are kept from frame to frame.
+/// Pool of the textures and buffers that the frame graphs of a view use. The objects are kept from frame to
+/// frame.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -19,11 +20,11 @@ class GlResourcePool
 public:
     GlResourcePool(GlDevice& device, std::pmr::memory_resource* memory);
 
-    /// Assigns a GL object to every physical resource of the graph. If nothing has changed, the objects are
-    /// those of the last frame. Textures and buffers that have not been used for several frames are deleted,
-    /// and so are the framebuffers in `framebuffers` that use them.
+    /// Assigns a GL object to every physical resource of the graph. For an unchanged graph, the objects of
+    /// the last frame are used again. Textures and buffers that have not been used for several frames are
+    /// deleted. Framebuffers in `framebuffers` with a deleted texture are also deleted.
     base::Status realise(const FrameGraph& graph, GlFramebufferCache& framebuffers);
-    /// Deletes all objects; the next realise() creates new ones.
+    /// Deletes all objects. The next realise() creates new objects.
     void release(GlFramebufferCache& framebuffers);
 
     uint32_t texture(uint32_t physical) const { return textures_[assigned_[physical]].texture.name(); }
@@ -50,8 +51,8 @@ private:
 
     GlDevice& device_;
     std::pmr::vector<PooledTexture> textures_;
-    std::pmr::vector<uint32_t> assigned_;    ///< by index of a physical resource: index in textures_
-    std::pmr::vector<PooledBuffer> buffers_; ///< by index of a physical resource
+    std::pmr::vector<uint32_t> assigned_;    ///< for each physical texture: index in textures_
+    std::pmr::vector<PooledBuffer> buffers_; ///< for each physical buffer
     uint64_t frame_ = 0;
 };
 

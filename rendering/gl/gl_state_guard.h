@@ -1,10 +1,10 @@
 /// @file gl_state_guard.h
-/// Preserves the host's OpenGL state: saves all states that GlBackend changes, and restores them in its
-/// destructor.
+/// Preserves the host's OpenGL state: the constructor saves all states that GlBackend changes, and the
+/// destructor restores the states.
 ///
-/// Saving, restoring and the published list use one table (gl_touched_state.cpp), so they always agree. An
-/// object that the host deleted while it was bound cannot be bound again. Afterwards no GL error is pending.
-/// Threads: [GL thread].
+/// Saving, restoring and touchedState() use one table (gl_touched_state.cpp), so they always agree. An
+/// object that the host deleted while it was bound cannot be bound again. After the destructor, no GL error
+/// is pending. Threads: [GL thread].
 #pragma once
 
 #include "rendering/gl/gl_touched_state.h"

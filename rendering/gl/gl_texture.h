@@ -15,20 +15,19 @@ namespace fx::render {
 
 class GlDevice;
 
-GLenum glInternalFormat(Format format); ///< GL_RGBA32F and so on
+GLenum glInternalFormat(Format format); ///< returns the GL format, such as GL_RGBA32F
 
 class GlTexture
 {
 public:
     /// Creates a texture of two dimensions.
     /// @param label a string literal, shown in debuggers and error messages
-    /// @return InvalidArgument if a side is not in [1, limits().textureSize] (then no GL call is made),
-    ///         OutOfMemory
+    /// @return InvalidArgument if a side is not in [1, limits().textureSize], OutOfMemory
     static base::Result<GlTexture> create(GlDevice& device, int width, int height, GLenum internalFormat,
                                           const char* label);
 
     /// Creates a texture of three dimensions.
-    /// @return InvalidArgument when a side is not in [1, limits().volumeSize], OutOfMemory
+    /// @return InvalidArgument if a side is not in [1, limits().volumeSize], OutOfMemory
     static base::Result<GlTexture> createVolume(GlDevice& device, int width, int height, int depth,
                                                 GLenum internalFormat, const char* label);
 

@@ -10,8 +10,8 @@
 
 namespace fx::render {
 
-/// Saved values of one state at one index. The save and restore functions of the state define which members
-/// are used.
+/// Saved values of one state at one index. The save and restore functions of a state may use only some
+/// members.
 struct GlSavedState
 {
     GLint64 integers[6];
@@ -28,8 +28,8 @@ struct GlTouchedState
     void (*restore)(const GlFunctions& gl, GLenum what, uint32_t index, const GlSavedState& saved);
 };
 
-/// States are saved in this order and restored in reverse order. States that change while other states are
-/// saved or restored come first in the table.
+/// Returns the table. States are saved in the order of the table and restored in reverse order. A state that
+/// changes while another state is saved or restored comes first in the table.
 std::span<const GlTouchedState> glTouchedStates();
 
 constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts of all states

@@ -10,8 +10,8 @@
 
 namespace fx::render {
 
-/// Ring buffer of uniform blocks. Memory is reused without waiting, because OpenGL executes later writes
-/// after the reads of earlier draws.
+/// Ring buffer of uniform blocks. Memory is reused without waiting: OpenGL executes a write after the draws
+/// that were issued before the write.
 class GlUniformRing
 {
 public:

@@ -1,5 +1,5 @@
 /// @file pass_groups.h
-/// Groups of passes. The times of the passes of a group are added.
+/// Groups of passes. The times of all passes of a group are summed.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct TimedPass
 
 constexpr size_t kMaxPassGroups = 8;
 
-/// Numbered groups of passes. Passes without a group, and passes of groups beyond kMaxPassGroups, are in
-/// group 0, "other".
+/// Numbered groups of passes. Group 0, "other", contains passes without a group, and the passes of groups
+/// beyond kMaxPassGroups.
 class PassGroups
 {
 public:

@@ -1,5 +1,5 @@
 /// @file gpu_depth.h
-/// The depth texture of a frame, for emitters that collide with it. The shader is
+/// Collision of particles with the depth texture of a frame. The shader code is in
 /// shaders/gpu_particles/gpu_particle_depth.glsl.
 ///
 /// @formula depth-contact
@@ -58,7 +58,7 @@ namespace fx::render {
 /// The depth texture of a frame.
 struct GpuDepth
 {
-    ResourceId distance; ///< output of SceneDistancePass; invalid: particles collide with no surface
+    ResourceId distance;                ///< output of SceneDistancePass; invalid: there are no collisions
     const CameraView* camera = nullptr; ///< camera of the depth texture
     int width = 0, height = 0;          ///< [pixel]
 };
@@ -66,9 +66,9 @@ struct GpuDepth
 /// Layout of the last members of the uniform block in shaders/gpu_particles/gpu_particles.comp.glsl.
 struct GpuDepthBlock
 {
-    /// Xyz, w: affine map of a local position to a coordinate along this axis of the camera [m].
+    /// Affine maps of a local position p to its coordinates along the camera axes [m]: dot(xyz, p) + w.
     glm::vec4 right, up, forward;
-    glm::vec4 window; ///< k, k', c, c'
+    glm::vec4 window; ///< symbols k, k', c, c' of formula depth-contact
     /// Coefficients of the depth error e = x + y d + z d^2 that 24-bit depth has at the distance d [m] along
     /// the view axis.
     glm::vec4 error;
@@ -77,7 +77,7 @@ struct GpuDepthBlock
     glm::vec4 size;
 };
 
-/// The data for collisions of an emitter with the depth texture.
+/// Returns the data for collisions of an emitter with the depth texture.
 /// @param place placement of the emitter in the world
 GpuDepthBlock makeGpuDepthBlock(const GpuDepth& depth, const base::Placement& place);
 

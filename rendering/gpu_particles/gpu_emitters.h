@@ -1,8 +1,8 @@
 /// @file gpu_emitters.h
-/// GPU data of emitters whose particles are computed on the GPU: a program for each combination of features,
-/// and a buffer with the constants of each emitter.
+/// GPU data of emitters whose particles the GPU computes: a program for each combination of features, and a
+/// buffer with constants for each emitter.
 ///
-/// Programs and buffers are created when the first such emitter occurs. Threads: [GL thread].
+/// Programs and buffers are created when an emitter first needs them. Threads: [GL thread].
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -33,7 +33,8 @@ public:
     /// already.
     /// @return GlFailed (compilation failed), GlUnsupported (built without FXSDK_GPU_PARTICLES)
     base::Status compile(const base::GpuParticleProgram& emitter);
-    /// GPU data of an emitter, valid until the next call. The first call for an emitter compiles and uploads.
+    /// Returns the GPU data of an emitter, valid until the next call. The first call for an emitter compiles
+    /// programs and uploads constants.
     /// @return the errors of compile(), OutOfMemory, TooLarge (the constants exceed the limit of storage
     ///         buffers)
     base::Result<const Entry*> find(const std::shared_ptr<const base::GpuParticleProgram>& emitter);

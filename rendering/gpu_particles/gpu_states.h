@@ -1,9 +1,10 @@
 /// @file gpu_states.h
 /// GPU state of particles whose motion is computed in steps, for one view.
 ///
-/// A step continues from the emitter's state after the previous step. This state cannot be used if the host
-/// has gone back in time, and it does not exist if the view is new or if the emitter was hidden for a long
-/// time. In these cases all steps since the births of the particles are computed again, with the same bits.
+/// A step continues from the emitter's state after the previous step. The previous state cannot be used if
+/// the host has gone back in time. The state does not exist if the view is new, or if the emitter was hidden
+/// for a long time. In all three cases, all steps since the births of the particles are computed again. The
+/// result is bit-identical.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -27,9 +28,9 @@ class GpuStates
 public:
     GpuStates(GlDevice& device, std::pmr::memory_resource* memory) : device_(device), states_(memory) {}
 
-    /// Sets those members of a job that concern steps. Jobs must run in the order in which they were
-    /// prepared. Does nothing if the group's motion has a closed form. An emitter may have at most two jobs
-    /// per frame.
+    /// Sets `reached`, `steps` and `stepCount` of a job. Jobs must run in the order in which they were
+    /// prepared. The function does nothing if the group's motion has a closed form. An emitter may have at
+    /// most two jobs per frame.
     /// @return OutOfMemory, TooLarge (for the context's storage buffers)
     base::Status prepare(const base::SnapshotGroup& group, GpuRowsJob& ioJob);
     /// Deletes states that have not been used for a long time.
@@ -47,7 +48,7 @@ private:
         uint32_t solver;
         std::shared_ptr<const base::GpuParticleProgram> emitter;
         GlBuffer reached;
-        /// Data of steps; two buffers, because each of the two jobs of a frame needs its own.
+        /// Data of steps, one buffer for each of the two jobs of a frame.
         std::array<GlBuffer, 2> steps;
         uint32_t turn = 0;
         base::GpuStepMark mark;

@@ -1,7 +1,7 @@
 /// @file host_target_check.h
-/// Checks the targets of a frame before anything is drawn; a frame with unsuitable targets is refused.
+/// Checks the targets of a frame before drawing. A frame with unsuitable targets is refused.
 ///
-/// Threads: [GL thread]. No GL state is changed, also on failure.
+/// Threads: [GL thread]. The check changes no GL state, not even on failure.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -20,7 +20,7 @@ public:
     base::Status check(const FrameRequest& request);
 
 private:
-    /// [pixel] Size of the frame's target; 0 if it cannot be queried from OpenGL, as for a window.
+    /// [pixel] Size of the frame's target. The size is 0 if OpenGL cannot return it, as for a window.
     struct Size
     {
         GLint width = 0;

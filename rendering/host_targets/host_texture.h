@@ -1,7 +1,7 @@
 /// @file host_texture.h
 /// Checks whether a frame can read and write a texture of the host. Messages state the fault and the remedy.
 ///
-/// Threads: [GL thread]. No GL state is changed.
+/// Threads: [GL thread]. The check changes no GL state.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -17,7 +17,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// Use of a texture of the host in a frame.
+/// Use of a host texture in a frame.
 enum class HostUse : uint8_t
 {
     Nothing,
@@ -26,9 +26,9 @@ enum class HostUse : uint8_t
     ReadDepth,
 };
 
-/// Properties of a texture that can be queried from OpenGL in a few calls. Equal properties mean that the
-/// result of the check is equal, also if the host has deleted a texture and created another with the same
-/// name.
+/// Properties of a texture that can be queried from OpenGL in a few calls. The result of the check depends
+/// only on these properties. So the result is still valid if the host has replaced the texture by a new
+/// texture with equal name and properties.
 struct HostTexture
 {
     uint32_t name = 0;
@@ -44,8 +44,8 @@ struct HostTexture
     bool operator==(const HostTexture&) const = default;
 };
 
-/// Caches the properties of accepted textures, so that a frame with the same textures as the previous one
-/// only queries their properties.
+/// Caches the properties of accepted textures. If a frame has the same textures as the previous frame, only
+/// their properties are queried.
 class HostTextureCheck
 {
 public:
@@ -64,16 +64,18 @@ private:
     std::string formatFault(const HostTexture& facts) const;
 
     GlDevice& device_;
-    /// The textures that were accepted last; there are several, because hosts may alternate between them.
+    /// The most recently accepted textures. Several textures are stored, because hosts may alternate between
+    /// textures.
     std::array<HostTexture, 16> good_{};
     size_t next_ = 0; ///< index in good_ of the entry that is replaced next
 };
 
-// Names of OpenGL's enumerants, for messages: host_format_names.cpp.
+// Names of OpenGL enumerants for messages, implemented in host_format_names.cpp.
 
-/// Name of the format, such as "GL_RGBA8UI"; the number as text for unknown formats.
+/// Returns the name of the format, such as "GL_RGBA8UI". For unknown formats, returns the number as text.
 std::string glFormatName(GLenum internalFormat);
-/// Name of the target, such as "GL_TEXTURE_2D_MULTISAMPLE"; the number as text for unknown targets.
+/// Returns the name of the target, such as "GL_TEXTURE_2D_MULTISAMPLE". For unknown targets, returns the
+/// number as text.
 std::string glTargetName(GLenum target);
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file byte_cursor.h
 /// Reads the bytes of a file one after another, and never reads past the end. All readers of binary formats
-/// use it.
+/// use this class.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,8 @@ public:
             return std::nullopt;
         return uint8_t(bytes_[position_++]);
     }
-    /// Returns the next `count` bytes. If fewer are left, returns nothing and does not advance.
+    /// Returns the next `count` bytes and advances. If fewer bytes are left, returns nullopt and does not
+    /// advance.
     std::optional<std::span<const std::byte>> take(size_t count)
     {
         if (remaining() < count)
@@ -33,8 +34,8 @@ public:
         position_ += count;
         return bytes_.subspan(position_ - count, count);
     }
-    /// Returns the text up to a line feed, without the line feed, and advances past it. Returns nothing if
-    /// there is no line feed within `limit` bytes.
+    /// Returns the text before the next line feed, and advances past the line feed. Returns nullopt if there
+    /// is no line feed within `limit` bytes.
     std::optional<std::string> line(size_t limit)
     {
         std::string text;

@@ -1,6 +1,6 @@
 /// @file image.h
-/// Pictures in memory, and their PNG and Radiance files. Tools and readers of scene files use them; libfxsdk
-/// itself reads no images.
+/// Pictures in memory, and functions for PNG and Radiance files. Tools and readers of scene files use these
+/// functions. libfxsdk itself reads no images.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -31,7 +31,7 @@ constexpr int kLargestSide = 16384;                ///< [pixel]
 constexpr uint64_t kMaxPixels = uint64_t(1) << 25; ///< width times height
 
 /// Decodes a PNG of 8 or 16 bits as sRGB to linear values in [0, 1]. Alpha is linear and not premultiplied.
-/// Sizes are checked against the limits, and against the number of bytes, before anything is decoded.
+/// Before decoding, width and height are compared with the limits and with the number of bytes.
 /// @return TooLarge, Parse
 base::Result<Image> readPng(std::span<const std::byte> bytes);
 
@@ -39,8 +39,8 @@ base::Result<Image> readPng(std::span<const std::byte> bytes);
 /// @return TooLarge, Parse
 base::Result<Image> readHdr(std::span<const std::byte> bytes);
 
-/// Encodes display-referred values, which must already be sRGB-encoded, as an 8-bit PNG. Values are clamped
-/// to [0, 1] and rounded; NaN becomes 0.
+/// Encodes display-referred values as an 8-bit PNG. The values must already be sRGB-encoded. They are
+/// clamped to [0, 1] and rounded; NaN becomes 0.
 /// @return InvalidArgument for sizes or numbers of channels that PNG does not support
 base::Result<std::vector<std::byte>> writePng(const Image& image);
 

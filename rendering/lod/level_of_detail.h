@@ -1,11 +1,12 @@
 /// @file level_of_detail.h
-/// Computes the share of the particles of each effect that a view draws, from the size of the effect on the
-/// picture.
+/// Computes the fraction of the particles of each effect that a view draws, from the size of the effect on
+/// the picture.
 ///
-/// Particles are omitted in an order that is fixed for their lifetime, so that they do not flicker. The
-/// remaining particles are enlarged or made more opaque to represent the omitted ones. All changes are
-/// continuous: a particle at the threshold is faded. The simulation does not depend on the level of detail.
-/// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
+/// The order in which particles are omitted does not change during their lifetime, so that particles do not
+/// flicker. The remaining particles are enlarged or made more opaque to represent the omitted particles. All
+/// changes are continuous: a particle at the threshold is faded. The simulation does not depend on the level
+/// of detail. Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as
+/// large.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -20,9 +21,10 @@
 namespace fx::render {
 
 /// Rank of a particle, [0, 1); particles with the highest ranks are omitted first. Ranks are a golden-ratio
-/// sequence with a random offset for each 1024 ids. For any number s in [0, 1], about the share s of any
-/// consecutive births has ranks below s; the same holds for every second or third birth. The deviation from
-/// this share is far less than for random numbers, and there are no long regular patterns.
+/// sequence with a random offset for each 1024 ids. For any number s in [0, 1], about a fraction s of any
+/// consecutive births has ranks below s. The property also holds for every second or every third birth. The
+/// deviation from the fraction s is far less than for random numbers, and there are no long regular
+/// patterns.
 inline float birthRank(uint64_t id)
 {
     const uint64_t block = id >> 10;
@@ -64,11 +66,12 @@ class LodRamp
 {
 public:
     static constexpr float kFade = 0.25f;
-    static constexpr float kAll = 1.0f / (1.0f - kFade); ///< least share with which all particles are drawn
+    /// Least value of s with which all particles are drawn.
+    static constexpr float kAll = 1.0f / (1.0f - kFade);
 
-    LodRamp() = default; ///< all particles are drawn
+    LodRamp() = default; ///< draws all particles
     explicit LodRamp(float share);
-    float weight(float rank) const; ///< (1)
+    float weight(float rank) const; ///< equation (1)
     float mean() const { return mean_; }
     bool isAll() const { return mean_ == 1.0f; }
 
@@ -85,37 +88,36 @@ struct LodLevel
     float swollenPixels = 0.0f; ///< [pixel] largest increase of the radius of a blob
 };
 
-/// Number of groups by the share that is drawn: all; at least half; at least an eighth; less.
+/// Number of groups with a drawn fraction of 1; at least 1/2; at least 1/8; less than 1/8.
 using LodCounts = std::array<uint32_t, 4>;
 
 class LevelOfDetail
 {
 public:
-    /// Hysteresis: a level changes only if the size has changed by more than this factor.
+    /// Hysteresis: a level changes only if the size changes by more than this factor.
     static constexpr float kBand = 1.15f;
-    static constexpr float kMinKeptBlobs = 12.0f; ///< least number of blobs that are drawn of a group
+    static constexpr float kMinKeptBlobs = 12.0f; ///< least number of drawn blobs of a group
     static constexpr float kGrown = 1.15f;        ///< [pixel] see formula lod-weight
     static constexpr float kSwollen = 0.1f;       ///< [1] see formula lod-weight
 
     explicit LevelOfDetail(std::pmr::memory_resource* memory) : last_(memory), now_(memory) {}
 
-    /// Begins a frame. @param forget true: levels of the last frame are ignored, because the camera has
-    /// jumped
+    /// Begins a frame. @param forget true: the camera has jumped, and levels of the last frame are ignored
     void begin(const LodSettings& settings, const CameraGeometry& camera, int height, bool forget);
 
-    /// The level of a group. Must be called once per frame for each group. If LodSettings::bias is 0, all
-    /// elements are drawn.
+    /// Returns the level of a group. Must be called once per frame for each group. If LodSettings::bias is
+    /// 0, all elements are drawn.
     /// @param place placement of the group relative to the eye
     LodLevel levelOf(const base::GroupInfo& group, const base::Placement& place);
 
-    /// The level of a group of particles or ribbons. counts() does not count this group.
-    /// @param pieces  number of particles, or of pieces of strips, that are drawn without a level of detail
-    /// @param wholes  number of particles, or of strips; at least kMinKeptBlobs of them are drawn
+    /// Returns the level of a group of particles or ribbons. counts() does not count the group.
+    /// @param pieces  number of drawn particles, or of drawn pieces of strips, without level of detail
+    /// @param wholes  number of particles, or of strips; at least kMinKeptBlobs particles or strips are drawn
     LodLevel levelOfRows(const base::GroupInfo& group, const base::Placement& place, uint32_t pieces,
                          uint32_t wholes);
 
     bool isOn() const { return settings_.bias > 0.0f; }
-    /// Numbers of groups that this frame has counted so far.
+    /// Counts of the groups of this frame so far.
     const LodCounts& counts() const { return counts_; }
 
 private:
@@ -124,7 +126,7 @@ private:
         uint64_t instance;
         uint32_t solver;
         uint32_t kind;
-        /// Present share; because of hysteresis, it may differ from the share for the present size.
+        /// Drawn fraction. With hysteresis, it may differ from the fraction for the present size.
         float share;
         float radius; ///< [pixel] radius of the group on the picture
         bool operator<(const Entry& other) const;

@@ -2,9 +2,9 @@
 /// Stochastic simplification [CHPR07] of far effects: a subset of particles, meshes and trails is drawn,
 /// enlarged or more opaque, so that the total coverage is preserved.
 ///
-/// A row holds the same particle for the lifetime of the particle; so does a strip of a ribbon. The rank is a
-/// function of the number of the row or strip. So the subset does not flicker: while its effect keeps its
-/// size on the picture, a particle is drawn either for its whole lifetime or never.
+/// A particle stays in one row for its lifetime, and a trail stays in one strip of a ribbon. The rank is a
+/// function of the index of the row or strip. So the subset does not flicker: while an effect keeps its size
+/// on the picture, a particle is drawn either for its whole lifetime or never.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -18,15 +18,16 @@
 
 namespace fx::render {
 
-/// Number of elements that are drawn for rows.
+/// Number of elements that rows draw without level of detail.
 struct DrawnRows
 {
-    uint32_t pieces = 0; ///< number of particles whose radius is above 0, or of pieces of strips
+    uint32_t pieces = 0; ///< number of particles with a radius above 0, or of pieces of strips
     uint32_t wholes = 0; ///< number of whole particles or strips
 };
 DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon);
 
-/// Range of the rows of a group that belong to one effect. Each effect has its own level of detail.
+/// Range of the rows of a group that belong to one effect. The level of detail is computed for each effect
+/// separately.
 struct RowPart
 {
     base::GroupInfo info; ///< info of the effect's group, with the placement in the newer snapshot
@@ -42,7 +43,7 @@ enum class RowShape : uint8_t
     SolidStrip, ///< an opaque ribbon: its width can change, but not its opacity
 };
 
-/// Factors of size and opacity of a row, relative to drawing all rows.
+/// Factors of size and opacity of a row. Both are 1 if all rows are drawn.
 struct RowFactors
 {
     float size;    ///< [1] factor of the radius, or of the half width of a strip
@@ -86,7 +87,7 @@ RowFactors rowFactors(const LodLevel& level, float rank, float pixels, RowShape 
 struct SimplificationInputs
 {
     const base::SnapshotGroup* rows;
-    /// Ranges of rows by effect; empty: all rows belong to the effect of the group.
+    /// One range of rows for each effect. Empty: all rows belong to the effect of the group.
     std::span<const RowPart> parts;
     /// Placement of the group at the moment of the frame, relative to the eye.
     base::Placement place;
@@ -96,8 +97,8 @@ struct SimplificationInputs
 };
 
 /// Computes the factors of all rows.
-/// @param outFactors for each row, two binary16 numbers: the factor of size in the lower half, that of
-///         opacity in the upper. 0: the row is not drawn. Not written if all rows are drawn unchanged
+/// @param outFactors for each row, the factors of size (lower half) and opacity (upper half) as binary16. 0:
+///     the row is not drawn. Not written if all rows are drawn unchanged
 /// @param ioLeftOut increased by the number of omitted particles or pieces of strips
 /// @return true if any row is omitted or changed
 bool simplifyRows(const SimplificationInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,

@@ -1,5 +1,5 @@
 /// @file blob_estimate.h
-/// Estimates, before drawing, the cost of the blobs of a frame and the share of the picture that they cover.
+/// Estimates of the cost of the blobs of a frame, and of the fraction of the picture that the blobs cover.
 #pragma once
 
 #include "rendering/frame/fragment_counts.h"
@@ -16,8 +16,8 @@ namespace fx::render {
 FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
                                  int height);
 
-/// Approximate share of the picture that the blobs cover; a weight of their errors. It is 1 - exp(-sum of
-/// areas), which holds for random positions.
+/// Approximate fraction of the picture that blobs cover: 1 - exp(-sum of areas), which holds for random
+/// positions. The errors of blobs are weighted by this fraction.
 ScreenShare screenShare(std::span<const BlobInstance> blobs, const CameraGeometry& camera);
 
 } // namespace fx::render

@@ -1,6 +1,5 @@
 /// @file blob_gather.h
-/// Collects the blobs of two snapshots in one list in eye-relative coordinates, at a moment between the
-/// snapshots.
+/// Interpolates the blobs of two snapshots, and lists the blobs in eye-relative coordinates.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -36,7 +35,8 @@ struct GatheredBlob
     uint32_t layer;           ///< MediaLayer
     int detail = -1;          ///< index of the detail of its group; -1: no detail
     glm::vec3 velocity{0.0f}; ///< [m/s] velocity relative to the world
-    std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
+    /// [cell] Offsets of the noise coordinates, see BlobDetail::carried().
+    std::array<glm::vec3, 2> carried{};
 };
 
 /// Range of an instance's blobs in the list of visible blobs.
@@ -44,10 +44,11 @@ struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    ImpostorPlan plan; ///< decision about how the instance is drawn
+    ImpostorPlan plan; ///< whether the instance is drawn as blobs, as an impostor, or as both
 };
 
-/// Consecutive blobs of an instance: those of one group with detail, or of consecutive groups without detail.
+/// Consecutive blobs of an instance: the blobs of one group with detail, or of consecutive groups without
+/// detail.
 struct BlobRun
 {
     size_t instance;                 ///< index in the list of instances
@@ -73,28 +74,29 @@ struct GatherCounts
 {
     uint32_t culled = 0;
     uint32_t nonFinite = 0;
-    uint32_t thinned = 0; ///< number of blobs that were omitted by the level of detail
+    uint32_t thinned = 0; ///< number of blobs that the level of detail omitted
 };
 
 /// Appends every visible blob to `outVisible`, in the order of groups and ids. Appends every blob to
-/// `outMedium`, because blobs outside of the picture cast shadows into it.
+/// `outMedium`, because invisible blobs may cast shadows into the picture.
 ///
 /// `outInstances` gets the range of each instance in `outVisible`.
 ///
-/// Elements of the two snapshots are matched by id and interpolated. An element that only the newer snapshot
-/// has is extrapolated back along its velocity, and omitted before its birth. Blobs smaller than a pixel are
-/// enlarged to a pixel with the same mean opacity over the picture (formula widened-ball), so that they
-/// neither vanish nor flicker. With a shutter, a moving blob becomes a streak, see
-/// foundation/snapshot/streak.h.
+/// Elements of the two snapshots are matched by id and interpolated. If only the newer snapshot has an
+/// element, the element is extrapolated back along its velocity, and omitted before its birth. Blobs smaller
+/// than a pixel are enlarged to a pixel; their mean opacity over the picture does not change (formula
+/// widened-ball). So small blobs neither vanish nor flicker. With a shutter, a moving blob becomes a streak,
+/// see foundation/snapshot/streak.h.
 ///
-/// @param share share of the blobs that is appended to `outVisible`, (0, 1]. Blobs are selected by id, so
-///         that they do not flicker. Their cross sections are increased to represent the omitted blobs. All
-///         blobs cast shadows.
-/// @param impostors selects the effects that are drawn as impostors; null: none. Blobs of an effect that is
-///         drawn only as an impostor are not gathered, but at most 16 of them are appended to `outMedium`, to
-///         represent the shadow of all. If an impostor is rendered in this frame, its blobs are gathered also
-///         outside of the view.
-/// @param lod reduces the blobs of groups that are small on the picture, for shadows too; null: none
+/// @param share fraction of the blobs that is appended to `outVisible`, (0, 1]. Blobs are selected by id, so
+///     that the selection does not flicker. The cross sections of selected blobs are increased to represent
+///     the omitted blobs. All blobs cast shadows.
+/// @param impostors selects the effects that are drawn as impostors; null: none. If an effect is drawn only
+///     as an impostor, its blobs are not gathered. At most 16 of its blobs are appended to `outMedium`, to
+///     represent the shadow of all blobs. If an impostor is rendered in this frame, its blobs are gathered
+///     also outside of the view.
+/// @param lod reduces the number of blobs of groups that are small on the picture, also for shadows; null:
+///     no reduction
 /// @param castsShadows true: effects that are drawn only as an impostor cast shadows
 /// @param outFields receives the detail of groups, and runs of blobs; may be null
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,

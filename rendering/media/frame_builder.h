@@ -1,5 +1,5 @@
 /// @file frame_builder.h
-/// Builds, from snapshots and a camera, the sorted list of blobs that the passes draw.
+/// Builds the list of blobs that the passes draw, from snapshots and a camera.
 #pragma once
 
 #include "rendering/draw_order/depth_sort.h"
@@ -17,46 +17,49 @@
 
 namespace fx::render {
 
-/// Owns the buffers of the frames of one view. Their memory grows to the largest frame and is kept.
+/// Builds the frames of one view. Memory grows to the size of the largest frame and is kept.
 class FrameBuilder
 {
 public:
     explicit FrameBuilder(std::pmr::memory_resource* memory);
 
-    /// Builds the list for one frame. Equal input gives equal bits. [GL thread] Makes no GL calls.
+    /// Builds the list for one frame. Equal input gives bit-identical results. [GL thread] Makes no GL
+    /// calls.
     /// @param lod level of detail, for which LevelOfDetail::begin() has been called in this frame
-    /// @param content revision of the shown content; impostors are rendered again when it changes
-    /// @param castsShadows as in gatherBlobs()
-    /// @param isSorted false: blobs() have the order of groups and ids
+    /// @param content revision of the shown content; impostors are rendered again if the revision changes
+    /// @param castsShadows see gatherBlobs()
+    /// @param isSorted true: blobs() are sorted by distance; false: by group and id
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
                const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0,
                bool castsShadows = true, bool isSorted = true);
 
-    /// Blobs, the farthest first; if not sorted, in the order of groups and ids.
+    /// Blobs, sorted by decreasing distance. If build() had isSorted = false, blobs are sorted by group and
+    /// id.
     std::span<const BlobInstance> blobs() const { return sorted_; }
     /// Effects to which blobs() belong; empty if blobs are sorted.
     std::span<const BlobEffect> effects() const { return effects_; }
-    /// Materials of blobs(), in the same order, for the detail of their fields; empty if blobs are sorted.
+    /// Noise coordinates of blobs(), in the order of blobs(), for the detail of fields. Empty if blobs are
+    /// sorted.
     std::span<const BlobMaterial> materials() const { return materials_; }
     std::span<const GroupDetail> details() const { return fields_.details; }
-    /// Marks of blobs(), in the same order; empty without ViewSettings::outputs.
+    /// Marks of blobs(), in the order of blobs(). Empty without ViewSettings::outputs.
     std::span<const BlobMark> marks() const { return sortedMarks_; }
     bool anyHeat() const { return anyHeat_; }     ///< true if a blob causes heat shimmer
     bool anyDetail() const { return anyDetail_; } ///< true if a blob has procedural detail
     /// All shadow casters, visible or not.
     std::span<const MediumCaster> casters() const { return casters_; }
     const GatherCounts& counts() const { return counts_; }
-    /// The stream that draws blobs(). Its count is 0 if there are no blobs.
+    /// Stream that draws blobs(). DrawStream::count is 0 if there are no blobs.
     DrawStream stream() const;
 
-    /// The drawn impostors, farthest first.
+    /// The drawn impostors, by decreasing distance.
     std::span<const ImpostorInstance> impostors() const { return sortedImpostors_; }
-    /// The stream of impostors().
+    /// Stream that draws impostors().
     DrawStream impostorStream() const;
     /// Blobs of the effects whose impostors are rendered in this frame, relative to takingCamera().
     std::span<const BlobInstance> takenBlobs() const { return sortedTaken_; }
     std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< tile of each rendered impostor
-    /// True if a frame with the same camera and snapshots would be the same as the last one.
+    /// True if another frame with equal camera and snapshots would equal the last frame.
     bool isSettled() const { return impostors_.isSettled(); }
     /// Must be called if the impostors of the last frame were not rendered.
     void forgetPictures() { mustForget_ = true; }
@@ -93,10 +96,10 @@ private:
     std::pmr::vector<BlobInstance> taken_;
     std::pmr::vector<BlobInstance> sortedTaken_;
     std::pmr::vector<float> takenDistances_;
-    std::pmr::vector<uint32_t> identity_; ///< the numbers 0, 1, 2 and so on: the order of unsorted blobs
+    std::pmr::vector<uint32_t> identity_; ///< the numbers 0, 1, 2, ..., as order of unsorted blobs
     std::pmr::vector<uint32_t> takenTiles_;
     std::span<const uint32_t> impostorOrder_;
-    Lighting lighting_; ///< settings of the last frame; hostLights_ and slices_ too
+    Lighting lighting_; ///< lighting of the last frame
     HostLights hostLights_;
     SliceSettings slices_;
     float exposureEv100_ = 0.0f;

@@ -21,13 +21,13 @@ class HotAreas
 public:
     explicit HotAreas(std::pmr::memory_resource* memory) : counts_(memory), areas_(memory) {}
 
-    /// Finds all tiles that blobs with heat may cover. Neighboring tiles of a row form one area. Every pixel
-    /// to which a blob adds heat is in exactly one area. Takes a few nanoseconds per blob and per tile.
-    /// Allocates nothing if an earlier picture had the same size and as many areas.
+    /// Finds all tiles that hot blobs may cover. Neighboring tiles of a row form one area. Every pixel to
+    /// which a blob adds heat is in exactly one area. The search takes a few nanoseconds per blob and per
+    /// tile.
     void find(std::span<const BlobInstance> blobs, const CameraView& camera, int width, int height);
     void clear() { areas_.clear(); }
 
-    /// The areas that the last find() found.
+    /// Results of the last find().
     std::span<const HotArea> areas() const { return areas_; }
 
 private:
@@ -36,8 +36,8 @@ private:
 
     uint32_t width_ = 0, height_ = 0; ///< [pixel]
     uint32_t columns_ = 0, rows_ = 0; ///< [tile]
-    /// By tile: number of blobs that begin at the tile minus number of blobs that end at it. A prefix sum
-    /// gives the number of blobs on each tile.
+    /// For each tile: number of blobs that begin at the tile, minus number of blobs that end at the tile. A
+    /// prefix sum gives the number of blobs on each tile.
     std::pmr::vector<int32_t> counts_;
     std::pmr::vector<HotArea> areas_;
 };

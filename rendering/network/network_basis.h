@@ -41,13 +41,13 @@ struct NeighborDirection
     double weight = 0.0; ///< [sr]
 };
 
-/// The directions with their weights. A direction and its opposite are consecutive. @param count number of
+/// Returns the directions with their weights. Opposite directions are consecutive. @param count number of
 /// directions: 6, 14 or 26
 std::vector<NeighborDirection> neighborDirections(int count);
 
-/// Values of all harmonics in a direction. @param direction unit vector
+/// Returns the values of all harmonics in a direction. @param direction unit vector
 std::array<double, kMaxNetworkMoments> harmonics(const glm::dvec3& direction);
-/// Band of the harmonic with the index k: 0, 1 or 2.
+/// Returns the band of the harmonic with the index k: 0, 1 or 2.
 constexpr int harmonicBand(int k)
 {
     return k == 0 ? 0 : k < 4 ? 1 : 2;

@@ -41,18 +41,18 @@ namespace fx::render {
 struct GatherPoint
 {
     double albedo = 0.0;     ///< [1]
-    double lightDepth = 0.0; ///< [1] t
+    double lightDepth = 0.0; ///< [1] symbol t: optical depth between light and point
     double eyeDepth = 0.0;   ///< [1] optical depth between point and eye
-    /// [1] cosine of the angle between the light's direction of travel and the direction to the eye
+    /// [1] cosine of the scattering angle from the light to the eye
     double cosine = 0.0;
-    double irradiance = 0.0; ///< [lx] F
+    double irradiance = 0.0; ///< [lx] symbol F
 };
 
-/// Two parts of the scattered light per optical depth k ds of formula network-gather: the first is attenuated
-/// by T, the second by T'.
+/// Two parts of the scattered light per optical depth k ds, see formula network-gather. The transmittance T
+/// attenuates `plain`, and T' attenuates `scaled`.
 struct GatheredLight
 {
-    double plain = 0.0;  ///< [cd/m2] (2)
+    double plain = 0.0;  ///< [cd/m2] equation (2)
     double scaled = 0.0; ///< [cd/m2] first part of equation (1)
 };
 

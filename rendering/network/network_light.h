@@ -1,6 +1,6 @@
 /// @file network_light.h
-/// Computes the unscattered light of the sun and of lamps in the cells of a network, by rays through the
-/// grid.
+/// Computes the unscattered light of the sun and of lamps in the cells of a network. The light is traced
+/// along rays through the grid.
 #pragma once
 
 #include "rendering/network/scattering_network.h"
@@ -14,21 +14,22 @@ struct NetworkSun
     double illuminance = 0.0;          ///< [lx] illuminance of a surface perpendicular to the light
 };
 
-/// A ball light, which may be inside of the medium. Outside of its radius it illuminates like a point light;
-/// inside, its light is finite.
+/// A ball light, which may be inside of the medium. Far from the ball, it illuminates like a point light.
+/// Inside of the ball, the irradiance is finite.
 struct NetworkLamp
 {
     glm::dvec3 position{0.0}; ///< [m]
-    double radius = 0.0;      ///< [m] radius of the ball, within which nothing blocks its light
-    double intensity = 0.0;   ///< [cd]
+    /// [m] radius of the ball; medium inside of the ball does not attenuate its light.
+    double radius = 0.0;
+    double intensity = 0.0; ///< [cd]
 };
 
 /// Adds the light of a sun to a network.
 /// @param samples number of samples along each axis of a cell, 1..8; the cell gets the mean of the samples
 void addSun(ScatteringNetwork& io, const NetworkSun& sun, int samples, base::TaskRunner& tasks);
 
-/// Adds the light of a lamp. In the cell that contains the lamp and in its neighbors, at least
-/// kNearLampSamples samples are taken along each axis, because the light varies most there.
+/// Adds the light of a lamp. The light varies most near the lamp. Therefore the cell that contains the lamp
+/// and the neighboring cells are sampled with at least kNearLampSamples samples along each axis.
 void addLamp(ScatteringNetwork& io, const NetworkLamp& lamp, int samples, base::TaskRunner& tasks);
 constexpr int kNearLampSamples = 12;
 

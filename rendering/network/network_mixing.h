@@ -31,10 +31,10 @@ class NetworkMixing
 {
 public:
     void clear();
-    /// Stores a step of the iteration: its input and its output. Both vectors consist of parts of equal
+    /// Stores the input and the output of a step of the iteration. Both vectors consist of parts of equal
     /// length.
     /// @param weight weight of each element of a part
-    /// @param depth number of differences between steps that are kept, 0..4
+    /// @param depth number of stored differences between steps, 0..4
     void remember(std::span<const float> input, std::span<const float> output, std::span<const float> weight,
                   int depth);
     /// True if `output` equals the output of the last step.

@@ -1,8 +1,8 @@
 /// @file network_passes.h
-/// Illumination networks on the GPU: light in fields that is scattered any number of times.
+/// Illumination networks on the GPU. They compute multiple scattering of light in fields.
 ///
-/// The network equals ScatteringNetwork with 26 directions and 4 moments. It has three color channels, and a
-/// separate phase function in each cell.
+/// The method equals ScatteringNetwork with 26 directions and 4 moments. In addition, the GPU network has
+/// three color channels, and a separate phase function in each cell.
 #pragma once
 
 #include "rendering/passes/light_bindings.h"
@@ -11,32 +11,32 @@
 
 namespace fx::render {
 
-/// number of blocks along x and y in the texture of rays; one block per direction
+/// number of blocks along x and y in NetworkTextures::rays; each direction has one block
 constexpr int kNetworkRays[2] = {7, 4};
 constexpr int kNetworkMoments = 3; ///< number of blocks of moments, and of blocks of sources: one per color
-constexpr int kNetworkMedium = 2;  ///< blocks of the medium
+constexpr int kNetworkMedium = 2;  ///< number of blocks of the medium
 
 /// Three-dimensional textures of blocks of `cells` cubed texels, see shaders/network/network_grid.glsl. All
-/// are RGBA32F, except `scatter`.
+/// textures are RGBA32F, except `scatter`.
 struct NetworkTextures
 {
-    ResourceId cells = {};   ///< rgb emitted light [exposed/m]; a extinction [1/m]
-    ResourceId scatter = {}; ///< rgb extinction times albedo [1/m]; a mean cosine of the phase function
-    ResourceId medium = {};  ///< kNetworkMedium blocks
-    /// KNetworkMoments blocks: sources without the light that the network has scattered.
+    ResourceId cells = {};   ///< rgb: emitted light [exposed/m]; alpha: extinction [1/m]
+    ResourceId scatter = {}; ///< rgb: extinction times albedo [1/m]; alpha: mean cosine of the phase function
+    ResourceId medium = {};  ///< properties of the medium, in kNetworkMedium blocks
+    /// Sources without the light that the network has scattered; has kNetworkMoments blocks.
     ResourceId unswept = {};
-    /// KNetworkMoments blocks: sources with the light that the network has scattered.
+    /// Sources with the light that the network has scattered; has kNetworkMoments blocks.
     ResourceId sources = {};
-    ResourceId moments = {}; ///< kNetworkMoments blocks: moments of the light; kept from frame to frame
-    ResourceId rays = {};    ///< kNetworkRays blocks
+    ResourceId moments = {}; ///< moments of the light, in kNetworkMoments blocks; kept from frame to frame
+    ResourceId rays = {};    ///< radiance in each direction, in kNetworkRays blocks
 };
 
-/// Runs sweeps (iterations) of the networks.
+/// Runs sweeps (iterations) of the networks of all grids.
 ///
-/// reads   grids     buffer of FieldGlowBlock: present and previous positions of grids
-///         textures  cells and scatter; with `prepares` also the moments of the previous frame
+/// reads   grids     buffer of FieldGlowBlock: positions of the grids in this frame and in the previous frame
+///         textures cells, scatter; with `prepares` also the moments of the previous frame
 ///         lights    all lights
-/// writes  textures  medium and unswept with `prepares`; sources, moments, rays
+/// writes  textures sources, moments, rays; with `prepares` also medium, unswept
 class NetworkPasses
 {
 public:
@@ -48,7 +48,7 @@ public:
         int cells;          ///< number of cells along a side of a grid, a multiple of 8
         uint32_t gridCount; ///< > 0
         int sweeps;         ///< number of sweeps
-        /// True: medium or lights have changed; false: the sweeps start from the present sources.
+        /// True: medium or lights have changed. False: the sweeps continue with the present sources.
         bool prepares;
     };
     struct Outputs

@@ -1,5 +1,5 @@
 /// @file network_phase.h
-/// A phase function with few moments that has no negative values.
+/// A phase function with few moments and without negative values.
 #pragma once
 
 #include <algorithm>
@@ -36,16 +36,16 @@ namespace fx::render {
 struct NetworkPhase
 {
     double anisotropy = 0.0;                      ///< [1] mean cosine g, clamped to its range
-    double peak = 0.0;                            ///< [1] f
-    std::array<double, 3> factors{1.0, 0.0, 0.0}; ///< [1] g_l
-    int bands = 2;                                ///< L + 1
+    double peak = 0.0;                            ///< [1] symbol f
+    std::array<double, 3> factors{1.0, 0.0, 0.0}; ///< [1] symbols g_l
+    int bands = 2;                                ///< number of bands, L + 1
 
-    double extinctionShare(double albedo) const { return 1.0 - albedo * peak; } ///< [1] k' / k
+    double extinctionShare(double albedo) const { return 1.0 - albedo * peak; } ///< [1] ratio k' / k
     double albedo(double albedo) const { return albedo * (1.0 - peak) / (1.0 - albedo * peak); }
-    double series(double cosine) const; ///< [1/sr] P
+    double series(double cosine) const; ///< [1/sr] symbol P
 };
 
-/// The phase function with few moments that approximates the Henyey-Greenstein function.
+/// Returns a phase function with few moments that approximates the Henyey-Greenstein function.
 /// @param anisotropy [1] mean cosine g
 /// @param moments 4 or 9
 NetworkPhase networkPhase(double anisotropy, int moments);

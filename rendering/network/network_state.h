@@ -1,5 +1,5 @@
 /// @file network_state.h
-/// Light in the cells of a grid, which an illumination network keeps from frame to frame.
+/// State of an illumination network: the light in the cells of a grid, kept from frame to frame.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -26,20 +26,20 @@ struct NetworkGrid
 };
 
 /// Moments of the light in all cells: sums over directions of weight * harmonic * mean radiance in the cell.
-/// A network needs no other data of the last frame. Threads: one at a time.
+/// A network needs no other data from the last frame. Threads: one at a time.
 struct NetworkState
 {
     NetworkGrid grid;
     int moments = 0; ///< number of moments, 4 or 9; 0: no light
-    /// [cd/m2 sr] Values of the first moment in all cells, then those of the second, and so on.
+    /// [cd/m2 sr] Values of the first moment in all cells, then the values of the second moment, and so on.
     std::vector<float> light;
 };
 
-/// Returns the same light in another grid, by linear interpolation. Outside of the old grid, the light is
-/// that at the nearest point of its border. Moments that `state` does not have are 0.
+/// Resamples the light to another grid, by linear interpolation. Outside of the old grid, the light at the
+/// nearest point of its border is used. Moments that `state` does not have are set to 0.
 NetworkState resampled(const NetworkState& state, const NetworkGrid& grid, int moments);
 
-/// Value at a point, interpolated linearly between the centers of cells.
+/// Returns the value at a point, interpolated linearly between the centers of cells.
 /// @param values one value per cell
 double interpolated(const float* values, const NetworkGrid& grid, const glm::dvec3& position);
 

@@ -1,11 +1,13 @@
 /// @file scattering_network.h
-/// Light that a medium scatters any number of times: cells of a grid exchange light with their neighbors.
+/// Multiple scattering in a medium, computed by an illumination network: cells of a grid exchange light with
+/// their neighbors.
 ///
 /// The network has one color channel. A frame sets the medium and the unscattered light in it, then runs a
 /// few sweeps (iterations). A sweep propagates the light of the previous sweep along all lines of cells.
-/// Nothing is precomputed, so that media may move.
+/// There is no precomputation, so media may move.
 ///
-/// Threads: one at a time. Loops run in the given task runner, with the same bits for any number of workers.
+/// Threads: one at a time. Loops run in the given task runner. The result is bit-identical for any number of
+/// workers.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -25,7 +27,7 @@ namespace fx::render {
 struct NetworkSettings
 {
     int directions = 26;     ///< number of directions: 6, 14 or 26; 6 directions require 4 moments
-    int moments = 4;         ///< number of moments: 4; or 9, for a mean cosine g above 0.4
+    int moments = 4;         ///< number of moments, 4 or 9; 9 moments are for a mean cosine g above 0.4
     double anisotropy = 0.0; ///< [1] mean cosine g of the phase function, -1..1, see formula network-phase
 };
 
@@ -35,23 +37,25 @@ struct NetworkMedium
     NetworkGrid grid;                  ///< grid of 1 to 256 cells along each axis
     std::span<const float> extinction; ///< [1/m] >= 0
     std::span<const float> albedo;     ///< [1] 0..1
-    /// [cd/m2] Emission per optical depth, >= 0. For a gray body it is (1 - albedo) times the black-body
-    /// luminance. Empty: no emission.
+    /// [cd/m2] Emission per optical depth, >= 0. For a gray body, the emission is (1 - albedo) times the
+    /// black-body luminance. Empty: no emission.
     std::span<const float> emission;
 };
 
-/// Conditions to end sweeps, and acceleration of their convergence.
+/// Conditions for the end of sweeps, and acceleration of convergence.
 struct SweepRules
 {
-    int sweeps = 1;         ///< largest number of sweeps
-    int acceleration = 2;   ///< number of earlier sweeps that are mixed, 0..4; useful for albedos above 0.9
-    double tolerance = 0.0; ///< [1] sweeps end when SweepReport::change is at most this
+    int sweeps = 1; ///< largest number of sweeps
+    /// Number of earlier sweeps that are mixed, 0..4; speeds up convergence for albedos above 0.9.
+    int acceleration = 2;
+    double tolerance = 0.0; ///< [1] sweeps end when SweepReport::change is at most this tolerance
 };
 
 /// Result of the last sweeps. "Scattered light" is the power that the medium scatters, summed over all cells.
 struct SweepReport
 {
-    /// Number of sweeps; 0: no sweep was needed, because nothing has changed and the tolerance is met.
+    /// Number of sweeps. 0: no sweep was needed, because medium and light have not changed and the tolerance
+    /// is met.
     int sweeps = 0;
     /// [1] Change of the scattered light by the last sweep, divided by the scattered light.
     double change = 0.0;
@@ -65,7 +69,7 @@ struct NetworkEnergy
 {
     /// Emission of the medium, first scattering of light sources, and light from outside.
     double emitted = 0.0;
-    double absorbed = 0.0; ///< absorbed part of scattered and emitted light
+    double absorbed = 0.0; ///< absorbed power of emitted and scattered light
     double escaped = 0.0;
 };
 
@@ -111,13 +115,14 @@ struct NetworkEnergy
 class ScatteringNetwork
 {
 public:
-    /// Sets the medium, and sets the unscattered light and the light from outside to 0.
-    /// @return InvalidArgument for numbers outside of their ranges; the network is then not changed
+    /// Sets the medium. Also sets the unscattered light and the light from outside to 0.
+    /// @return InvalidArgument for values outside of their ranges; then the network does not change
     base::Status setMedium(const NetworkMedium& medium, const NetworkSettings& settings);
 
     /// Sets the light that enters from outside.
-    /// @param radiance [cd/m2] radiance of the light that travels in each of directions()
-    /// @return InvalidArgument for another number of values, or for values that are negative or not finite
+    /// @param radiance [cd/m2] for each element of directions(), radiance of the light that travels in this
+    ///     direction
+    /// @return InvalidArgument for a wrong number of values, or for values that are negative or not finite
     base::Status setEnvironment(std::span<const float> radiance);
 
     /// Adds unscattered light in a cell.
@@ -125,11 +130,11 @@ public:
     ///         direction in which the light travels
     void addDirect(size_t cell, const std::array<double, kMaxNetworkMoments>& moments);
 
-    /// Runs sweeps, starting from the light of `io`, which may have another grid or be empty. `io` receives
-    /// the result.
+    /// Runs sweeps. The first sweep starts from the light of `io`, which may have another grid or be empty.
+    /// `io` receives the result.
     SweepReport sweep(const SweepRules& rules, NetworkState& io, base::TaskRunner& tasks);
 
-    /// Computes the energy of the light after one more sweep. The result of this sweep is not stored.
+    /// Computes the energy of the light after one more sweep. The result of the sweep is not stored.
     NetworkEnergy energy(const NetworkState& state, base::TaskRunner& tasks);
 
     /// [1] Optical depth, without the forward peak, along a line through the grid. @param length [m] length
@@ -142,11 +147,10 @@ public:
     int moments() const { return moments_; }
     /// [1/m] Symbol k' of formula network-sweep in a cell.
     float extinction(size_t cell) const { return extinction_[cell]; }
-    double contraction() const { return contraction_; } ///< [1] q
+    double contraction() const { return contraction_; } ///< [1] symbol q
 
 private:
-    /// Radiance that enters and leaves the grid in one direction [cd/m2], summed over its lines by
-    /// followLines().
+    /// Radiance that enters and leaves the grid in one direction [cd/m2]: sums over all lines of cells.
     struct Ends
     {
         double entering = 0.0, leaving = 0.0;
@@ -161,7 +165,7 @@ private:
     void followAlongX(size_t d);
     void countEnds(size_t d, const glm::ivec3& row, const float* out);
 
-    /// Runs one sweep from the moments `light`; the result is next_.
+    /// Runs one sweep from the moments `light`, and writes the result to next_.
     void sweepOnce(const std::vector<float>& light, base::TaskRunner& tasks);
     void findSources(const std::vector<float>& light, base::TaskRunner& tasks);
     void sumMoments(base::TaskRunner& tasks);
@@ -176,17 +180,17 @@ private:
     bool isNew_ = true; ///< true: medium or light has changed since the last sweep
     std::vector<NeighborDirection> directions_;
     std::vector<std::array<float, kMaxNetworkMoments>> harmonics_; ///< by direction
-    std::vector<float> extinction_;                                ///< [1/m] k'
-    std::vector<float> scattering_;                                ///< [1] albedo'
-    std::vector<float> emission_;    ///< [cd/m2] symbols E / (1 - albedo f) of formula network-sweep
-    std::vector<float> direct_;      ///< [lx] Q_k
-    std::vector<float> environment_; ///< [cd/m2] by direction
+    std::vector<float> extinction_;                                ///< [1/m] symbol k'
+    std::vector<float> scattering_;                                ///< [1] symbol albedo'
+    std::vector<float> emission_;    ///< [cd/m2] E / (1 - albedo f), see formula network-sweep
+    std::vector<float> direct_;      ///< [lx] symbol Q_k
+    std::vector<float> environment_; ///< [cd/m2] for each direction
     /// [1] Symbols a and u of formula network-sweep for steps of squared length 1, 2, 3.
     std::array<std::vector<float>, 3> taken_, mean_;
     std::vector<float> source_;   ///< [cd/m2] moments of S
-    std::vector<float> radiance_; ///< [cd/m2] M by direction
+    std::vector<float> radiance_; ///< [cd/m2] symbol M for each direction
     std::vector<float> next_;
-    /// [cd/m2] By direction: symbol I' of formula network-sweep in two slices of cells.
+    /// [cd/m2] For each direction: symbol I' of formula network-sweep in two slices of cells.
     std::vector<std::vector<float>> planes_;
     std::vector<Ends> ends_; ///< by direction
     NetworkMixing mixing_;

@@ -26,8 +26,8 @@ namespace fx::render {
 /// @return    [cd/m2] each >= 0; the luminance is 0.2126 r + 0.7152 g + 0.0722 b
 glm::vec3 blackBodyLuminance(float temperature);
 
-/// Computes the same as blackBodyLuminance() without a table, by integration at every call. Used in tests and
-/// to build the table.
+/// Computes the luminance of blackBodyLuminance() by integration, without a table. Tests and the
+/// construction of the table use this function.
 glm::dvec3 integrateBlackBody(double temperature);
 
 } // namespace fx::render

@@ -1,5 +1,6 @@
 /// @file output_pass.h
-/// The passes of view_output: instance id, motion and distance of the effect in each pixel.
+/// The passes that compute outputs (view_output): instance id, motion and distance of the effect in each
+/// pixel.
 #pragma once
 
 #include "rendering/compositions/slabs/slab_media.h"
@@ -15,23 +16,23 @@ inline constexpr ProgramDesc kOutputWholeProgram{"outputs (nothing)", "shared/fu
 inline constexpr ProgramDesc kOutputMediaProgram{"outputs", "outputs/outputs.vert.glsl",
                                                  "outputs/outputs.frag.glsl", nullptr,
                                                  "FX_MEDIA=1 FX_FIELD_DETAIL=0"};
-/// All programs of outputs. They are compiled only if outputs are requested.
+/// Returns all programs of outputs. These programs are compiled only if outputs are requested.
 std::span<const ProgramDesc* const> outputPrograms();
 
 /// Data of the nearest opaque particle in each pixel.
 struct SolidMarks
 {
-    /// RGBA32F xyz velocity [m/s], w 1; if w is 0, the pixel has no particle. Invalid: there are no particles
-    /// in the picture
+    /// RGBA32F xyz velocity [m/s]; w is 1, or 0 in pixels without a particle. Invalid: the picture has no
+    /// particles
     ResourceId velocity;
     ResourceId instance; ///< RG32UI id of the particle's instance, low word first
 };
 
-/// Draws opaque particles again, to write their SolidMarks.
+/// Draws opaque particles a second time, to write SolidMarks.
 ///
 /// reads   the buffers of the sources
 ///         distance  [m] along the ray to the host's opaque geometry
-/// Adds nothing without sources. Keeps no state.
+/// No pass is added without sources. The pass keeps no state.
 class SolidMarkPass
 {
 public:
@@ -57,8 +58,8 @@ struct PastFrame
 class FrameHistory
 {
 public:
-    /// Begins a frame. For the first frame, and after FrameRequest::resetHistory, past() has the camera of
-    /// this frame, and its time is FrameRequest::deltaTime earlier.
+    /// Begins a frame. For the first frame, and after FrameRequest::resetHistory, there is no previous
+    /// frame. Then past() has the camera of this frame, and the time difference FrameRequest::deltaTime.
     void advance(const FrameRequest& request);
     void forget() { hasFrame_ = false; }
     const PastFrame& past() const { return past_; }
@@ -70,18 +71,19 @@ private:
     bool hasFrame_ = false;
 };
 
-/// The picture of each bit of view_output, in the order of the bits; invalid if it was not requested.
+/// One texture for each bit of view_output, in the order of the bits; invalid if the output is not
+/// requested.
 using OutputTextures = std::array<ResourceId, view_output::kCount>;
 
-/// Computes the outputs of each pixel from the balls, cards and opaque particles on its ray. Outputs have the
-/// size of the picture and are the same for all compositions. Definitions: docs/howto/outputs.md.
+/// Computes the outputs of each pixel from the balls, cards and opaque particles on its ray. Outputs have
+/// the size of the picture, and do not depend on the composition. Definitions: docs/howto/outputs.md.
 ///
 /// reads   lists     lists of SlabMedia, with marks
 ///         marks     BlobMark of each ball
-///         solids    of SolidMarkPass
+///         solids    output of SolidMarkPass
 ///         distance  [m] along the ray to the host's opaque geometry and opaque particles
 /// writes  RG32UI instance, RG32F motion [pixel], R32F first depth [m], mean depth [m], optical depth [1]
-/// Keeps no state.
+/// The pass keeps no state.
 class OutputPass
 {
 public:
@@ -97,7 +99,7 @@ public:
         const CameraView* camera;
         PastFrame past;
     };
-    static constexpr uint32_t kMaxOfTile = kMaxLoopTurns / 12; ///< SlabTilePass::Inputs::maxOfTile
+    static constexpr uint32_t kMaxOfTile = kMaxLoopTurns / 12; ///< value of SlabTilePass::Inputs::maxOfTile
     [[nodiscard]] static OutputTextures addTo(FrameGraph& graph, const Inputs& in);
 };
 

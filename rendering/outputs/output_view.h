@@ -7,8 +7,8 @@
 
 namespace fx::render {
 
-/// Exists while the settings of a view request outputs. Its gather() is called after that of all techniques
-/// and before that of the composition. It removes no streams from the frame.
+/// The object exists while the settings of a view request outputs. Its gather() is called after the gather()
+/// of all techniques and before the gather() of the composition. gather() removes no streams from the frame.
 class OutputView final : public TechniqueView
 {
 public:

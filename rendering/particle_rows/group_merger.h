@@ -16,43 +16,45 @@
 namespace fx::render {
 
 /// Owns the merged rows of one view. Memory is kept from frame to frame. Rows are merged again only when the
-/// snapshots change. The merged newer snapshot is reused as the older one of the next frame if the same
-/// groups have the same ranges of rows. Pooled rows are read in the pool. Pooled groups get space for their
-/// full capacity, so that the ranges of other groups do not change.
+/// snapshots change. The merged newer snapshot becomes the merged older snapshot of the next frame, if the
+/// groups and their ranges of rows have not changed. Pooled rows are read directly from the pool. Pooled
+/// groups get space for their full capacity, so that the ranges of other groups do not change.
 ///
-/// Only groups of techniques with a RowMerge are merged. The order of the groups must not matter: they are
-/// sorted by distance, additive or opaque. The groups must have equal columns and constants and at most
-/// kMaxMergedRows rows each. Their positions must be within kFarthestMerged of each other. Sprites aligned to
-/// an axis must also have equal rotations. The origin of a merged group is the position of its first member,
-/// and its axes are those of the world. A particle has the same row in both snapshots.
+/// Only groups of techniques with a RowMerge are merged. The groups must be sorted by distance, additive or
+/// opaque, so that the order of groups does not matter. The groups must have equal columns and constants,
+/// and at most kMaxMergedRows rows each. Their positions must be within kFarthestMerged of each other.
+/// Sprites aligned to an axis must also have equal rotations. The origin of a merged group is the position
+/// of its first member. The axes of a merged group are the world axes. A particle has the same row index in
+/// both snapshots.
 class GroupMerger
 {
 public:
     static constexpr uint32_t kMaxMergedRows = 4096;
     static constexpr double kFarthestMerged = 2000.0; ///< [m]
 
-    /// @param techniques techniques whose groups are merged; they must stay valid
+    /// @param techniques techniques whose groups are merged; the techniques must stay valid
     GroupMerger(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema* schema,
                 std::pmr::memory_resource* memory);
 
     /// Merges the groups of two snapshots.
-    /// @param of revisions of the snapshots; if they equal those of the last call, its result is reused
-    /// @param newerRows, olderRows revisions of rows by group; empty: they are unknown
+    /// @param of revisions of the snapshots; if the revisions have not changed since the last call, the last
+    ///     result is reused
+    /// @param newerRows, olderRows revisions of the rows of each group; empty: the revisions are unknown
     void build(const base::SnapshotPair& snapshots, const RevisionPair& of,
                const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
-    /// The snapshots with the merged groups of build(). They may have no groups.
+    /// Snapshots that contain the merged groups. The snapshots may be empty.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
-    RevisionPair revisions() const { return revisions_; } ///< revisions of the snapshots merged()
-    /// Revisions of the rows of merged(), with one part per member of a merged group. They are 64-bit hashes
-    /// of the revisions of the merged rows.
+    RevisionPair revisions() const { return revisions_; } ///< revisions of the snapshots of merged()
+    /// Revisions of the rows of merged(), with one part per member of a merged group. A revision is a 64-bit
+    /// hash of the revisions of the merged rows.
     SnapshotRowRevisions newerRows() const { return {newerRevisions_, partsBegin_, {}}; }
     SnapshotRowRevisions olderRows() const { return {olderRevisions_, partsBegin_, {}}; }
-    /// For a group of merged(): its ranges of rows, with the effect to which each belongs.
+    /// Ranges of the rows of a group of merged(), with the effect to which each range belongs.
     std::span<const RowPart> partsOf(size_t group) const
     {
         return {parts_.data() + partsBegin_[group], partsBegin_[group + 1] - partsBegin_[group]};
     }
-    /// By group of the newer snapshot: 1 if the group is part of a merged group.
+    /// For each group of the newer snapshot: 1 if the group is part of a merged group.
     std::span<const uint8_t> taken() const { return taken_; }
 
 private:
@@ -63,7 +65,7 @@ private:
         size_t newerIndex, olderIndex; ///< indices of the group in the two snapshots
         uint32_t firstRow;
         uint32_t rows;
-        uint32_t next; ///< index of the next member of the same set, or kNone
+        uint32_t next; ///< index of the next member of the set, or kNone
     };
     struct Set
     {
@@ -115,9 +117,10 @@ private:
     std::pmr::vector<Set> sets_;
     std::pmr::vector<uint8_t> taken_;
     std::pmr::vector<RowPart> parts_;
-    /// By group of newer_: index of its first part; then the number of parts.
+    /// For each group of newer_: index of its first part; at the end, the number of parts.
     std::pmr::vector<size_t> partsBegin_;
-    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by index of a part in parts_
+    /// One revision for each element of parts_.
+    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_;
     std::pmr::vector<Layout> layout_, layoutBefore_; ///< the present and the previous layout of newer_
     /// Placements of the first members of merged groups.
     std::pmr::vector<base::Placement> anchors_, anchorsBefore_;

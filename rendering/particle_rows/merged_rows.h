@@ -1,5 +1,6 @@
 /// @file merged_rows.h
-/// Writes the rows of many groups to a few merged groups, transformed to the space of the merged group.
+/// Transforms the rows of many groups to the spaces of a few merged groups, and writes the rows to these
+/// groups.
 ///
 /// Threads: one thread at a time. A frame allocates nothing if an earlier frame was at least as large.
 #pragma once
@@ -18,7 +19,7 @@
 
 namespace fx::render {
 
-/// A group of a snapshot whose rows are merged. Its rows may be pooled.
+/// A group of a snapshot, whose rows are merged. The rows may be pooled.
 struct MergeSource
 {
     /// Columns and constants of the group; null: there is no group.
@@ -40,17 +41,17 @@ public:
     explicit MergedRows(std::pmr::memory_resource* memory);
 
     void begin(const base::FrameSnapshot& from, base::FrameSnapshot& to);
-    /// Adds a merged group of `rows` rows, with the columns, constants and position of `like`.
+    /// Adds a merged group with `rows` rows. Columns, constants and position are copied from `like`.
     /// @param technique technique with a RowMerge, which must stay valid
     void addGroup(const RowTechnique& technique, const MergeSource& like, uint32_t rows);
     /// Fills `rows` rows of the last added group, from `firstRow` on, with the rows of `from`. If `from` has
-    /// fewer, the remaining rows are empty.
-    /// @param number number of the member, >= 1; strip numbers depend on it, so that those of different
-    ///         members differ
+    /// fewer rows, the remaining rows are empty.
+    /// @param number number of the member, >= 1; included in strip numbers, so that different members have
+    ///     different strip numbers
     void addRows(const MergeSource& from, uint32_t firstRow, uint32_t rows, uint32_t number);
     /// Writes all merged groups. A merged group gets bounds if all its members have bounds.
     void write();
-    /// Bounds of the group that was passed to call number `index` of addRows(), in the local space of that
+    /// Bounds of the source group of call number `index` of addRows(), in the local space of the source
     /// group. Valid after write().
     const base::Bounds& bounds(size_t index) const { return members_[index].bounds; }
 
@@ -71,8 +72,8 @@ private:
     base::FrameSnapshot* to_ = nullptr;
     PoolScatter scatter_;
     std::pmr::vector<Member> members_;
-    std::pmr::vector<size_t> begin_;                   ///< by merged group: index of its first member
-    std::pmr::vector<const RowTechnique*> techniques_; ///< by merged group
+    std::pmr::vector<size_t> begin_;                   ///< for each merged group: index of its first member
+    std::pmr::vector<const RowTechnique*> techniques_; ///< one technique for each merged group
     std::pmr::vector<base::SnapshotGroup*> groups_;
     std::pmr::vector<PlacedRows> placed_; ///< rows of one merged group
     bool anyPooled_ = false;

@@ -1,6 +1,6 @@
 /// @file packed_rows.h
-/// Packed rows of particles for upload: 24 bytes, and 4 more with a velocity, 4 with a frame, 8 with an
-/// orientation. shaders/shared/particle_fetch.glsl reads them.
+/// Packed rows of particles for upload. A row has 24 bytes, and 4 more with a velocity, 4 more with a frame,
+/// 8 more with an orientation. shaders/shared/particle_fetch.glsl reads packed rows.
 ///
 /// 32-bit words of a row. Each word has its own column; indices are those of ParticleBlock::newerAt:
 ///     0 1 2   position, binary32: exact
@@ -44,7 +44,8 @@ enum : size_t
 };
 }
 
-/// Offsets of the columns, in words from the begin of the group; -1: the group does not have this column.
+/// Offsets of the columns from the begin of the group, in 32-bit words; -1: the group does not have the
+/// column.
 using RowPlaces = std::array<int32_t, 16>;
 
 /// A moment between two snapshots.
@@ -54,20 +55,20 @@ struct RowMoment
     float seconds = 0.0f; ///< [s] time between both snapshots
 };
 
-/// Computes the column offsets of the packed rows of a group of the kind "particle".
+/// Computes the offsets of the columns of packed rows, for a group of the kind "particle".
 /// @param room number of rows for which space is reserved
-/// @return size in words
+/// @return size of the packed rows in 32-bit words
 uint64_t layOutPacked(const base::SnapshotGroup& group, uint64_t room, RowPlaces& out);
-/// [byte] Size of a row.
+/// Returns the size of a row [byte].
 uint32_t packedRowBytes(const RowPlaces& places);
 
 /// Writes packed rows of a group.
 /// @param out begin of the group's memory
 void packRows(const base::SnapshotGroup& group, uint32_t first, uint32_t count, const RowPlaces& places,
               std::byte* out);
-/// Writes packed rows that are interpolated between two snapshots, with the formulas of fetchParticle() in
-/// the shader. Rows of particles that are born after the moment become empty.
-/// @param older the same group in the older snapshot
+/// Writes packed rows that are interpolated between two snapshots. The formulas are those of the shader
+/// function fetchParticle(). Rows of particles that are born after the moment become empty.
+/// @param older the group in the older snapshot
 void packRowsBetween(const base::SnapshotGroup& newer, const base::SnapshotGroup& older,
                      const RowMoment& moment, uint32_t first, uint32_t count, const RowPlaces& places,
                      std::byte* out);

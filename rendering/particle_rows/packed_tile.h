@@ -1,5 +1,5 @@
 /// @file packed_tile.h
-/// Buffer of up to 256 rows of particles, from which packed rows are written, see packed_rows.h.
+/// Buffer of up to 256 rows of particles. Packed rows (packed_rows.h) are written from this buffer.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct PackedTile
     float flip[kRows];    ///< sign of the orientation quaternion, -1 or 1
     uint32_t turn[kRows]; ///< "turn" in 12 bits, see packed_rows.h
 
-    /// Sets rows to 0, which makes them empty.
+    /// Makes rows empty by setting them to 0.
     void fillFrom(uint32_t first, uint32_t count)
     {
         for (float* all : {x, y, z, age, radius, red, green, blue, opacity, velocityX, velocityY, velocityZ,

@@ -1,5 +1,5 @@
 /// @file particle_estimate.h
-/// Estimates, before drawing, the cost of the particles and ribbons of a group.
+/// Estimates the cost of the particles and ribbons of a group before drawing.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -9,9 +9,9 @@
 
 namespace fx::render {
 
-/// Estimated number of fragments of all rows, for each of kLayerDivisors. A row counts at most as large as
-/// the window. Every 61st row is evaluated, and represents the rows after it. Clipping and occlusion are
-/// ignored.
+/// Estimated number of fragments of all rows, for each of kLayerDivisors. The number of fragments of a row
+/// is limited to the size of the window. Every 61st row is evaluated, and represents itself and the next 60
+/// rows. Clipping and occlusion are ignored.
 /// @param group   group of the technique's kind
 /// @param place placement of the group relative to the eye
 /// @param width, height [pixel] size of the picture

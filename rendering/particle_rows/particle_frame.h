@@ -1,6 +1,6 @@
 /// @file particle_frame.h
-/// The groups of particles and ribbons of two snapshots as a frame draws them: which groups are visible, the
-/// order of their rows, and all uniforms of their shaders. Makes no GL calls; rows are not copied.
+/// Selects the visible groups of particles and ribbons of two snapshots, sorts their rows, and computes the
+/// uniforms of their shaders. Makes no GL calls, and copies no rows.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -21,16 +21,16 @@
 
 namespace fx::render {
 
-/// Storage of the list of drawn rows; shaders use the same values.
+/// Format of the list of drawn rows; shaders use equal values.
 enum class OrderForm : uint8_t
 {
     All,            ///< no list: all rows are drawn, in the order of rows
-    Rows,           ///< one word for each drawn row: its index
-    FactorsBeside,  ///< two words for each drawn row: its index, and the factors of size and opacity
+    Rows,           ///< one word for each drawn row: the index of the row
+    FactorsBeside,  ///< two words for each drawn row: index, and factors of size and opacity
     RowFactorsOnly, ///< one word for each row, in the order of rows: the factors of size and opacity
 };
 
-/// A group that is drawn. The batch with the same index belongs to it.
+/// A drawn group. Group and batch have the same index.
 struct ParticleGroup
 {
     const RowTechnique* technique;
@@ -39,7 +39,7 @@ struct ParticleGroup
     size_t newerIndex, olderIndex;    ///< indices of the group in the two snapshots
     /// Indices of rows in the order of drawing; empty: all rows are drawn, in the order of rows.
     std::span<const uint32_t> order;
-    /// By row: factors of size and opacity, see simplifyRows(); empty: all rows are drawn unchanged.
+    /// For each row: factors of size and opacity, see simplifyRows(). Empty: all rows are drawn unchanged.
     std::span<const uint32_t> factors;
     uint32_t texture, motion, mesh; ///< ids in the asset table
     int columns, rows;              ///< number of frames of the texture along x and y
@@ -53,15 +53,15 @@ struct ParticleFrameInputs
     const FrameRequest* request;
     const ViewSettings* settings;
     const CameraGeometry* camera;
-    std::span<const uint8_t> left = {}; ///< by group of the newer snapshot: 1 if the group is omitted
-    /// Level of detail, whose begin() must have been called; null: all rows are drawn.
+    std::span<const uint8_t> left = {}; ///< for each group of the newer snapshot: 1 if the group is omitted
+    /// Level of detail. LevelOfDetail::begin() must have been called. Null: all rows are drawn.
     LevelOfDetail* lod = nullptr;
-    /// Merger that has made the snapshots; null: they are the snapshots of the scene.
+    /// Merger that has created the snapshots. Null: the snapshots have no merged groups.
     const GroupMerger* merger = nullptr;
     std::span<const RowTechnique* const> techniques = {};
 };
 
-/// Number of drawn elements. Groups that the GPU computes are counted with their capacity.
+/// Numbers of drawn elements. For groups that the GPU computes, the capacity is counted.
 struct DrawnCounts
 {
     uint64_t sprites = 0;
@@ -69,7 +69,7 @@ struct DrawnCounts
     uint64_t ribbonPieces = 0; ///< number of pieces of strips; each piece lies between two points
 };
 
-/// Owns the orders of rows of one view. Orders and memory are kept from frame to frame.
+/// Owns the sorted lists of rows of one view. Lists and memory are kept from frame to frame.
 class ParticleFrame
 {
 public:
@@ -83,16 +83,16 @@ public:
 
     std::span<const ParticleGroup> groups() const { return groups_; }
     std::span<ParticleBatch> batches() { return batches_; }
-    /// Sort order of the rows of computed batches.
+    /// Requests to sort the rows of batches that the GPU computes.
     std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
-    /// The streams of those batches that are not opaque, for DrawBatcher.
+    /// Streams of the batches that are not opaque, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
-    /// True if outputs contain motion. Then the rows of both snapshots are required, and groups are not
-    /// merged.
+    /// True if outputs contain motion. In this mode, the rows of both snapshots are required, and groups are
+    /// not merged.
     bool keepsSnapshots() const { return keepsSnapshots_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< number of sorted rows
-    /// Number of rows that were omitted by the level of detail.
+    /// Number of rows that the level of detail omitted.
     uint64_t thinnedRows() const { return thinnedRows_; }
     /// Estimated number of fragments of transparent rows.
     const FragmentCounts& fragments() const { return fragments_; }

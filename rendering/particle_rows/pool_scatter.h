@@ -23,18 +23,18 @@ public:
     /// @param snapshot snapshot to whose roster the entries belong
     /// @param groups number of merged groups
     void begin(const base::FrameSnapshot& snapshot, size_t groups);
-    /// Requests that run() copies the rows of `entry` to the merged group number `group`. `rows` rows are
-    /// reserved there, from `firstRow` on.
+    /// Requests that run() copies the rows of `entry` to the merged group with the index `group`. The copied
+    /// rows begin at `firstRow`, where `rows` rows are reserved.
     void send(const base::GroupRoster::Entry& entry, uint32_t group, uint32_t firstRow, uint32_t rows)
     {
         targets_[first_[entry.pool] + entry.member] = {&entry, group, firstRow, rows};
         isSentTo_[group] = 1;
     }
-    /// Writes all columns of non-empty rows, with rotated orientations. Reserved rows without a source become
-    /// zero.
-    /// @param groups the merged groups, each with count() rows; groups without a source are not changed
+    /// Writes all columns of non-empty rows. Orientations are rotated. Reserved rows without a source are
+    /// set to 0.
+    /// @param groups the merged groups, whose count() is already set; groups without a source do not change
     void run(const base::FrameSnapshot& snapshot, std::span<base::SnapshotGroup* const> groups);
-    /// Extent of the rows of an entry. Its pool must have velocities.
+    /// Extent of the rows of an entry. The pool of the entry must have velocities.
     const base::RowExtent& extentOf(const base::GroupRoster::Entry& entry) const
     {
         return extents_[first_[entry.pool] + entry.member];
@@ -61,14 +61,14 @@ private:
         return {moves_.data() + begin_[group], ends_[group] - begin_[group]};
     }
 
-    std::pmr::vector<size_t> first_;   ///< by pool: index of its first member in targets_
-    std::pmr::vector<Target> targets_; ///< by member number, pool after pool
-    /// By member number: extent of its rows; empty if there are no velocities.
+    std::pmr::vector<size_t> first_;   ///< for each pool: index of its first member in targets_
+    std::pmr::vector<Target> targets_; ///< one target for each member, pool after pool
+    /// For each member: extent of its rows. Empty if there are no velocities.
     std::pmr::vector<base::RowExtent> extents_;
     std::pmr::vector<Move> moves_;       ///< rows of one pool to copy, group after group
-    std::pmr::vector<uint32_t> begin_;   ///< by group: begin of its range in moves_
-    std::pmr::vector<uint32_t> ends_;    ///< by group: end of its range in moves_
-    std::pmr::vector<uint8_t> isSentTo_; ///< by group: 1 if send() was called for it
+    std::pmr::vector<uint32_t> begin_;   ///< for each group: begin of its range in moves_
+    std::pmr::vector<uint32_t> ends_;    ///< for each group: end of its range in moves_
+    std::pmr::vector<uint8_t> isSentTo_; ///< for each group: 1 if send() was called for the group
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file row_placing.h
 /// Transforms the rows of many groups to one space. The loops run over whole SIMD vectors and are compiled
-/// for each instruction set; all instruction sets give the same bits.
+/// for each instruction set. Results are bit-identical for all instruction sets.
 #pragma once
 
 #include "foundation/snapshot/pooled_groups.h"
@@ -12,8 +12,8 @@
 
 namespace fx::render {
 
-/// The rows of one group, and the transform for them. They may be transformed in place. Up to kRowsBehind
-/// rows after the end are read.
+/// The rows of one group, and their transform. Rows may be transformed in place. Up to kRowsBehind rows
+/// after the end are read.
 struct PlacedRows
 {
     const float* from[3]; ///< columns of the x, y and z components
@@ -30,7 +30,7 @@ struct PlacedRows
 constexpr uint32_t kRowsBehind = 16;
 
 /// Transforms positions and radii: offset + rotation * (scale * position), scale * radius. Also sets
-/// `extent`, to the extent before the transformation.
+/// `extent` to the extent before the transform.
 void placeRows(std::span<PlacedRows> groups);
 
 /// Transforms directions: rotation * (scale * direction). Radii do not change.

@@ -1,5 +1,5 @@
 /// @file blob_instance.h
-/// A blob in the layout of the GPU; shaders/shared/blob_instance.glsl reads it.
+/// A blob in the layout of shaders/shared/blob_instance.glsl.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,11 +15,12 @@ struct BlobInstance
     glm::vec4 centerRadius; ///< xyz [m] position relative to the eye, along world axes; w radius [m]
     glm::vec4 medium;  ///< x cross section [m2]; y heat [K]; z detail amount [1]; w seed of the detail [0, 1)
     glm::vec4 scatter; ///< rgb albedo; w mean cosine of the phase function
-    glm::vec4 layer;   ///< x number of the layer times 2, plus the share of fire
-    /// rgb emitted light, exposed; w exponent of the factor of detail (temperature factor)^w for the emission
+    glm::vec4 layer;   ///< x index of the layer times 2, plus the fraction of fire
+    /// rgb emitted light, exposed; w exponent for detail, which scales the emission by (temperature
+    /// factor)^w
     glm::vec4 emission;
-    /// xyz [m] point at which the ball is lit, relative to the eye; w periods of noise per radius. For a ball
-    /// in an impostor, w is -1 minus this value: such a ball is lit at its center only.
+    /// xyz [m] point at which the ball is lit, relative to the eye; w periods of noise per radius. For a
+    /// ball in an impostor, w is -1 minus the number of periods, and the ball is lit at its center only.
     glm::vec4 lit;
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
@@ -27,8 +28,8 @@ static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 /// Noise coordinates of a ball, for the detail of its field.
 struct BlobMaterial
 {
-    /// xyz [cell] coordinates of both generations. carried[0].w is the index of the detail of the ball's
-    /// effect + 1, or 0 without detail.
+    /// xyz [cell] offsets of the noise coordinates of both generations. carried[0].w is the index of the
+    /// detail of the ball's effect + 1, or 0 without detail.
     glm::vec4 carried[2];
 };
 static_assert(sizeof(BlobMaterial) == 32);
@@ -39,9 +40,9 @@ struct BlobEffect
     uint32_t begin, end; ///< range of the balls in the list
     /// [m] Bounds of all balls of the instance, visible or not, relative to the eye, along world axes.
     glm::vec3 low, high;
-    /// [m] quantile of the radii: balls with smaller radii have a quarter of the total cross section
+    /// [m] quantile of the radii: a quarter of the total cross section is in balls with smaller radii
     float radius;
-    int detail = -1; ///< index of the detail of the balls' field; -1: none
+    int detail = -1; ///< index of the detail of the balls' field; -1: no detail
 };
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file blob_light_pass.h
-/// The pass that computes those parts of the scattered light that vary little within a blob.
+/// The pass that computes the parts of the scattered light that vary little within a blob.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -15,8 +15,8 @@ constexpr size_t kBlobLightBytes = 3 * 16; ///< [byte] size of the data of a blo
 /// scattered light of the sun.
 ///
 /// reads   blobs       buffer of BlobInstance
-///         lights
-/// writes  blobLights  buffer, per blob: rgb exposed radiance at the center; xyz relative gradient
+///         lights      all lights of the view
+/// writes  blobLights  buffer; for each blob: rgb exposed radiance at the center, xyz relative gradient
 ///                     [1/radius]
 class BlobLightPass
 {

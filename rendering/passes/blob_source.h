@@ -6,7 +6,7 @@
 
 namespace fx::render {
 
-/// The program of one permutation.
+/// Returns the program of the media pass for a combination of options.
 /// @param detail true: the program draws procedural detail
 /// @param layers true: the program writes layer targets
 /// @param isSmall true: the targets are smaller than the picture
@@ -14,8 +14,8 @@ const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bo
 constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
 const ProgramDesc& mediaProgramAt(size_t index);
 
-/// Draws BlobInstances of a buffer, sorted by decreasing distance. Formula: kernel-optical-depth, or the
-/// formula of the chosen billboard form.
+/// Draws the BlobInstances of a buffer, which are sorted by decreasing distance. `form` selects the formula
+/// of the optical depth; the default is kernel-optical-depth.
 class BlobSource final : public MediaSource
 {
 public:
@@ -24,11 +24,11 @@ public:
     const BallList* balls() const override { return &list; }
 
     ResourceId blobs; ///< buffer of BlobInstance
-    /// Buffer written by BlobLightPass; invalid if the sky has no planes of light slices.
+    /// Buffer written by BlobLightPass.
     ResourceId blobLights;
     BillboardForm form = BillboardForm::Kernel;
-    bool detail = false; ///< true: some blobs have procedural detail, and it is drawn
-    BallList list;       ///< the same blobs, for compositions that sum them
+    bool detail = false; ///< true: the procedural detail of blobs is drawn
+    BallList list;       ///< the blobs, for compositions that sum balls
 };
 
 } // namespace fx::render

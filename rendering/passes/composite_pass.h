@@ -14,8 +14,8 @@ inline constexpr ProgramDesc kCompositeProgram{"composite", "shared/fullscreen.v
 ///
 /// reads   media    RGBA32F premultiplied
 ///         picture  the host's opaque picture, exposed radiance
-/// writes  either the picture itself by blending, or a new RGBA32F color for the following passes
-/// Keeps no state.
+/// writes  the picture by blending in place, or a new RGBA32F texture
+/// The pass keeps no state.
 class CompositePass
 {
 public:
@@ -24,7 +24,7 @@ public:
         ResourceId media;
         ResourceId picture;
         int width, height;
-        bool inPlace; ///< true: blend into `picture`; false: create a new color
+        bool inPlace; ///< true: blend into `picture`; false: create a new texture
     };
     struct Outputs
     {

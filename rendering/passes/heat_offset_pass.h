@@ -12,18 +12,17 @@ inline constexpr ProgramDesc kHeatOffsetProgram{"heat offset", "shimmer/heat_shi
 /// [s] Period of the motion of eddies in hot gas.
 inline constexpr double kHeatPeriod = 8.0;
 
-/// Phase of `time` [s] in the period kHeatPeriod, [0, 1): equal at t and at t + kHeatPeriod for every t. A
-/// time that is not finite gives 0.
+/// Returns the phase of `time` [s] in the period kHeatPeriod, [0, 1). A time that is not finite gives 0.
 float heatPhase(double time);
 
-/// Refraction by hot gas: draws, for blobs with heat, the displacement of a distant background in pixels.
-/// Formulas: heat-stream, heat-refraction, kernel-optical-depth for the visible share.
+/// Draws, for blobs with heat, the displacement [pixel] of a distant background by refraction. Formulas:
+/// heat-stream and heat-refraction; kernel-optical-depth for the visible fraction of a blob.
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry
-/// writes  heat      RGBA32F, summed: xy displacement [pixel]; z weight [1]; w weight * distance [m]
-/// If no blob is hot or the settings allow no displacement, no pass is added and `heat` is invalid. Keeps no
-/// state, because the motion of eddies is a function of time.
+/// writes  heat      RGBA32F sum over blobs: xy displacement [pixel]; z weight [1]; w weight * distance [m]
+/// If no blob is hot or the settings allow no displacement, no pass is added and `heat` is invalid. The pass
+/// keeps no state: the motion of eddies is a function of time.
 class HeatOffsetPass
 {
 public:

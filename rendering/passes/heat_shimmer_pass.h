@@ -22,17 +22,17 @@ struct HotArea
 };
 static_assert(sizeof(HotArea) == 16);
 
-/// Displaces the composed picture, including media, by the result of HeatOffsetPass.
+/// Displaces the pixels of the composed picture, including media, by the displacement of HeatOffsetPass.
 ///
 /// reads   distance  [m] along the ray to opaque geometry
-///         heat      of HeatOffsetPass
+///         heat      output of HeatOffsetPass
 /// writes  color     RGBA32F exposed radiance, bilinear. Only pixels of `areas` are drawn: first
-///                   to a temporary texture, then to the picture. A pixel does not change, bit for bit,
-///                   without heat or displacement, or if a texel that it needs is nearer than the gas or not
-///                   finite. No texel outside of the image is read: the displacement decreases to 0 over the
-///                   last settings.maxOffset pixels before the border.
-/// Adds nothing if heat is invalid, if there is no area, or if the settings allow no displacement. Keeps no
-/// state.
+///                   to a temporary texture, then to the picture. A pixel does not change without heat or
+///                   displacement, or if a required texel is nearer than the gas or not finite. No texel
+///                   outside of the image is read: the displacement decreases to 0 over the last
+///                   settings.maxOffset pixels before the border.
+/// No pass is added if `heat` is invalid, if there are no areas, or if the settings allow no displacement.
+/// The pass keeps no state.
 class HeatShimmerPass
 {
 public:
@@ -40,7 +40,7 @@ public:
     {
         ResourceId color;
         ResourceId distance;
-        ResourceId heat; ///< invalid if nothing is hot
+        ResourceId heat; ///< invalid if no blob is hot
         /// Areas that together cover every pixel with heat; must stay valid until the graph has executed.
         std::span<const HotArea> areas;
         int width, height;

@@ -11,12 +11,12 @@ inline constexpr ProgramDesc kLayerOverProgram{"layer over", "shared/fullscreen.
 inline constexpr ProgramDesc kLayerResolveProgram{"layer resolve", "shared/fullscreen.vert.glsl",
                                                   "frame/layer_sums.frag.glsl", nullptr, "FX_OVER=0"};
 
-/// Composites layer targets over others of the same size, as if both had been drawn to the same targets. It
-/// is used for upsampled media over opaque particles at full size.
+/// Composites the layer targets `over` over the layer targets `under`. The result is as if all elements had
+/// been drawn to `under`. The pass is used for upsampled media over opaque particles at full size.
 ///
 /// reads   over   the six layer targets of the media pass
-/// writes  under  the same six targets, blended in place
-/// Keeps no state.
+/// writes  under  six layer targets of equal size, blended in place
+/// The pass keeps no state.
 class LayerOverPass
 {
 public:
@@ -30,7 +30,7 @@ public:
 /// reads   layers                    targets of the media pass, except the optical depth
 /// writes  fire, smoke, dust, media  RGBA32F exposed radiance reaching the eye, premultiplied
 ///         depth                     R32F [m] mean distance weighted by visible opacity, +inf without media
-/// Colors and alphas of `media` are exactly the float sums of those of fire, smoke and dust. Keeps no state.
+/// Colors and alphas of `media` are exactly the float sums of fire, smoke and dust. The pass keeps no state.
 class LayerResolvePass
 {
 public:

@@ -12,16 +12,16 @@ inline constexpr ProgramDesc kLayerUpsampleProgram{"layer upsample", "shared/ful
 inline constexpr float kUpsampleReach = 0.1f;
 
 /// Upsamples one layer target of reduced size to the size of the picture. For each pixel, the texel of its
-/// block is interpolated between the near and the far picture by the pixel's distance. Then it is
+/// block is interpolated between nearLight and farLight, depending on the pixel's distance. The result is
 /// interpolated bilinearly with neighboring texels of the same surface, so that media do not leak across
 /// edges. Based on joint bilateral upsampling, [KCLU07].
 ///
 /// reads   sceneDistance  R32F [m] in the size of the picture
-///         far, near      of LayerDistancePass
+///         far, near      outputs of LayerDistancePass
 ///         farLight       media up to `far`
 ///         nearLight      media up to `near`; invalid without depth
 /// writes  light          `format`, in the size of the picture
-/// Where all texels are equal, pixels get exactly the same value. Keeps no state.
+/// Where all texels are equal, pixels get exactly the value of the texels. The pass keeps no state.
 class LayerUpsamplePass
 {
 public:

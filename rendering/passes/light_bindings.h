@@ -26,8 +26,9 @@ static_assert(sizeof(SliceLightBlock) == 7 * 16);
 /// Largest number of entries: lights, axes of the sky and finer planes of the sun.
 constexpr size_t kMaxLightEntries = 21;
 
-/// Entry i + kFadingEntries describes the previous planes of light i during a cross-fade: right, up, along
-/// and tiles. Its color.r is the weight [1] of the previous planes; 0: no cross-fade.
+/// Offset of entries for cross-fades. During a cross-fade, entry i + kFadingEntries has the previous planes
+/// of light i in the members right, up, along and tiles. The member color.r is the weight [1] of the
+/// previous planes; 0: no cross-fade.
 constexpr size_t kFadingEntries = kMaxLightEntries;
 
 /// Layout of the block Lights in shaders/shared/light_block.glsl.

@@ -14,9 +14,8 @@ namespace fx::render {
 ///
 /// reads   the buffers of the sources
 ///         distance  [m] along the ray to opaque geometry
-/// writes  media     RGBA32F exposed radiance, premultiplied "over"; with layers, instead, the six targets of
-///                   LayerTarget
-/// Adds nothing without batches. Keeps no state.
+/// writes  media     RGBA32F exposed radiance, premultiplied; with layers, instead the six layer targets
+/// No pass is added without batches. The pass keeps no state.
 class MediaPass
 {
 public:
@@ -45,7 +44,7 @@ public:
     };
     struct Outputs
     {
-        ResourceId media;                            ///< invalid with `layers`, or if nothing is drawn
+        ResourceId media;                            ///< invalid with `layers`, or without batches
         std::array<ResourceId, LayerTargets> layers; ///< invalid without layers
     };
     /// Adds the pass.
@@ -53,7 +52,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in, const Outputs& under);
 };
 
-/// Description of the media pass's target number `target`.
+/// Returns the description of a target of the media pass.
 TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 
 /// The targets of a pass that draws media over existing targets. The execute function of a pass captures this
@@ -61,7 +60,7 @@ TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 class MediaTargets
 {
 public:
-    /// Declares that the pass writes the targets of `under`, and creates those that are invalid.
+    /// Declares that the pass writes the targets of `under`. Creates a new target for each invalid target.
     MediaTargets(FrameGraph::Builder& builder, const MediaPass::Inputs& in, const MediaPass::Outputs& under);
 
     /// Clears the targets that the pass has created. Must be called before drawing.

@@ -1,5 +1,5 @@
 /// @file media_source.h
-/// Interface of the sources that the passes of opaque particles and of media draw.
+/// Interface of sources of drawable elements, for the passes that draw opaque particles and media.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -23,8 +23,8 @@ struct DrawBatch
     const MediaSource* source = nullptr;
 };
 
-/// Lists of fragments, one for each texel. Cards write their fragments to these lists instead of blending
-/// them. Layout of shaders/shared/card_lists.glsl.
+/// Lists of fragments, one list for each texel. Cards write their fragments to these lists instead of
+/// blending. Layout of shaders/shared/card_lists.glsl.
 struct CardLists
 {
     ResourceId heads = {}; ///< buffer of list heads; invalid: fragments are blended
@@ -37,14 +37,14 @@ constexpr uint32_t kCardHeadBinding = 4;
 constexpr uint32_t kCardNodeBinding = 5;
 constexpr uint32_t kCardMarkBinding = 7;
 
-/// Balls of medium, for compositions that sum balls instead of blending them.
+/// Balls of medium, for compositions that sum balls.
 struct BallList
 {
     ResourceId balls = {};  ///< buffer of BlobInstance
     ResourceId lights = {}; ///< buffer written by BlobLightPass, one entry for each ball
-    /// The same balls; must stay valid until the graph has executed.
+    /// The balls of the buffer `balls`, for the CPU; must stay valid until the graph has executed.
     std::span<const BlobInstance> instances{};
-    bool detail = false; ///< true: some balls have procedural detail, and it is drawn
+    bool detail = false; ///< true: the procedural detail of balls is drawn
 };
 
 /// Targets and options of a draw.
@@ -53,28 +53,28 @@ struct MediaTarget
     const ViewBlock* view;
     ResourceId distance;                 ///< [m] distance along the ray to opaque geometry
     std::span<const ResourceId> targets; ///< targets of MediaPass, or of SolidPass
-    bool layers;                         ///< as in MediaPass
+    bool layers;                         ///< true: `targets` are layer targets
     bool isSmall;                        ///< true: texels are larger than pixels
     LightBindings lights{};              ///< lights of the view
-    CardLists cards{};     ///< if valid, cards write their fragments to these lists instead of `targets`
+    CardLists cards{};     ///< if valid, cards write their fragments to `cards` instead of `targets`
     bool isMarked = false; ///< true: opaque elements write marks instead of light, see output_marks.h
 };
 
-/// A source of drawable elements, divided into batches. After a pass that draws it has been added, it must
-/// not change until the graph has executed.
+/// A source of drawable elements, divided into batches. After a pass that draws the source has been added,
+/// the source must not change until the graph has executed.
 class MediaSource
 {
 public:
-    /// Declares all resources that the draws read.
+    /// Declares all resources that draw() and drawSolids() read.
     virtual void read(FrameGraph::Builder& builder) const = 0;
     /// Blends the elements of a batch over the target, with premultiplied colors. If target.cards is valid,
-    /// fragments of cards are written to these lists instead.
+    /// fragments of cards are written to the lists `target.cards` instead.
     virtual void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const = 0;
 
-    /// The balls of medium of this source; null if it draws cards.
+    /// Returns the balls of medium of the source, or null if the source draws cards.
     virtual const BallList* balls() const { return nullptr; }
 
-    /// True if the source has opaque elements. They are not part of batches.
+    /// True if the source has opaque elements. Opaque elements are not part of batches.
     virtual bool hasSolids() const { return false; }
     /// Draws the opaque elements to the targets of SolidPass, with depth test.
     virtual void drawSolids(Backend&, const MediaTarget&, ResourceId /*depth*/) const {}
@@ -83,20 +83,20 @@ protected:
     ~MediaSource() = default;
 };
 
-/// Inputs of drawQuads(), besides the ViewBlock and the target's distance.
+/// Additional inputs of drawQuads().
 struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
-    TextureBinding picture{}; ///< texture that is bound if it is valid
+    TextureBinding picture{}; ///< texture; bound if valid
     const LightBindings* lights = nullptr;
-    ResourceId blobLights{}; ///< buffer that is bound at kBlobLightBinding, if valid
+    ResourceId blobLights{}; ///< buffer; bound at kBlobLightBinding if valid
 };
 
 constexpr uint32_t kBlobLightBinding = 6;
 
-/// Draws the instances of a batch as quads of 6 vertices. They are blended over the target, with
-/// premultiplied colors. The program gets the ViewBlock, with batch.first in pass.y, and the target's
-/// distance at texture unit 0.
+/// Draws the instances of a batch as quads of 6 vertices. The quads are blended over the target, with
+/// premultiplied colors. The program gets the ViewBlock, and the target's distance at texture unit 0. The
+/// member pass.y of the ViewBlock is batch.first.
 void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& inputs, const DrawBatch& batch,
                const MediaTarget& target);
 

@@ -1,5 +1,5 @@
 /// @file output_marks.h
-/// Marks: the instance and the velocity of drawn elements, for the outputs of a view (view_output).
+/// Marks store the instance and the velocity of drawn elements, for the outputs of a view (view_output).
 #pragma once
 
 #include <glm/vec4.hpp>

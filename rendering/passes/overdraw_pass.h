@@ -16,7 +16,7 @@ inline constexpr ProgramDesc kOverdrawSmallProgram{
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry
 /// writes  count     R32F [1] contributing fragments per pixel
-/// The pass is added only if statistics require it. Keeps no state.
+/// The pass is added only if statistics require it. The pass keeps no state.
 class OverdrawPass
 {
 public:

@@ -13,9 +13,9 @@ inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "frame/overla
 
 /// Draws debug lines over the picture: the edges of boxes, each box in its color.
 ///
-/// reads   boxes    relative to the origin of the camera
+/// reads   boxes    boxes, relative to the origin of the camera
 /// writes  picture  the finished picture, by blending; lines are not occluded
-/// The pass is added only if the overlay of the view is enabled and has boxes. Keeps no state.
+/// The pass is added only if the overlay of the view is enabled and has boxes. The pass keeps no state.
 class OverlayPass
 {
 public:

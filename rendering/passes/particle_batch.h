@@ -51,13 +51,13 @@ enum class BatchShape : uint8_t
     Count
 };
 
-/// Part of a buffer.
+/// A range of a buffer.
 struct BufferPart
 {
     uint32_t name = 0; ///< name of the GL buffer
     ResourceId id;     ///< id of the buffer in this frame's graph
     uint64_t offset = 0;
-    uint64_t bytes = 0; ///< size; 0: there is no data
+    uint64_t bytes = 0; ///< [byte] size of the range; 0: there is no data
 };
 
 struct ParticleBatch
@@ -73,26 +73,25 @@ struct ParticleBatch
     uint32_t motion = 0;
     ResourceId textureId, motionId;
     bool isComputed = false; ///< true: the GPU computes the rows
-    /// Buffer with draw arguments that the GPU writes; invalid: the member `instances` is the number of drawn
-    /// elements.
+    /// Buffer with draw arguments that the GPU writes. Invalid: `instances` is the number of drawn elements.
     ResourceId arguments;
-    /// See MarkedParticleBlock; `drift` and `instance` are used only with outputs.
+    /// `drift` and `instance` are members of MarkedParticleBlock, and are used only with outputs.
     std::array<glm::vec4, 3> drift{};
     glm::uvec4 instance{};
 };
 
-/// The program of one permutation.
+/// Returns the program for a combination of options.
 /// @param isSolid true: the program writes depth and distance
-/// @param layers as in MediaPass
+/// @param layers true: the program writes layer targets
 const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers);
 constexpr size_t kParticlePrograms = 3 * 2 * 2;
 const ProgramDesc& particleProgramAt(size_t index);
 
-/// The program by which cards write their fragments to lists, see CardLists.
+/// Returns the program that writes the fragments of cards to CardLists.
 const ProgramDesc& cardProgram(BatchShape shape);
 
-/// The first program writes fragments of cards and their marks to lists; the second writes marks of opaque
-/// particles. See output_marks.h.
+/// markedCardProgram() writes the fragments of cards and their marks to CardLists. markedSolidProgram()
+/// writes the marks of opaque particles. See output_marks.h.
 const ProgramDesc& markedCardProgram(BatchShape shape);
 const ProgramDesc& markedSolidProgram(BatchShape shape);
 

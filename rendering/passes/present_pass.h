@@ -12,7 +12,7 @@ inline constexpr ProgramDesc kPresentProgram{"present", "shared/fullscreen.vert.
 ///
 /// reads   picture  the last color of the frame
 /// writes  target   the host's texture or framebuffer
-/// Keeps no state.
+/// The pass keeps no state.
 class PresentPass
 {
 public:

@@ -1,6 +1,6 @@
 /// @file programs.h
-/// The programs of passes that belong to no technique. Together with the programs of techniques, they are all
-/// programs of a view. The warm-up compiles them.
+/// Lists the programs of all passes that do not belong to a technique. The warm-up of a view compiles these
+/// programs and the programs of techniques.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"

@@ -9,18 +9,18 @@ namespace fx::render {
 inline constexpr ProgramDesc kSceneDistanceProgram{"scene distance", "shared/fullscreen.vert.glsl",
                                                    "frame/scene_distance.frag.glsl", nullptr, nullptr};
 
-/// Converts the host's depth, once per frame, to the distance at which the ray of each pixel ends. All later
+/// Converts the host's depth buffer to the distance along the ray of each pixel, once per frame. All later
 /// passes use this distance.
 ///
 /// reads   depth     the host's depth buffer, in the DepthConvention of the camera
 /// writes  distance  R32F [m] along each pixel's ray to the opaque surface, +inf without a surface
-/// Without a depth buffer the distance is +inf everywhere. Keeps no state.
+/// Without a depth buffer the distance is +inf everywhere. The pass keeps no state.
 class SceneDistancePass
 {
 public:
     struct Inputs
     {
-        ResourceId depth; ///< the host's depth buffer; invalid: nothing occludes
+        ResourceId depth; ///< the host's depth buffer; invalid: no surface occludes media
         int width, height;
         ViewBlock view;
     };

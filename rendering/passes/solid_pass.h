@@ -5,13 +5,13 @@
 
 namespace fx::render {
 
-/// Draws opaque particles, with depth test, before any media are drawn. The media pass blends over them, and
-/// its rays end at them. The host's depth is read, not written.
+/// Draws opaque particles, with depth test, before any media are drawn. The media pass blends media over the
+/// opaque particles. Rays of the media pass end at the particles. The host's depth is read, but not written.
 ///
 /// reads   distance  [m] along the ray to the host's opaque geometry
-/// writes  under     media or layer targets, as written by MediaPass: exposed radiance with opacity 1, or 0
+/// writes  under     media or layer targets of MediaPass: exposed radiance and opacity 1 of particles, else 0
 ///         distance  [m] a new texture: distance to the nearest surface of host and particles
-/// Adds nothing without sources. Keeps no state.
+/// No pass is added without sources. The pass keeps no state.
 class SolidPass
 {
 public:
@@ -27,8 +27,8 @@ public:
     };
     struct Outputs
     {
-        MediaPass::Outputs under; ///< media or layer targets; invalid if nothing is drawn
-        ResourceId distance;      ///< distance to the nearest surface; Inputs::distance if nothing is drawn
+        MediaPass::Outputs under; ///< media or layer targets; invalid without sources
+        ResourceId distance;      ///< distance to the nearest surface; Inputs::distance without sources
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };

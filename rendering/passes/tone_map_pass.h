@@ -16,7 +16,7 @@ inline constexpr ProgramDesc kToneMapDitherProgram{"tone map (8 bit)", "shared/f
 /// reads   color  RGBA32F exposed radiance
 /// writes  color  sRGB code values in [0, 1], as RGBA32F, or as RGBA8 with a fixed dither pattern that does
 ///                not change exact 8-bit values; alpha unchanged
-/// Keeps no state.
+/// The pass keeps no state.
 class ToneMapPass
 {
 public:
@@ -24,7 +24,7 @@ public:
     {
         ResourceId color;
         int width, height;
-        /// [1] exposed radiance that is displayed as 1; values less than 1, and NaN, are replaced by 1
+        /// [1] exposed radiance that is displayed as 1. Values less than 1, and NaN, are replaced by 1
         float white;
         Format format = Format::RGBA32F; ///< RGBA32F; or RGBA8, with dithering
     };

@@ -13,7 +13,8 @@ struct CameraPose
 {
     glm::dvec3 position{0.0, 2.0, 10.0}; ///< [m]
     glm::dvec3 target{0.0};              ///< [m] different from position
-    /// Upward direction. It must not be parallel to the view axis, and need not be perpendicular to it.
+    /// Upward direction. The direction must not be parallel to the view axis. It need not be perpendicular to
+    /// the view axis.
     glm::vec3 up{0.0f, 1.0f, 0.0f};
 };
 

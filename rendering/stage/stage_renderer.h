@@ -1,6 +1,6 @@
 /// @file stage_renderer.h
-/// A small host for tools and tests. It draws an opaque triangle mesh and a background to a color and a depth
-/// texture, as a game does before it calls fxView_Render.
+/// A small host for tools and tests. The host draws an opaque triangle mesh and a background to a color
+/// texture and a depth texture, as a game does before it calls fxView_Render.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -44,7 +44,7 @@ struct StageBackground
     bool panorama = false; ///< true: `image` is equirectangular around the eye; false: it fills the picture
 };
 
-/// A light besides sun and sky.
+/// A light of the scene, other than sun and sky.
 struct StageLight
 {
     HostLight light;
@@ -62,14 +62,15 @@ struct StageLighting
 {
     Lighting lighting;
     std::span<const StageLight> lights{}; ///< lights, of which at most kMaxStageLights are used
-    /// Media shadow in the light of the sun. If it has no planes, media cast no shadow.
+    /// Media shadow in the light of the sun. If the block has no planes, media cast no shadow.
     MediaShadowBlock sunShadow;
-    /// GL name of the texture of light slices for all media shadows, with linear filter; 0: none.
+    /// GL name of the texture of light slices for all media shadows, with linear filter; 0: no media shadows.
     uint32_t shadowTexture = 0;
 };
 
 constexpr size_t kMaxStageLights = 16;
-constexpr size_t kMaxStageShadows = 5; ///< largest number of media shadows, including that of the sun
+constexpr size_t kMaxStageShadows =
+    5; ///< largest number of media shadows, including the shadow in the light of the sun
 
 /// Draws diffuse surfaces lit by a sun with a shadow map, a sky and lights, with shadows of media.
 class StageRenderer
@@ -79,14 +80,14 @@ public:
     ~StageRenderer();
 
     /// Sets the mesh.
-    /// @return InvalidArgument if positions, normals and colors differ in number; errors of GL
+    /// @return InvalidArgument if positions, normals and colors differ in number, or an error of GL
     base::Status setMesh(const StageMesh& mesh);
     /// Sets the background.
-    /// @return InvalidArgument if `image` does not have width * height pixels; errors of GL
+    /// @return InvalidArgument if `image` does not have width * height pixels, or an error of GL
     base::Status setBackground(const StageBackground& background);
 
-    /// Draws to textures of the stage, which are valid until the next call: RGBA32F color [cd/m2 times
-    /// exposure] and a 32-bit float depth texture.
+    /// Draws to textures of the stage: RGBA32F color [cd/m2 times exposure] and 32-bit float depth. The
+    /// textures are valid until the next call.
     /// @param width, height [pixel] size of the textures
     base::Status render(const CameraView& camera, const Lighting& lighting,
                         std::span<const EffectLight> lights, float exposureEv100, int width, int height);

@@ -1,6 +1,6 @@
 /// @file draw_technique.h
 /// The drawing half of a technique: its snapshot data, passes, programs and statistics. A view iterates over
-/// a list of these descriptions.
+/// a list of descriptions of techniques.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -39,10 +39,10 @@ class GlBackend;
 struct RowTechnique;
 struct DrawTechnique;
 
-/// number of frames without use after which buffers and textures are deleted
+/// Number of frames without use after which buffers and textures are deleted.
 constexpr uint32_t kIdleFrames = 300;
 
-/// Inputs to gather a frame.
+/// Inputs of TechniqueView::gather().
 struct GatherInputs
 {
     /// Snapshots of the frame; `older` is null if both have equal content.
@@ -57,12 +57,12 @@ struct GatherInputs
     LevelOfDetail* lod;                  ///< level of detail, whose begin() has been called for this frame
     uint64_t content;                    ///< revision of the content of the snapshots
     bool castsShadows = true;            ///< true: there are lights, and media cast shadows
-    /// True: balls are blended one over the other, so that they must be sorted, farthest first.
+    /// True: balls must be sorted, farthest first, because they are blended over each other.
     bool needsOrder = true;
 };
 
-/// Data that techniques have gathered for a frame. gather() of the techniques is called in the order of their
-/// list.
+/// Data that techniques have gathered for a frame. The view calls gather() of its techniques in the order of
+/// the list of techniques.
 struct GatheredFrame
 {
     std::pmr::vector<DrawStream>* streams;             ///< streams of the media pass, each with its source
@@ -71,7 +71,8 @@ struct GatheredFrame
     std::span<const BlobInstance> blobs{};             ///< balls of medium
     /// Ranges of blobs by instance; empty if blobs are not in the order of instances.
     std::span<const BlobEffect> effects{};
-    /// Marks of blobs; empty if blobs are not in the order of instances, or without ViewSettings::outputs.
+    /// Velocities and instances of blobs for view outputs; empty if blobs are not in the order of instances,
+    /// or without ViewSettings::outputs.
     std::span<const BlobMark> marks{};
     /// Noise coordinates of blobs; empty if blobs are not in the order of instances.
     std::span<const BlobMaterial> materials{};
@@ -83,7 +84,7 @@ struct GatheredFrame
 /// Stages of a frame in which techniques add passes. buildViewGraph() defines the order of all passes.
 enum class PassStage : uint8_t
 {
-    Pictures, ///< stage before all other passes, in which impostors are rendered that the frame draws later
+    Pictures, ///< stage before all other passes, in which impostors are rendered
     /// Stage in which data are uploaded or computed; the distance to the host's surfaces is available.
     Upload,
     Measure, ///< stage after the media have been drawn, in which measurements are made
@@ -103,16 +104,17 @@ struct PassFrame
     LightBindings lights = {};   ///< lights of the view
     bool hasSmallLayers = false; ///< true: layers are smaller than the picture
     bool hasMedia = false;       ///< true: there are media, transparent particles or opaque particles
-    /// [m] distance to the host's surfaces; from the stage Measure on, also to opaque particles
+    /// [m] distance to the host's surfaces; in the stage Measure and later stages, also to opaque particles
     ResourceId distance = {};
-    ResourceId layerDistance = {}; ///< [m] the same distance, in the size of layers
-    ResourceId picture = {};       ///< the picture; valid from the stage Refract on
-    ResourceId blobs = {};         ///< buffer of GatheredFrame::blobs; valid from the stage Upload on
-    bool anyPass = false;          ///< true: the technique's passes are needed even if there are no media
+    ResourceId layerDistance = {}; ///< [m] `distance` in the size of layers
+    ResourceId picture = {};       ///< the picture; valid in the stage Refract and later stages
+    ResourceId blobs = {}; ///< buffer of GatheredFrame::blobs; valid in the stage Upload and later stages
+    bool anyPass = false;  ///< true: the technique's passes are needed even if there are no media
 };
 
-/// State of a technique in one view: lists and GPU memory. A frame calls begin(), then gather() or keep(),
-/// then addPasses() for each stage, fence(), and endFrame(); or rest() alone.
+/// State of a technique in one view: lists and GPU memory. A frame with visible data calls begin(), then
+/// gather() or keep(), then addPasses() for each stage, then fence() and endFrame(). A frame without visible
+/// data calls only rest().
 class TechniqueView
 {
 public:
@@ -125,29 +127,29 @@ public:
     virtual base::Status begin(const ViewSettings&) { return {}; }
     /// Gathers the visible data of a frame, and adds its streams and shadow casters to the GatheredFrame.
     virtual base::Status gather(const GatherInputs&, GatheredFrame&) { return {}; }
-    /// Called instead of gather() if the frame reuses the data of the last frame.
+    /// The view calls this function instead of gather() if the frame reuses the data of the last frame.
     virtual void keep() {}
     /// True if a frame with the same inputs would give the same picture as the last frame.
     virtual bool isSettled() const { return true; }
 
-    /// Source of the technique's opaque elements; null if there are none.
+    /// Source of the technique's opaque elements; null if there are no opaque elements.
     virtual const MediaSource* solids() const { return nullptr; }
     /// True if the technique adds passes that change the picture after the media have been drawn.
     virtual bool altersPicture(const PassFrame&) const { return false; }
     virtual void addPasses(PassStage, FrameGraph&, PassFrame&) {}
 
-    virtual void fence() {} ///< Called after all draws of the frame have been issued.
-    /// Invalidates the data of this frame. Called if gathering or drawing has failed.
+    virtual void fence() {} ///< The view calls this function after all draws of the frame have been issued.
+    /// Invalidates the data of this frame. The view calls this function if gathering or drawing has failed.
     virtual void forget() {}
     virtual void endFrame(bool /*succeeded*/) {}
-    /// Called instead of the other functions if a frame has no visible data.
+    /// The view calls only this function if a frame has no visible data.
     virtual void rest() {}
 
     /// Adds the counts of the last frame to the statistics.
     virtual void count(FrameStatistics&) const {}
-    /// Adds counters that are read back from the GPU to the statistics. Waits for the GPU.
+    /// Adds counters that are read back from the GPU to the statistics. The function waits for the GPU.
     virtual void readBack(const GlBackend&, FrameStatistics&) {}
-    /// Adds the share of the picture that the technique has covered in the last frame.
+    /// Adds the fraction of the picture that the technique has covered in the last frame.
     virtual void cover(const CameraGeometry&, ScreenShare&) const {}
     virtual uint64_t bytes() const { return 0; } ///< [byte] size of the technique's GPU memory
 
@@ -167,7 +169,8 @@ struct TechniqueSetup
     std::span<const DrawTechnique* const> techniques; ///< all techniques of the view
 };
 
-/// The kinds of data that an effect publishes, from which techniques decide whether the effect uses them.
+/// The kinds of data that an effect publishes. A technique decides from these kinds whether the effect uses
+/// the technique.
 struct EffectContent
 {
     std::span<const base::KindDesc* const> kinds; ///< kinds of the effect's groups
@@ -179,26 +182,27 @@ struct EffectContent
 struct DrawTechnique
 {
     std::string_view name;
-    /// Kind of the technique's snapshot data; null: it has no kind of its own.
+    /// Kind of the technique's snapshot data; null: the technique has no kind of snapshot data.
     const base::KindDesc* kind = nullptr;
     /// Conversion of groups of the kind to rows of particles; null for techniques that draw no rows.
     const RowTechnique* rows = nullptr;
-    /// Creates the technique's state in a view; null: it has no state. Techniques with the same function
-    /// share one state.
+    /// Creates the technique's state in a view; null: the technique has no state. Techniques with the same
+    /// function share one state.
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
-    /// Returns all programs that the technique may use; null: none.
+    /// Returns all programs that the technique may use; null: the technique has no programs.
     std::span<const ProgramDesc* const> (*programs)() = nullptr;
-    /// The passes that the technique adds to a frame, with their timer groups. If the media pass draws the
-    /// technique's elements, it is one of them.
+    /// The passes that the technique adds to a frame, with their timer groups. The list includes the media
+    /// pass if this pass draws the technique's elements.
     std::span<const TimedPass> passes = {};
-    /// Returns whether an effect with this content uses the technique; null: an effect uses it if it
-    /// publishes `kind`.
+    /// Returns true if an effect with this content uses the technique; null: an effect uses the technique if
+    /// the effect publishes `kind`.
     bool (*isUsedBy)(const EffectContent& content) = nullptr;
-    /// Describes how groups of `kind` emit light; null: they emit none.
+    /// Describes how groups of `kind` emit light; null: the groups emit no light.
     const LightSource* lights = nullptr;
-    /// Checks whether settings can be drawn; null: all settings are accepted.
+    /// Returns an error if settings cannot be drawn; null: all settings are accepted.
     base::Status (*check)(const ViewSettings& settings) = nullptr;
-    /// Returns whether the technique changes the picture when no effect is visible; null: it does not.
+    /// Returns true if the technique changes the picture when no effect is visible; null: the technique does
+    /// not.
     bool (*actsAlone)(const ViewSettings& settings) = nullptr;
     const ScalabilitySettings* levels = nullptr; ///< scalability levels of the technique; null: none
 };

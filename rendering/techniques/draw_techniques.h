@@ -1,6 +1,7 @@
 /// @file draw_techniques.h
-/// The list of drawing techniques. Its order is the order of gathering and, within a stage, of passes. A new
-/// technique is declared here and added to the list in draw_techniques.cpp.
+/// The list of drawing techniques. The techniques gather data in the order of the list. Within a stage, they
+/// add passes in the same order. A new technique is declared here and added to the list in
+/// draw_techniques.cpp.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"
@@ -10,12 +11,12 @@ namespace fx::render {
 /// Spherical billboards: fire, smoke and dust as balls of medium, with impostors for distant effects.
 extern const DrawTechnique kBlobTechnique;
 
-/// Noise coordinates of balls, which make detail move with the balls. The state of kBlobTechnique uses them
-/// for drawing.
+/// Noise coordinates of balls, which make detail move with the balls. The state of kBlobTechnique draws with
+/// these coordinates.
 extern const DrawTechnique kFieldDetailTechnique;
 
-/// Shadows of media: timer group and scalability levels of light slices. The passes are in
-/// rendering/lights/slices; every view has them.
+/// Shadows of media: timer group and scalability levels of light slices. The passes of light slices are in
+/// rendering/lights/slices and belong to every view.
 extern const DrawTechnique kLightSliceTechnique;
 
 /// Particles that are drawn as sprites or meshes.
@@ -44,8 +45,8 @@ DrawTechniques drawTechniques();
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out,
                     DrawTechniques techniques = drawTechniques());
 
-/// True if one of `techniques` draws one of the kinds `kinds`. This is EffectContent::isDrawn of an effect
-/// that publishes these kinds.
+/// True if a technique of `techniques` draws a kind of `kinds`. The result is EffectContent::isDrawn of an
+/// effect that publishes these kinds.
 bool isDrawn(std::span<const base::KindDesc* const> kinds, DrawTechniques techniques = drawTechniques());
 /// True if a frame with an effect of this content has passes of `technique`.
 bool isUsed(const DrawTechnique& technique, const EffectContent& content);

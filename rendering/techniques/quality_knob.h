@@ -11,8 +11,8 @@
 
 namespace fx::render {
 
-/// A setting of a technique that quality control may lower. Its value is a number: 0 or 1 for a switch, the
-/// index of the name for a choice.
+/// A setting of a technique that quality control may lower. The value of a setting is a number. It is 0 or 1
+/// for a switch, and the index of the name for a choice.
 struct QualityKnob
 {
     enum class Type : uint8_t
@@ -26,11 +26,11 @@ struct QualityKnob
     /// Text that is displayed before the value; for a choice, only the name of the value is displayed.
     std::string_view label;
     Type type;
-    /// Names of the values of a choice, cheapest first; empty for other types.
+    /// Names of the values of a choice, cheapest first; empty if the setting is not a choice.
     std::span<const std::string_view> choices;
     std::string_view schema; ///< JSON Schema of the setting's value in calibrations
 
-    /// Sets the setting to `value` if this lowers it; otherwise does nothing.
+    /// Sets the setting to `value` if `value` is lower than the present value.
     void (*lower)(float value, ViewSettings& ioSettings);
 };
 
@@ -40,8 +40,8 @@ struct ScalabilitySettings
     std::string_view name; ///< name in calibrations, which is also the name of the timer group; empty: none
     std::string_view meaning; ///< description of the technique in the schema of calibrations
 
-    /// [1] Returns the weight of an error of this technique in a picture, from the shares that techniques
-    /// cover.
+    /// [1] Returns the weight of an error of this technique in a picture. `covered` has the fractions of the
+    /// picture that the techniques cover.
     double (*weight)(const ScreenShare& covered);
 
     std::span<const QualityKnob> knobs;

@@ -1,6 +1,6 @@
 /// @file vdb_points.h
-/// Balls of medium as a grid of points of OpenVDB. Part of vdb_volume, in a file of its own because it takes
-/// long to compile.
+/// Converts balls of medium to a grid of points of OpenVDB. The function has its own source file, because it
+/// takes long to compile.
 #pragma once
 
 #include "rendering/voxelization/voxel_ball.h"
@@ -11,7 +11,7 @@
 
 namespace fx::render {
 
-/// @param voxelSize [m] of the lattice that the points are sorted into
+/// @param voxelSize [m] side of a voxel of the lattice into which the points are sorted
 openvdb::GridBase::Ptr makePoints(std::span<const VoxelBall> balls, double voxelSize);
 
 } // namespace fx::render

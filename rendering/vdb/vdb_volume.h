@@ -1,8 +1,8 @@
 /// @file vdb_volume.h
-/// Media as the bytes of an OpenVDB file. Write only.
+/// Encodes media as an OpenVDB file. Reading of files is not supported.
 ///
-/// The bytes are made in memory, so that the caller can put them in place whole or not at all. They depend on
-/// nothing but the arguments. Threads: one at a time for each object.
+/// The content of the file is created in memory. The content depends only on the arguments. Threads: only one
+/// thread at a time may use an object.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -18,40 +18,42 @@
 
 namespace fx::render {
 
-/// Name and value of what a file says about itself.
+/// Names and values of the metadata of a file.
 using VdbMetadata = std::vector<std::pair<std::string, std::variant<std::string, double, int64_t>>>;
 
-/// The version of OpenVDB that is linked, such as "10.0.1"; empty: built without it.
+/// The version of the linked OpenVDB, such as "10.0.1"; empty if the library was built without OpenVDB.
 std::string vdbVersion();
 
-/// @return NotFound with the remedy when fx was built without OpenVDB
+/// Checks whether the library was built with OpenVDB. @return NotFound if it was built without OpenVDB; the
+/// message names the remedy
 base::Status checkVdb();
 
-/// Grids `density` [1/m], `temperature` [K], `flame` [cd/m3] and `v` [m/s] on one lattice, and points.
+/// An OpenVDB file with the grids `density` [1/m], `temperature` [K], `flame` [cd/m3] and `v` [m/s] on one
+/// lattice, and a grid of points.
 class VdbVolume
 {
 public:
-    /// Requires checkVdb().
-    /// @param voxelSize [m] > 0
+    /// Requires that checkVdb() returns no error.
+    /// @param voxelSize [m] side of a voxel, > 0
     explicit VdbVolume(double voxelSize);
     ~VdbVolume();
     VdbVolume(const VdbVolume&) = delete;
     VdbVolume& operator=(const VdbVolume&) = delete;
 
-    /// Adds blocks; each origin once. Voxels with medium become active.
+    /// Adds blocks. No two blocks may have the same origin. Voxels with medium become active.
     void add(std::span<const VoxelBlock> blocks);
 
-    /// Adds the grid `points`: a point at the center of each ball with the attributes `id`, `instance`, `v`
-    /// [m/s] and `pscale` [m], which is the radius.
+    /// Adds the grid `points`: one point at the center of each ball. The attributes of a point are `id`,
+    /// `instance`, the velocity `v` [m/s] and the radius `pscale` [m].
     void addPoints(std::span<const VoxelBall> balls);
 
     /// Number of active voxels.
     uint64_t voxels() const;
 
-    /// The file.
-    /// @param half values are stored with 16 bits, relative error 2^-11; a grid with values above 65504 stays
-    ///             at 32 bits
-    /// @return Internal with the message of OpenVDB, OutOfMemory
+    /// Returns the content of the file.
+    /// @param half true: values are stored with 16 bits, with a relative error of 2^-11. Grids with values
+    ///         above 65504 are stored with 32 bits
+    /// @return Internal with the message of OpenVDB, or OutOfMemory
     base::Result<std::string> encode(const VdbMetadata& metadata, bool half) const;
 
 private:

@@ -1,6 +1,6 @@
 /// @file frame_key.h
-/// Key of all inputs of the lists of a frame. While the key does not change, gathered, sorted and uploaded
-/// data of the last frame are reused.
+/// Key of all inputs of a frame's gathered data. While the key does not change, the gathered, sorted and
+/// uploaded data of the last frame are reused.
 #pragma once
 
 #include "rendering/frame/snapshot_revisions.h"
@@ -15,7 +15,8 @@ namespace fx::render {
 struct FrameKey
 {
     RevisionPair revisions;
-    /// Moment between the snapshots; 0 if both have equal content, because all moments are then equal.
+    /// Moment between the snapshots. If both have equal content, the value is 0, because all moments give the
+    /// same frame.
     double interpolation = 0;
     CameraView camera;
     int width = 0, height = 0; ///< [pixel]
@@ -29,7 +30,8 @@ struct FrameKey
     int voxels = 0;
     bool layerOutputs = false;
     uint32_t outputs = 0;
-    const base::AssetTable* assets = nullptr; ///< the address only; it is compared and never dereferenced
+    const base::AssetTable* assets =
+        nullptr; ///< only the address is compared; the pointer is never dereferenced
 
     bool operator==(const FrameKey&) const = default;
 };

@@ -8,14 +8,14 @@
 namespace fx::render {
 
 /// Each texel covers a block of divisor x divisor pixels. The first block begins at window position 0, 0.
-/// Blocks at the other two borders may extend beyond the picture. With divisor 1, the rays equal those of the
-/// picture, bit for bit.
+/// Blocks at the opposite two borders of the picture may extend beyond the picture. With divisor 1, the rays
+/// have the same bits as the rays of the picture.
 struct LayerGrid
 {
     int divisor;
     int width, height; ///< [texel]
-    /// Rays through the centers of blocks. The member pass.x is the least radius of a blob divided by its
-    /// distance. It is 0 for divisor 1, because small blobs have already been enlarged by gathering.
+    /// Rays through the centers of blocks. The member pass.x is the smallest radius of a blob divided by its
+    /// distance. The value is 0 for divisor 1, because small blobs have already been enlarged by gathering.
     ViewBlock view;
 };
 

@@ -8,14 +8,15 @@
 
 namespace fx::render {
 
-/// If a frame would exceed the budget, layers become smaller at once. They become larger one step at a time,
-/// after kCalmFrames successive frames that would have needed at most the share kRoom of the budget at the
-/// next larger size.
+/// If a frame would exceed the budget, layers become smaller at once. Layers become larger one step at a
+/// time. A step requires kCalmFrames successive frames whose estimate at the next larger size is at most
+/// kRoom times the budget.
 class LayerScaleControl
 {
 public:
     static constexpr uint32_t kCalmFrames = 30;
-    static constexpr double kRoom = 0.8; ///< [1] largest share of the budget for which layers become larger
+    static constexpr double kRoom =
+        0.8; ///< [1] largest estimate for which layers become larger, divided by the budget
 
     /// Chooses the divisor of layers for a frame.
     /// @param estimates estimated fragments of this frame for each of kLayerDivisors

@@ -19,8 +19,8 @@ struct ViewGraphInputs
 {
     const FrameRequest* request;
     const ViewSettings* settings;
-    /// Techniques in the order of their list, after gather(). `techniques`, `batches` and `solids` must stay
-    /// valid until the graph has executed.
+    /// States of the techniques, in the order of the list of techniques, after gather(). `techniques`,
+    /// `batches` and `solids` must stay valid until the graph has executed.
     std::span<const std::unique_ptr<TechniqueView>> techniques;
     std::span<const DrawBatch> batches;         ///< batches of media and transparent particles
     std::span<const MediaSource* const> solids; ///< sources of opaque particles
@@ -31,7 +31,7 @@ struct ViewGraphInputs
     const PastFrame* past = nullptr; ///< previous frame, used for `outputs`
 };
 
-/// Resources that exist after the frame, besides the host's picture. Those that were not requested are
+/// Resources that exist after the frame, besides the host's picture. Resources that were not requested are
 /// invalid.
 struct ViewGraphOutputs
 {
@@ -40,8 +40,8 @@ struct ViewGraphOutputs
     bool anyPass = false; ///< true: there are passes; false: the host's picture does not change
 };
 
-/// Adds all passes of a frame to `graph`, after FrameGraph::begin(). Passes that are not needed are not
-/// added: without blobs there are no media passes, without heat no shimmer, and so on.
+/// Adds all necessary passes of a frame to `graph`, after FrameGraph::begin(). For example, media passes are
+/// added only if there are blobs, and the shimmer pass only if there is heat.
 ViewGraphOutputs buildViewGraph(FrameGraph& graph, const ViewGraphInputs& in);
 
 } // namespace fx::render

@@ -44,7 +44,7 @@ struct ViewRenderer::Impl
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status begin(const base::SnapshotPair& snapshots, const FrameRequest& request,
                        const ViewSettings& settings); ///< begins a frame of all parts, then calls gather()
-    /// Creates the states that the settings request, and deletes the others.
+    /// Creates the states that the settings request, and deletes all other states.
     void compose(const ViewSettings& settings);
     base::Status fillLights(const ViewSettings& settings);
     void dropPrepared(); ///< discards lists that prepareLights() has gathered and that were not drawn
@@ -67,16 +67,17 @@ struct ViewRenderer::Impl
     std::pmr::memory_resource* memory;
     FrameGraph graph;
     GlBackend backend;
-    /// Graph of prepareLights(), which is separate because `graph` belongs to the last frame.
+    /// Graph of prepareLights(). It is separate, because `graph` belongs to the last frame.
     FrameGraph lightGraph;
     GlBackend lightBackend;
     DrawTechniques techniques;
-    /// States of the techniques in their order, then `outputView`, then `composition`.
+    /// States of the techniques in the order of `techniques`, then `outputView`, then `composition`.
     std::pmr::vector<std::unique_ptr<TechniqueView>> parts;
-    const MediaComposition* composing;      ///< composition of the last frame
-    CompositionView* composition = nullptr; ///< the composition in `parts`; null: it has no state
-    OutputView* outputView = nullptr;       ///< the outputs in `parts`; null: none are requested
-    FrameHistory history;                   ///< used only with outputs
+    const MediaComposition* composing; ///< composition of the last frame
+    CompositionView* composition =
+        nullptr; ///< the composition in `parts`; null: there is no state of a composition
+    OutputView* outputView = nullptr; ///< the outputs in `parts`; null: no outputs are requested
+    FrameHistory history;             ///< used only with outputs
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;
@@ -87,7 +88,7 @@ struct ViewRenderer::Impl
     std::span<const DrawBatch> mediaBatches;
     std::pmr::vector<const MediaSource*> solids;
     SnapshotRevisions revisions;
-    /// Key of the lists above and of the data on the GPU; without a value, they are invalid.
+    /// Key of the gathered lists and of the data on the GPU; without a value, the lists and data are invalid.
     std::optional<FrameKey> key;
     bool keptLists = false; ///< true: this frame has reused the lists
     std::optional<PreparedFrame> prepared;

@@ -1,5 +1,5 @@
 /// @file view_renderer.h
-/// Draws snapshots into a host's image. Each view has one ViewRenderer, which owns the view's targets and its
+/// Draws snapshots into a host's image. Each view has one ViewRenderer, which owns the view's targets and the
 /// data from earlier frames.
 ///
 /// Threads: [GL thread], the thread on which the GL context is current.
@@ -54,15 +54,15 @@ public:
     ViewSettings& settings() { return settings_; }
     const ViewSettings& settings() const { return settings_; }
 
-    /// Compiles all programs that render() may use. Afterwards no frame compiles programs.
+    /// Compiles all programs that render() may use. After this call, no frame compiles programs.
     base::Status warmUp();
 
     /// Draws `snapshots` over the host's picture. On failure the picture and the GL state do not change.
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
-    /// Gathers a frame and fills its light slices, so that the host can draw surfaces with media shadows
-    /// before it calls render(). render() reuses the result if its request differs only in targets and times.
-    /// `snapshots` must stay valid until render() or prepareLights() is called next. The request needs no
+    /// Gathers a frame and fills its light slices. The host can then draw surfaces with media shadows before
+    /// it calls render(). render() reuses the result if its request differs only in targets and times.
+    /// `snapshots` must stay valid until the next call of render() or prepareLights(). The request needs no
     /// targets. On failure the GL state does not change.
     base::Status prepareLights(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
@@ -78,8 +78,8 @@ public:
     /// All lights of the last prepared or drawn frame; empty without media.
     const LightList& lights() const;
 
-    /// Sets the clock by which the next frames are timed; Off, the default, has no cost. With Gpu, frames are
-    /// not timed if GL has no clock.
+    /// Sets the clock by which the next frames are timed. The default Off has no cost. With Gpu, frames are
+    /// not timed if GL has no timer queries.
     /// @param tag number that takeTimes() returns with the times of a frame
     void setTiming(TimingClock clock, uint64_t tag);
     bool hasGpuClock();
@@ -88,7 +88,7 @@ public:
     const PassGroups& passGroups() const; ///< groups to which takeTimes() refers
     /// [ms] Time to fill light slices in the last timed frame that filled them; 0 if there is no such frame.
     double fillMilliseconds() const;
-    /// Shares of the last frame's picture that techniques cover; valid only if frames are timed.
+    /// Fractions of the last frame's picture that the techniques cover; valid only if frames are timed.
     const ScreenShare& covered() const { return covered_; }
     /// Sets the images and meshes of particles. `assets` must stay valid until the next call or the end of
     /// the view. Null: particles have neither textures nor meshes.
@@ -100,16 +100,17 @@ public:
     /// Compiles the compute program of an emitter, if supported.
     void warmUp(const base::GpuParticleProgram& emitter);
 
-    /// True if the last frame did not change the picture and there is no memory to release. While there is no
-    /// visible data, further calls of render() then do nothing.
+    /// True if the last frame did not change the picture and there is no memory to release. Then render()
+    /// does nothing until there is visible data again.
     bool isAsleep() const { return asleep_; }
-    /// Checks a request as render() does. While the view is asleep, render() does only this.
+    /// Checks a request with the same checks as render(). While the view is asleep, render() only calls this
+    /// function.
     static base::Status check(const FrameRequest& request);
 
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;
     /// GL name of the texture for bit number `number` of view_output; 0 if it was not requested or nothing is
-    /// visible. It is valid as long as the textures of layers().
+    /// visible. The name is valid as long as the textures of layers().
     uint32_t output(size_t number) const;
     /// Names of the passes that the last frame executed, in order.
     std::span<const std::string_view> executedPasses() const;

@@ -1,6 +1,6 @@
 /// @file ball_voxelizer.h
-/// Fills blocks of voxels with balls of medium, antialiased, so that mass and center of mass are kept for
-/// balls of any size, also for those that are smaller than a voxel.
+/// Fills blocks of voxels with balls of medium, with antialiasing. Mass and center of mass are conserved for
+/// balls of any size, including balls smaller than a voxel.
 #pragma once
 
 #include "foundation/tasks/task_runner.h"
@@ -44,23 +44,23 @@ namespace fx::render {
 ///            1e-5 voxel near the origin; the same bits for any number of threads
 /// @tests     tests/rendering/voxelization/test_ball_voxelizer.cpp
 
-/// One over the sum (4) for a ball of `radius` voxels.
+/// Reciprocal of the sum (4) for a ball with a radius of `radius` voxels.
 double sampleNormalization(double radius);
 
 class BallVoxelizer
 {
 public:
-    /// @param balls, plan of these balls: must outlive this
+    /// @param balls, plan balls and their plan; both must outlive this object
     BallVoxelizer(std::span<const VoxelBall> balls, const BlockPlan& plan, base::TaskRunner& tasks);
 
-    /// Fills `out` with blocks number `first` to `first + count` of the plan.
+    /// Fills `out` with the blocks [first, first + count) of the plan.
     void fill(size_t first, size_t count, std::vector<VoxelBlock>& out) const;
 
 private:
     std::span<const VoxelBall> balls_;
     const BlockPlan& plan_;
     base::TaskRunner& tasks_;
-    std::vector<double> normalization_; ///< of each ball
+    std::vector<double> normalization_; ///< sampleNormalization() of each ball
 };
 
 } // namespace fx::render

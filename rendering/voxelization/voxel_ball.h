@@ -1,8 +1,8 @@
 /// @file voxel_ball.h
 /// Input and output of voxelization: balls of medium, and blocks of voxels that they fill.
 ///
-/// A voxel lattice is given by the side of a voxel [m]. Voxel (i, j, k) has its center at (i, j, k) times
-/// that side in the world, so that the lattice is the same for all frames of a sequence.
+/// A voxel lattice is given by the side of a voxel [m]. The center of voxel (i, j, k) is at (i, j, k) times
+/// this side in the world. Therefore the lattice is the same for all frames of a sequence.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,27 +15,27 @@ namespace fx::render {
 /// One ball with the quartic kernel of shaders/formulas/kernel_optical_depth.fx.h.
 struct VoxelBall
 {
-    glm::dvec3 center{0.0};    ///< [m] world
+    glm::dvec3 center{0.0};    ///< [m] position of the center in the world
     double radius = 0.0;       ///< [m] > 0
-    double crossSection = 0.0; ///< [m2] > 0: the integral of its extinction over space
+    double crossSection = 0.0; ///< [m2] integral of the ball's extinction over space, > 0
     double temperature = 0.0;  ///< [K]
-    double luminance = 0.0;    ///< [cd/m2] emitted per optical depth
-    glm::dvec3 velocity{0.0};  ///< [m/s] world
-    uint64_t id = 0;           ///< of the ball in its effect
-    uint64_t instance = 0;     ///< effect of the scene
+    double luminance = 0.0;    ///< [cd/m2] emitted luminance per optical depth
+    glm::dvec3 velocity{0.0};  ///< [m/s] velocity in the world
+    uint64_t id = 0;           ///< id of the ball in its effect
+    uint64_t instance = 0;     ///< instance of the effect in the scene
 };
 
-constexpr int kBlockSide = 8; ///< [voxel]
+constexpr int kBlockSide = 8; ///< [voxel] side of a block
 constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 
-/// A cube of voxels. Voxel (x, y, z) of the block is element (8 x + y) 8 + z of each array. A voxel without
-/// medium is 0 in all of them.
+/// A cube of voxels. Voxel (x, y, z) of the block is element (8 x + y) 8 + z of each array. The values of a
+/// voxel without medium are 0 in all arrays.
 struct VoxelBlock
 {
-    glm::ivec3 origin{0};                         ///< [voxel] of voxel (0, 0, 0); multiples of kBlockSide
+    glm::ivec3 origin{0}; ///< [voxel] index of the block's first voxel; multiples of kBlockSide
     std::array<float, kBlockVoxels> density;      ///< [1/m] extinction
     std::array<float, kBlockVoxels> temperature;  ///< [K] mean, weighted with the extinction
-    std::array<float, kBlockVoxels> flame;        ///< [cd/m3] luminance that a meter of the medium emits
+    std::array<float, kBlockVoxels> flame;        ///< [cd/m3] luminance that the medium emits per meter
     std::array<glm::vec3, kBlockVoxels> velocity; ///< [m/s] mean, weighted with the extinction
 };
 

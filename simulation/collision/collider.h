@@ -61,36 +61,38 @@ namespace fx::sim {
 /// Response of a surface to contacts.
 struct SurfaceResponse
 {
-    float clearance = 0.0f;   ///< [m] local distance that particle centers keep from the surface
+    float clearance = 0.0f;   ///< [m] smallest local distance of particle centers from the surface
     float restitution = 0.0f; ///< [1] 0..1
     float friction = 0.0f;    ///< [1] 0..1
 };
 
-/// A signed distance field in the local space of an instance. [any thread]; allocates nothing.
+/// A signed distance field in the local space of an instance. Functions allocate no memory. [any thread]
 class Collider
 {
 public:
     Collider(const DistanceField& field, const base::Placement& placement);
 
     const DistanceField& field() const { return field_; }
-    /// [m] local
+    /// Distance and normal at a position [m] in the local space.
     DistanceField::Sample sample(const glm::vec3& position) const;
 
     struct Hit
     {
         bool found;
-        float share;      ///< [1] share of the path before the contact; 1 without a contact
+        float share; ///< [1] length of the path before the contact divided by the whole length; 1 without a
+                     ///< contact
         glm::vec3 normal; ///< normal of the surface at the contact
     };
     /// Finds the first contact of a particle center on the path from `from` to `to`.
     Hit sweep(const glm::vec3& from, const glm::vec3& to) const;
 
-    /// Corrects the end of a path from `from`: the path slides along surfaces, the velocity is reflected, and
-    /// the end keeps the clearance. @return true if there was a contact
+    /// Corrects the end of a path from `from` with sliding. The path slides along surfaces, the velocity is
+    /// reflected, and the end has at least the clearance from surfaces. @return true if there was a contact
     bool settle(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& ioVelocity,
                 const SurfaceResponse& response) const;
 
-    /// As the other overload, but continues with the new velocity for the rest of `seconds` after a contact.
+    /// Corrects the end of a path from `from` without sliding. After a contact, the particle moves with the
+    /// reflected velocity for the remaining part of `seconds`. @return true if there was a contact
     bool bounce(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& ioVelocity,
                 const SurfaceResponse& response, float seconds) const;
 

@@ -55,27 +55,29 @@ namespace fx::sim {
 /// Largest error of a distance between nodes, in cells: half of the diagonal.
 constexpr float kFieldErrorCells = 0.8660255f;
 
-/// Version of the values of build(). They differ between versions for equal meshes and cells.
+/// Version of the values of build(). For equal meshes and cells, the values differ between versions.
 constexpr uint32_t kFieldVersion = 1;
 
-/// A signed distance field of a mesh, sampled on a grid. Immutable. Sampling allocates nothing. [any thread]
+/// A signed distance field of a mesh, sampled on a grid. The field is immutable. Sampling allocates no
+/// memory. [any thread]
 class DistanceField
 {
 public:
-    /// Builds the field of a mesh. Needs 4 bytes per node, at most 64 MiB, and temporarily about 300 bytes
-    /// per triangle and 16 per row of nodes that crosses a solid. Equal meshes give equal bits for any number
-    /// of threads. Throws std::bad_alloc.
+    /// Builds the field of a mesh. The field needs 4 bytes per node, at most 64 MiB. Building temporarily
+    /// needs about 300 bytes per triangle, and 16 bytes per row of nodes that crosses a solid. Equal meshes
+    /// give equal bits for any number of threads. Throws std::bad_alloc.
     /// @param cellSize [m] 0: the smallest size with about four million nodes
-    /// @return the errors of checkMesh() and planGrid(), InvalidArgument (no triangle with an area)
+    /// @return the errors of checkMesh() and planGrid(), or InvalidArgument if all triangles have zero area
     static base::Result<std::shared_ptr<const DistanceField>> build(const TriangleMesh& mesh, float cellSize,
                                                                     base::TaskRunner& tasks,
                                                                     std::pmr::memory_resource* memory);
 
-    /// The grid of build(). @return the errors of build(), except the error for triangles without an area
+    /// Returns the grid that build() would use. @return the errors of build(), except the error for triangles
+    /// of zero area
     static base::Result<DistanceGrid> plan(const TriangleMesh& mesh, float cellSize);
 
-    /// Restores a field from its values(), one per node. Throws std::bad_alloc.
-    /// @return null if their number is wrong, or one of them is not a possible distance in the grid
+    /// Restores a field from the result of values(). Throws std::bad_alloc.
+    /// @return null if the number of values is wrong, or if a value is not a possible distance in the grid
     static std::shared_ptr<const DistanceField> restore(const glm::dvec3& origin, const DistanceGrid& grid,
                                                         std::span<const float> values,
                                                         std::pmr::memory_resource* memory);
@@ -86,26 +88,26 @@ public:
     struct Sample
     {
         float distance;   ///< [m]
-        glm::vec3 normal; ///< unit, or 0
+        glm::vec3 normal; ///< unit vector, or 0
     };
 
     // Positions are relative to origin().
     float distance(const glm::vec3& p) const;
     Sample sample(const glm::vec3& p) const;
 
-    const glm::dvec3& origin() const { return origin_; } ///< [m] world
+    const glm::dvec3& origin() const { return origin_; } ///< [m] position of the origin in the world
     const DistanceGrid& grid() const { return grid_; }
-    /// [m] signed distances at the nodes
+    /// [m] Signed distances at the nodes.
     std::span<const float> values() const { return {values_.data(), grid_.count()}; }
     float cell() const { return grid_.cell; }
-    /// Hash of nodes and distances, on which simulation steps depend. Never 0.
+    /// Hash of nodes and distances. The hash is never 0.
     uint64_t hash() const { return hash_; }
 
 private:
     /// The grid cell that contains a position, with the distances at its corners.
     struct Corners
     {
-        float d[8]; ///< x fastest, z slowest
+        float d[8]; ///< [m] distances at the corners; the x index changes fastest, the z index slowest
         glm::vec3 u;
     };
     bool find(const glm::vec3& p, Corners& outCorners) const;

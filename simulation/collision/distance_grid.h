@@ -1,5 +1,5 @@
 /// @file distance_grid.h
-/// Lattice of the nodes of a distance field.
+/// Grid of the nodes of a distance field.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -12,7 +12,7 @@
 
 namespace fx::sim {
 
-constexpr size_t kMaxFieldNodes = size_t(1) << 24; ///< maximum number of nodes; each takes 4 bytes
+constexpr size_t kMaxFieldNodes = size_t(1) << 24; ///< maximum number of nodes; each node takes 4 bytes
 /// maximum number of nodes for an automatic cell size
 constexpr size_t kAutomaticFieldNodes = size_t(1) << 22;
 constexpr float kFieldMargin = 4.0f; ///< [cell] minimum margin around the mesh

@@ -47,7 +47,7 @@ struct MeshSurface
     std::pmr::vector<std::array<glm::vec3, kFeatures>> normals;
 };
 
-/// Divides the triangles of a mesh into solids and sheets. Triangles without an area are left out. Throws
+/// Divides the triangles of a mesh into solids and sheets. Triangles of zero area are omitted. Throws
 /// std::bad_alloc.
 MeshSurface sortTriangles(const TriangleMesh& mesh, std::pmr::memory_resource* memory);
 

@@ -1,5 +1,5 @@
 /// @file packet_search.h
-/// Finds the triangles nearest to eight points at once, with the vectors of each instruction set.
+/// Finds the triangles nearest to eight points at once, with SIMD instructions.
 #pragma once
 
 #include "simulation/collision/triangle_tree.h"
@@ -16,7 +16,7 @@ struct TreeView
     std::span<const TriangleTree::Box> boxes; ///< boxes of triangles, in tree order
 };
 
-/// See TriangleTree::nearest().
+/// Implements TriangleTree::nearest() for eight points.
 void searchPacket(const TreeView& tree, const PointPacket& points, uint32_t guess, PacketNearest& out);
 
 } // namespace fx::sim

@@ -38,8 +38,8 @@
 
 namespace fx::sim {
 
-/// Side of the edge from u to v on which the row at (y, z) passes: +1 or -1; 0 when u and v are the same
-/// point.
+/// Side of the edge from u to v on which the row at (y, z) passes. The result is +1 or -1, or 0 if u and v
+/// are the same point.
 inline int sideOf(const glm::dvec3& u, const glm::dvec3& v, double y, double z)
 {
     const bool isTurned = std::tie(v.x, v.y, v.z) < std::tie(u.x, u.y, u.z);

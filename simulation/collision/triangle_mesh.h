@@ -11,7 +11,7 @@
 
 namespace fx::sim {
 
-/// maximum; each triangle takes about 300 bytes while a field is built
+/// maximum number of triangles; each triangle takes about 300 bytes while a field is built
 constexpr uint32_t kMaxMeshTriangles = 1u << 22;
 /// [m] largest absolute value of a coordinate, relative to the mesh's origin
 constexpr float kFarthestVertex = 1e5f;
@@ -19,7 +19,7 @@ constexpr float kFarthestVertex = 1e5f;
 /// A view of triangles, which are counter-clockwise seen from outside.
 struct TriangleMesh
 {
-    glm::dvec3 origin{0.0};               ///< [m] world position that the vertices are relative to
+    glm::dvec3 origin{0.0};               ///< [m] world position to which the vertices are relative
     std::span<const glm::vec3> positions; ///< [m] relative to `origin`
     /// three indices per triangle; empty: three consecutive positions per triangle
     std::span<const uint32_t> indices;
@@ -28,8 +28,8 @@ struct TriangleMesh
 };
 
 /// Checks a mesh.
-/// @return InvalidArgument (a position out of range or not finite, an index too large, an incomplete
-///         triangle), TooLarge (more than kMaxMeshTriangles)
+/// @return InvalidArgument for a position out of range or not finite, an index out of range, or an incomplete
+///         triangle; TooLarge for more than kMaxMeshTriangles triangles
 base::Status checkMesh(const TriangleMesh& mesh);
 
 } // namespace fx::sim

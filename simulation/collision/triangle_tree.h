@@ -32,34 +32,34 @@ struct PacketNearest
     uint32_t triangle[kPacketPoints];
     /// For each point: number of other triangles at exactly the same distance.
     uint32_t equals[kPacketPoints];
-    /// For each point: positions in the tree of up to kMaxEqualTriangles of these other triangles.
+    /// For each point: positions in the tree of up to kMaxEqualTriangles triangles counted in `equals`.
     uint32_t equal[kPacketPoints * kMaxEqualTriangles];
 };
 
 class TriangleTree
 {
 public:
-    /// Throws std::bad_alloc.
+    /// Builds the tree. Throws std::bad_alloc.
     TriangleTree(std::span<const Triangle> triangles, std::pmr::memory_resource* memory);
 
     bool empty() const { return nodes_.empty(); }
     struct Nearest
     {
         double distance;   ///< [m]
-        uint32_t triangle; ///< position in the tree; kNone when no triangle is nearer than the limit
+        uint32_t triangle; ///< position in the tree; kNone if no triangle is nearer than the limit
         Feature feature;
         glm::dvec3 point; ///< [m] nearest point of the triangle
     };
     static constexpr uint32_t kNone = ~0u;
 
-    /// Finds the triangle nearest to `p`. If none is nearer than `within` [m], returns the distance `within`
-    /// and kNone. [any thread]
+    /// Finds the triangle nearest to `p`. If no triangle is nearer than `within` [m], returns the distance
+    /// `within` and kNone. [any thread]
     Nearest nearest(const glm::dvec3& p, double within) const;
 
-    /// Finds the nearest triangles of eight points, with the bits of the function above, without a limit. The
-    /// tree must not be empty. [any thread]
-    /// @param guess position in the tree of a triangle that is probably near; the nearer it is, the faster
-    ///          the search
+    /// Finds the nearest triangles of eight points without a limit of distance. The distances have the same
+    /// bits as the results of nearest() for one point. The tree must not be empty. [any thread]
+    /// @param guess position in the tree of a triangle near the points; a nearer triangle makes the search
+    ///         faster
     void nearest(const PointPacket& points, uint32_t guess, PacketNearest& out) const;
 
     /// Result of nearest() for one triangle, given by its position in the tree.
@@ -71,11 +71,11 @@ public:
     };
     struct Node : Box
     {
-        uint32_t first; ///< leaf: position of its first triangle; inner node: index of its second child
-        /// leaf: number of its triangles; inner node: 0. The first child of an inner node is the next node.
+        uint32_t first; ///< leaf: position of the first triangle; inner node: index of the second child
+        /// Leaf: number of triangles; inner node: 0. The first child of an inner node is the next node.
         uint32_t count;
     };
-    static constexpr size_t kDeepest = 64; ///< maximum depth; halving 2^22 triangles takes 21 levels
+    static constexpr size_t kDeepest = 64; ///< maximum depth; the halving of 2^22 triangles gives 21 levels
 
 private:
     uint32_t build(std::span<const Triangle> triangles, uint32_t begin, uint32_t end);

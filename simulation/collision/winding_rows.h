@@ -1,5 +1,5 @@
 /// @file winding_rows.h
-/// Finds the nodes of a grid that lie inside of closed surfaces. See row_crossings.h.
+/// Finds the nodes of a grid that lie inside of closed surfaces.
 #pragma once
 
 #include "simulation/collision/distance_grid.h"
@@ -19,7 +19,7 @@ public:
     WindingRows(std::span<const Triangle> solids, const DistanceGrid& grid,
                 std::pmr::memory_resource* memory);
 
-    /// Whether the node at `x` [m] of the row (y, z) is inside. Any thread.
+    /// True if the node at `x` [m] of the row (y, z) is inside of a closed surface. [any thread]
     bool isInside(double x, uint32_t y, uint32_t z) const;
 
 private:

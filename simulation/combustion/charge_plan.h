@@ -50,18 +50,20 @@ struct ChargePlan
     double pressure = 0;    ///< [Pa]
     double density = 0;     ///< [kg/m3]
     double gamma = 0;       ///< [1]
-    /// [m/s] initial speed of the surface; inside, the speed is proportional to the distance from the center
+    /// [m/s] initial speed of the ball's surface; inside of the ball, the speed is proportional to the
+    /// distance from the center
     double rimSpeed = 0;
-    double heat = 0;             ///< [J] initial heat above that of air
+    double heat = 0;             ///< [J] initial heat relative to air at ambient temperature
     double fuel = 0;             ///< [J] heat that combustion will release
-    double fireballDiameter = 0; ///< [m] expected
-    double fireballDuration = 0; ///< [s] expected
+    double fireballDiameter = 0; ///< [m] expected diameter of the fireball
+    double fireballDuration = 0; ///< [s] expected duration of the fireball
 };
 
 /// Computes the initial state of a charge.
-/// @param energy [J]
-/// @param pressureRatio [1] pressure of the ball over that of the air, clamped to 1..1e4; ignored without
-///          heat at the start
+/// @param energy [J] energy of the charge
+/// @param pressureRatio [1] pressure of the ball divided by the pressure of the air, clamped to 1..1e4.
+/// Ignored
+///         if the material has no heat at the start
 ChargePlan planCharge(const Material& material, double energy, double pressureRatio = 40.0,
                       const AmbientAir& air = {});
 

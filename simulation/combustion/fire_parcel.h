@@ -1,6 +1,6 @@
 /// @file fire_parcel.h
-/// One parcel of gas that ignites, burns at the rate at which air reaches it, radiates and mixes: three gases
-/// in closed form.
+/// One parcel of gas that ignites, burns, radiates and mixes with air. The mixing rate limits the burning. A
+/// step has a closed form.
 ///
 /// @formula three-gases
 /// Mass fractions of unburnt, burning and burnt gas after a step of any length, and the released heat.
@@ -60,14 +60,15 @@
 
 namespace fx::sim {
 
-/// One parcel. Fractions refer to `ownMass`, the mass of material; `mixing` counts the air taken in.
+/// One parcel. Fractions are relative to `ownMass`, the mass of material. `mixing` includes the entrained
+/// air.
 struct FireParcel
 {
     double ownMass = 1;              ///< [kg] > 0
     double unburnt = 0;              ///< [1]
     double burning = 0;              ///< [1]
     double burnt = 1;                ///< [1]
-    double mixing = 1;               ///< [1] mass of the parcel including air, over ownMass; >= 1
+    double mixing = 1;               ///< [1] mass of the parcel including air, divided by ownMass; >= 1
     double temperature = kAirKelvin; ///< [K]
 };
 
@@ -75,12 +76,12 @@ struct FireParcel
 struct FireSurroundings
 {
     double airTemperature = kAirKelvin; ///< [K]
-    /// [K] temperature of flames that touch the parcel; ignition uses the higher of this and the parcel's own
-    /// temperature
+    /// [K] temperature of flames that touch the parcel. Ignition uses the higher one of the flames' and the
+    /// parcel's temperature.
     double hottest = 0;
-    double entrainment = 0; ///< [1/s] q
+    double entrainment = 0; ///< [1/s] entrainment rate q
     double radius = 1;      ///< [m]
-    double exposure = 1;    ///< [1] X
+    double exposure = 1;    ///< [1] share X of the surface that is exposed to the outside
 };
 
 /// Energy balance, summed over calls.
@@ -88,7 +89,7 @@ struct FireLedger
 {
     double released = 0;   ///< [J] heat released by combustion
     double radiated = 0;   ///< [J]
-    double givenToAir = 0; ///< [J] lost with air beyond the largest mixing
+    double givenToAir = 0; ///< [J] heat lost with the air beyond the largest mixing
 };
 
 constexpr double kMaxMixing = 1e6; ///< [1] largest mixing; above it, a parcel is treated as air
@@ -96,19 +97,19 @@ constexpr double kMaxMixing = 1e6; ///< [1] largest mixing; above it, a parcel i
 /// Initial parcel of `mass` kilograms of material.
 FireParcel startParcel(const Material& material, double mass);
 
-/// The parcel after `seconds`.
+/// The parcel after `seconds` [s].
 FireParcel burnParcel(const Material& material, const FireParcel& parcel, const FireSurroundings& around,
                       double seconds, FireLedger& ioLedger);
 
-/// [J] Heat of the parcel above air of `airTemperature` [K].
+/// [J] Heat of the parcel relative to air of `airTemperature` [K].
 double heatOf(const Material& material, const FireParcel& parcel, double airTemperature);
 
 /// [1/s] Ignition rate k_i at a temperature.
 double ignitionRate(const Material& material, double temperature);
 
 /// [1/s] Rate at which a ball of `radius` [m] entrains air while it moves at `speed` [m/s] relative to the
-/// air. `density` is its density over that of the air: q = 3 alpha speed / (radius density), with alpha =
-/// 0.25 of thermals [MTT56].
+/// air. `density` is the density of the ball divided by the density of the air. The rate is q = 3 alpha speed
+/// / (radius density), with the entrainment constant alpha = 0.25 of thermals [MTT56].
 double entrainmentRate(double speed, double radius, double density);
 
 } // namespace fx::sim

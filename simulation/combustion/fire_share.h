@@ -1,5 +1,5 @@
 /// @file fire_share.h
-/// Share of hot matter that a picture shows as fire.
+/// Fraction of hot matter that a picture shows as fire.
 ///
 /// @formula fire-share
 /// The part of a blob's opacity that counts as fire in the layers of a picture; the rest is smoke.
@@ -26,11 +26,11 @@ namespace fx::sim {
 /// [K] Range of temperatures in which matter changes from smoke to fire.
 struct GlowRange
 {
-    float first;  ///< T0
-    float bright; ///< T1
+    float first;  ///< [K] symbol T0
+    float bright; ///< [K] symbol T1
 };
 
-/// [1] Share F of fire of matter at `temperature` [K].
+/// [1] Fraction F of matter at `temperature` [K] that a picture shows as fire.
 inline float fireShareOf(float temperature, const GlowRange& glow)
 {
     return base::smoothStep(glow.first, glow.bright, temperature); // (1)

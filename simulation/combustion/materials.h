@@ -1,7 +1,7 @@
 /// @file materials.h
 /// Measured properties of explosives and fuels: TNT, a petrol fireball, black powder. Quantities per kilogram
-/// refer to the mass of the material itself ("own mass"), without mixed-in air. materials.cpp gives the
-/// source of each.
+/// refer to the mass of the material itself ("own mass"), without mixed-in air. The file materials.cpp gives
+/// the source of each number.
 #pragma once
 
 #include <span>
@@ -27,7 +27,7 @@ struct JwlConstants
 /// Extinction by one kind of particles, per kilogram of particles.
 struct ParticleOptics
 {
-    double extinction; ///< [m2/kg] in the visible
+    double extinction; ///< [m2/kg] extinction of visible light
     double albedo;     ///< [1] single scattering albedo
 };
 
@@ -37,11 +37,11 @@ struct Material
 
     /// [J/kg] energy per mass by which the member `energy` of a preset is converted to a mass
     double nominalEnergy;
-    double heatAtStart;      ///< [J/kg] heat at the start, of a detonation or a bursting vessel
+    double heatAtStart;      ///< [J/kg] heat that a detonation or a bursting vessel releases at the start
     double heatOfCombustion; ///< [J/kg] heat released by combustion
     double airNeeded;        ///< [kg/kg] mass of air for complete combustion
-    double ownOxygen;        ///< [1] share of the material that burns without air, 0..1
-    double burningAtStart;   ///< [1] share of the material that is burning at the start, 0..1
+    double ownOxygen;        ///< [1] fraction of the material that burns without air, 0..1
+    double burningAtStart;   ///< [1] fraction of the material that is burning at the start, 0..1
 
     double gasConstant;      ///< [J/(kg K)] gas constant at the start, per kilogram of material
     double startTemperature; ///< [K] temperature of the gas at the start
@@ -57,11 +57,12 @@ struct Material
     double smokeSoot; ///< [1] mass of soot left by the burnt gas, per own mass
     double smokeSalt; ///< [1] mass of pale solids left by the burnt gas, per own mass
 
-    double fireballDiameter; ///< [m/kg^(1/3)]
-    double fireballDuration; ///< [s/kg^(1/3)] below `largeMass`
-    /// [kg] mass above which buoyancy dominates and the duration grows with m^(1/6); 0: never
+    double fireballDiameter; ///< [m/kg^(1/3)] coefficient of the diameter
+    double fireballDuration; ///< [s/kg^(1/3)] coefficient of the duration below `largeMass`
+    /// [kg] mass above which buoyancy dominates, so that the duration grows with mass^(1/6); 0: there is no
+    /// such mass
     double largeMass;
-    double largeDuration; ///< [s/kg^(1/6)]
+    double largeDuration; ///< [s/kg^(1/6)] coefficient of the duration above `largeMass`
 
     JwlConstants jwl;
 };
@@ -75,6 +76,6 @@ std::span<const Material> materials();
 /// Finds a material by name; null if there is none.
 const Material* findMaterial(std::string_view name);
 
-constexpr double kTntEquivalent = 4.184e6; ///< [J/kg] by definition
+constexpr double kTntEquivalent = 4.184e6; ///< [J/kg] energy of TNT, by definition
 
 } // namespace fx::sim

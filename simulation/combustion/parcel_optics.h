@@ -42,7 +42,7 @@ struct ParcelOptics
 
 ParcelOptics opticsOf(const Material& material, const FireParcel& parcel);
 
-/// [1] Emissivity of the parcel, taken as a ball of `radius` [m] > 0: (8) of parcel-radiation.
+/// [1] Emissivity of the parcel as a ball of `radius` [m] > 0, by equation (8) of formula parcel-radiation.
 double emissivityOf(const Material& material, const FireParcel& parcel, double radius);
 
 } // namespace fx::sim

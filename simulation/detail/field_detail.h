@@ -1,7 +1,7 @@
 /// @file field_detail.h
 /// Parameters of the detail of a medium's field from a preset, and values derived from them. The detail is
-/// computed when the field is drawn: the extinction of all balls is summed and then eroded by a threshold on
-/// its logarithm, shaders/formulas/field_detail.fx.h.
+/// computed when the field is drawn. The extinction of all balls is summed, and a threshold on the logarithm
+/// of the sum erodes it. See shaders/formulas/field_detail.fx.h.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -10,24 +10,24 @@
 
 namespace fx::sim {
 
-/// Appearance of a medium; selects the thresholds.
+/// Appearance of a medium, which selects the thresholds of erosion.
 enum class DetailMaterial : uint8_t
 {
-    Fireball, ///< burning gas with soot: firm billows, cold creases
+    Fireball, ///< burning gas with soot; the creases between lumps are colder
     Smoke,
     Steam, ///< denser at the rim than smoke
-    Dust,  ///< thinner and finer
+    Dust,  ///< thinner than smoke, with finer lumps
 };
 
 struct FieldDetail
 {
     bool given = false; ///< true: the field has detail; false: smooth balls, or separate noise for each ball
     DetailMaterial material = DetailMaterial::Smoke;
-    float billowSize = 1.0f; ///< [1] size of the largest lumps over 1.1 median radii, 0.1 .. 10
+    float billowSize = 1.0f; ///< [1] size of the largest lumps divided by 1.1 median radii, 0.1..10
     float crispness = 0.5f;  ///< [1] 0 .. 1, sharpness of the edges of lumps
-    float raggedness = 0.5f; ///< [1] 0 .. 1, strength of small lumps on large ones
+    float raggedness = 0.5f; ///< [1] 0 .. 1, strength of small lumps on large lumps
     float softening = 1.5f;  ///< [1] 0 .. 4, how soon the detail fades as the medium becomes thin
-    float liveliness = 1.0f; ///< [1] 0.1 .. 10, rate of renewal of the pattern over the rate of the flow
+    float liveliness = 1.0f; ///< [1] 0.1..10, rate of renewal of the pattern divided by the rate of the flow
 };
 
 /// Two generations of coordinates, common to all balls of a group.
@@ -37,7 +37,8 @@ struct DetailGenerations
     double fade = 0;      ///< [1] weight of the younger generation
     /// [m] median radius of the balls when a generation began; index: number of the generation modulo 2
     float radius[2] = {1, 1};
-    float radiusNow[2] = {1, 1}; ///< [m] present median radius of the balls that radius[] refers to
+    /// [m] present median radius of the balls whose initial median radius is radius[]
+    float radiusNow[2] = {1, 1};
 };
 
 /// Adds a group of the kind "material", which belongs to the group of blobs added last, and writes its

@@ -1,6 +1,6 @@
 /// @file material_coordinates.h
 /// Positions of the balls of a medium at the births of two generations of coordinates. The noise for the
-/// detail of the medium is evaluated there, so that it moves with the medium.
+/// detail of the medium is evaluated at these positions, so that the detail moves with the medium.
 ///
 /// @formula material-coordinates
 /// Noise that a flow carries must be renewed before the flow has distorted it too much.
@@ -48,7 +48,7 @@ namespace fx::sim {
 constexpr double kShearOfGeneration = 0.5; ///< [1] shear between two births of generations
 constexpr double kMaxGenerationRate = 8.0; ///< [1/s] maximum birth rate of generations
 
-/// Clock by which generations of coordinates begin: (2).
+/// Clock by which generations of coordinates begin, by equation (2).
 class GenerationClock
 {
 public:
@@ -73,7 +73,7 @@ private:
 class MaterialCoordinates
 {
 public:
-    static constexpr size_t kColumns = 6; ///< those of material_column
+    static constexpr size_t kColumns = 6; ///< number of columns of material_column
 
     MaterialCoordinates(std::pmr::memory_resource* memory, uint32_t capacity);
     static constexpr uint64_t bytesOf(uint32_t capacity) { return kColumns * sizeof(float) * capacity; }

@@ -14,7 +14,7 @@ namespace fx::sim {
 
 struct ParticleProgram;
 
-/// Compiled program shared by all solvers of a definition, created by the first solver. A copy of a
+/// Compiled program shared by all solvers of a definition. The first solver creates the program. A copy of a
 /// definition creates its own program.
 class SharedProgram
 {
@@ -31,7 +31,7 @@ private:
     mutable std::weak_ptr<const ParticleProgram> program_;
 };
 
-/// Definition of an emitter. Immutable while solvers of it exist.
+/// Definition of an emitter. The definition must not change while solvers of it exist.
 struct EmitterDef final : SolverDef, EmitterSettings
 {
     SharedProgram program;
@@ -44,15 +44,16 @@ struct EmitterDef final : SolverDef, EmitterSettings
     double workOf(const StepLoad& load) const override;
     bool publishes(const base::KindDesc& kind) const override;
     bool bendsLight() const override { return appearance.kind == AppearanceKind::Medium && heat > 0.0f; }
-    /// Whether its particles carry coordinates for the detail of the field.
+    /// True if the particles of the emitter have coordinates for the detail of the field.
     bool hasDetail() const { return detail.given && appearance.kind == AppearanceKind::Medium; }
     std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const override;
     Influence influence() const override;
     bool collides() const override;
     bool dependsOnPlacement() const override { return inWorld; }
     bool followsThermals() const override { return forces.updraft > 0.0f; }
-    /// Policy of hidden instances. It is Analytic when the state is a pure function of time: closed-form
-    /// motion, no events, no trails, no motion of the instance; otherwise Replay.
+    /// Policy of hidden instances. The policy is Analytic if the state is a pure function of time. This
+    /// requires motion in closed form, without events, trails or motion of the instance. In all other cases,
+    /// the policy is Replay.
     CatchUp catchUp() const override
     {
         const bool isAlone = !fed && events.empty() && !inWorld && !(trail.lifetime > 0.0f);
@@ -69,7 +70,7 @@ struct EmitterDef final : SolverDef, EmitterSettings
 struct EffectDef;
 
 /// Returns the definitions of the emitters of an effect, indexed by solver; null for solvers that are not
-/// emitters. It is for code that inspects emitters; other code uses SolverDef.
+/// emitters. The function is for code that inspects emitters. All other code uses SolverDef.
 std::vector<const EmitterDef*> emittersOf(const EffectDef& effect);
 
 } // namespace fx::sim

@@ -9,19 +9,19 @@
 
 namespace fx::sim {
 
-/// Material coordinates of the particles of an emitter, in the rows of their particle store. The particles do
-/// not interact, so no velocity gradient is measured. Generations begin at fixed local times, at a rate
-/// derived from the turbulence.
+/// Material coordinates of the particles of an emitter, in the rows of their particle store. No velocity
+/// gradient is measured, because the particles do not interact. Generations begin at fixed local times, at a
+/// rate derived from the turbulence.
 class EmitterDetail
 {
 public:
     EmitterDetail(const EmitterDef& def, uint32_t capacity, std::pmr::memory_resource* memory);
 
-    /// [tick] Time between two births of generations. Turbulence of strength U and scale L has the strain 4.4
-    /// U / L, which is the rms strain of an isotropic flow of one wave length.
+    /// [tick] Time between two births of generations. The strain of turbulence with strength U and scale L is
+    /// 4.4 U / L, the rms strain of an isotropic flow with a single wavelength.
     static base::Ticks periodOf(const EmitterDef& def);
 
-    /// Starts at `now`. All particles with an index below `next` already have coordinates, or are dead.
+    /// Starts at `now`. Particles with an index below `next` must be dead or already have coordinates.
     void begin(uint64_t next, base::Ticks now);
     /// Updates the coordinates after a step that ended at job.now.
     void follow(const AppearanceJob& job, const StepContext& context);

@@ -21,7 +21,7 @@
 
 namespace fx::sim {
 
-/// The kinds of groups that emitters publish; kNoKind if the schema lacks one.
+/// The kinds of groups that emitters publish; kNoKind for kinds that are not in the schema.
 struct EmitterKinds
 {
     base::KindId blob;
@@ -33,7 +33,7 @@ struct EmitterKinds
 };
 
 /// Steps particles that do not interact. The set of particles, their birth ticks and their rows depend only
-/// on the seed and the host's calls, never on the division of time into steps.
+/// on the seed and the host's calls, not on the division of time into steps.
 class EmitterSolver final : public Solver,
                             public BudgetedSolver,
                             public SeekableSolver,
@@ -55,7 +55,7 @@ public:
         base::WorkBudget unlimited;
         goOn(context, unlimited);
     }
-    /// Takes or continues a step within the work budget. Steps of small emitters are not divided.
+    /// Begins or continues a step within the work budget. Steps of small emitters are not divided.
     bool proceed(const StepContext& context, base::WorkBudget& work) override
     {
         const bool isKept = context.board || !isLinked(); // its data in scratch memory
@@ -96,21 +96,21 @@ public:
     bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                          SpawnBatch& spawnBatch) const override;
     bool finished(base::Ticks tick) const override;
-    /// Number of living particles; an upper bound while the GPU computes them.
+    /// Number of living particles; an upper bound while the GPU computes the particles.
     uint32_t elementCount() const override;
     bool hasElements() const override;
-    /// Whether seek() can reach `tick`. Seeks forwards are possible if motion has a closed form. Seeks
+    /// True if seek() can reach `tick`. Seeks forwards are possible if motion has a closed form. Seeks
     /// backwards also require that the host has changed no input since local time 0. Without particles and
     /// births, every emitter can seek.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
-    /// End of the time without visible changes: if there are no particles, the time of the next birth. Births
-    /// caused by particles of another emitter happen no earlier than the end of the rest of that emitter.
+    /// End of the time without visible changes: if there are no particles, the time of the next birth.
+    /// Particles of another emitter can cause births only after the end of restsUntil() of that emitter.
     base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
-    /// Time after which no present particle is alive. It is known if particles depend neither on each other
-    /// nor on earlier ones, and no birth is dropped.
+    /// Time after which no present particle is alive. The time is known if particles do not depend on other
+    /// particles, and if no birth is dropped.
     base::Ticks influenceHorizon(const InstanceParameters& parameters) const override;
     void saveWithoutElements(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
@@ -120,7 +120,7 @@ public:
     FiniteMemorySolver* finiteMemory() override { return this; }
     PooledEmitter* pooledEmitter() override { return this; }
 
-    /// steps of emitters with at most this number of rows are not divided
+    /// Steps of emitters with at most this number of rows are not divided.
     static constexpr uint32_t kFewRows = 8192;
 
     const EmitterPool* pool() const override { return pool_; }
@@ -164,19 +164,20 @@ private:
         Young,  ///< moves the new particles
         Move,   ///< moves all particles, without events
         Answer, ///< processes events that cause births in other emitters
-        Follow, ///< update of trails
+        Follow, ///< updates trails
     };
     struct Linked;
     struct OpenStep
     {
-        base::Ticks tick = -1;   ///< local time at which the open step begins; -1: none is open
+        base::Ticks tick = -1;   ///< local time at which the open step begins; -1: no step is open
         base::Ticks reached = 0; ///< local time before which all births are done
         StepPart part = StepPart::Old;
-        bool isWanted = false; ///< whether the GPU computes the particles, see StepContext::gpuParticles
-        uint32_t row = 0;      ///< next row to be processed by the stage
-        uint64_t left = 0;     ///< number of births that may still be stored
-        uint64_t asked = 0;    ///< attempted births
-        uint64_t refused = 0;  ///< number of births whose row was occupied
+        bool isWanted =
+            false; ///< true: the GPU should compute the particles if possible, see StepContext::gpuParticles
+        uint32_t row = 0;     ///< next row to be processed by the stage
+        uint64_t left = 0;    ///< number of births that may still be stored
+        uint64_t asked = 0;   ///< attempted births
+        uint64_t refused = 0; ///< number of births whose row was occupied
         uint64_t droppedBefore = 0;
         Linked* linked = nullptr; ///< data of emitters with events, in scratch memory
         uint64_t board = 0;       ///< number of the EventBoard of the step that allocated `linked`
@@ -232,7 +233,7 @@ private:
     // for emitters with events
     struct Origin
     {
-        glm::vec3 position{0.0f}; ///< [m] added to the position that the birth shape gives
+        glm::vec3 position{0.0f}; ///< [m] offset that is added to the position from the birth shape
         glm::vec3 velocity{0.0f}; ///< [m/s] velocity of the origin
         glm::vec3 tint{1.0f};     ///< [1] factor on the color
         bool fed = false;         ///< true: an event of a particle caused the birth
@@ -292,7 +293,7 @@ private:
         glm::vec3 position{0.0f};
         glm::vec3 intensity{0.0f}; ///< [cd]
         uint32_t row = 0;
-        float sum = 0; ///< selects the kept ones
+        float sum = 0; ///< sum by which the lights to publish are selected
     };
     Light lightOf(uint32_t row, uint32_t i, const MotionTile& motion) const;
     bool findLights(PublicationPlace& place, base::WorkBudget& work) const;
@@ -312,7 +313,7 @@ private:
     base::Ticks motionBegin_ = 0; ///< see AppearanceJob
     Conditions conditions_;       ///< conditions of the last step
     uint32_t highWater_ = 0;
-    bool varied_ = false; ///< whether conditions have changed since the start
+    bool varied_ = false; ///< true: conditions have changed since the start
     bool started_ = false;
     bool bornWithMany_;      ///< see SpawnBatch
     bool publishesWithMany_; ///< see SpawnBatch
@@ -326,17 +327,17 @@ private:
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
     std::optional<EmitterDetail> detail_; ///< present if the medium has detail of the field
-    /// present if particles keep their world position when the instance moves
+    /// present if the world position of particles does not change with the placement of the instance
     std::optional<MovedSpace> space_;
     std::optional<GpuEmitter> gpu_;          ///< present if the GPU can compute the particles
     BirthKey key_{};                         ///< random key of the last step
     mutable std::pmr::vector<Light> lights_; ///< scratch for the published lights
-    uint64_t hostEvents_ = 0;                ///< number of host events processed
+    uint64_t hostEvents_ = 0;                ///< number of processed host events
     uint64_t dropped_ = 0;
     base::TaskRunner* tasks_ = nullptr;              ///< task runner of the last step
     mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< scratch to sort the published rows of a medium
     OpenStep open_;
-    bool isDivided_;            ///< whether steps are divided, see proceed()
+    bool isDivided_;            ///< true: steps are divided, see proceed()
     uint64_t refusedInRow_ = 0; ///< number of consecutive births whose row was occupied
     base::Ticks fullUntil_ = 0; ///< local time up to which all rows are certainly occupied
     double stepWork_;           ///< [unit of base::WorkBudget] work of a particle in a sub-step

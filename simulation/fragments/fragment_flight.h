@@ -54,7 +54,7 @@ namespace fx::sim {
 
 constexpr float kAirDensity = 1.204f; ///< [kg/m3] density of air at 20 degrees C
 
-/// [1/m] b of (1).
+/// [1/m] Drag coefficient b of equation (1).
 float dragPerMeter(const FragmentMatter& matter, float size);
 
 /// A step of flight without ground contact.
@@ -65,11 +65,11 @@ MotionState flyStep(const MotionState& from, const glm::vec3& acceleration, cons
 
 struct CoolingRates
 {
-    double convection; ///< [1/s] q
-    double radiation;  ///< [1/(s K3)] r
+    double convection; ///< [1/s] convection rate q
+    double radiation;  ///< [1/(s K3)] radiation rate r
 };
 
-/// Both rates of a fragment of `size` that moves at `speed` relative to the air.
+/// Both rates of a fragment of diameter `size` [m] that moves at `speed` [m/s] relative to the air.
 CoolingRates coolingRates(const FragmentMatter& matter, float size, float speed);
 
 /// Temperature [K] after a step.

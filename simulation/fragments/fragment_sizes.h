@@ -29,8 +29,8 @@
 
 namespace fx::sim {
 
-/// [m] Diameter of a fragment, drawn by a uniform random number u in [0, 1). The diameter increases with u,
-/// from the smallest at u = 0.
+/// [m] Diameter of a fragment, drawn by a uniform random number u in [0, 1). The diameter increases with u
+/// and is smallest at u = 0.
 float fragmentSize(const FragmentsDef& def, float u);
 
 } // namespace fx::sim

@@ -16,7 +16,7 @@ namespace fx::sim {
 namespace fragment_column {
 enum : size_t
 {
-    X, ///< [m] local
+    X, ///< [m] local position
     Y,
     Z,
     VelocityX, ///< [m/s]
@@ -24,7 +24,7 @@ enum : size_t
     VelocityZ,
     Size,        ///< [m] diameter
     Temperature, ///< [K]
-    Hottest,     ///< [K] temperature at the start
+    Hottest,     ///< [K] initial temperature
     Due,         ///< [m] distance to fly before the next blob of smoke
     Count
 };
@@ -43,7 +43,7 @@ struct FragmentStore
     float* at(size_t column) { return attributes[column].data(); }
     const float* at(size_t column) const { return attributes[column].data(); }
 
-    /// Removes the rows whose end is at or before `tick`; the other rows keep their order.
+    /// Removes the rows whose end is at or before `tick`. The order of the remaining rows does not change.
     void removeDead(base::Ticks tick);
 
     void save(StateWriter& writer) const;

@@ -16,7 +16,7 @@ namespace fx::sim {
 enum class FragmentShape : uint8_t
 {
     Sphere,
-    Hemisphere, ///< upwards
+    Hemisphere, ///< uniform over the upper hemisphere
     Cone,       ///< within `angle` of +Y
 };
 
@@ -36,14 +36,14 @@ struct FragmentMatter
     float dragCoefficient = 1.0f; ///< [1] >= 0; default: a tumbling fragment; a smooth ball has 0.47
     float gravity = 1.0f;         ///< [1] multiple of the world's gravity
     float bounce = 0.35f;         ///< [1] restitution at the ground, 0 .. 1
-    float friction = 0.4f;        ///< [1] share of the tangential velocity that is lost at a bounce, 0 .. 1
+    float friction = 0.4f; ///< [1] fraction of the tangential velocity that is lost at a bounce, 0 .. 1
 };
 
-/// The smoke behind a hot fragment: one blob for every `spacing` along its path.
+/// The smoke behind a hot fragment. The fragment emits one blob for each distance `spacing` along its path.
 struct TrailDef
 {
     float spacing = 0.2f;             ///< [m] distance between blobs; 0: no smoke
-    float idle = 0.0f;                ///< [m/s] slower fragments emit smoke as if they had this speed
+    float idle = 0.0f;                ///< [m/s] smallest speed by which the emission of smoke is computed
     uint32_t maxBlobs = 4096;         ///< maximum number of living blobs
     float coldest = 650.0f;           ///< [K] temperature below which a fragment emits no smoke
     base::Range lifetime{1.5f, 3.0f}; ///< [s] > 0
@@ -51,12 +51,12 @@ struct TrailDef
     /// [1] optical depth along a diameter at birth, behind a fragment at its initial temperature
     float opticalDepth = 0.5f;
     float temperature = 900.0f; ///< [K] temperature of a blob at birth
-    float mixing = 5.0f;        ///< [1/s] rate at which the temperature approaches that of the air
+    float mixing = 5.0f;        ///< [1/s] rate at which the temperature approaches the temperature of the air
     float spreading = 0.02f;    ///< [m2/s] growth rate of the square of the radius
-    float inherited = 0.15f;    ///< [1] share of the fragment's velocity that a blob inherits
-    float drag = 4.0f;          ///< [1/s] rate at which the velocity approaches that of the air
+    float inherited = 0.15f;    ///< [1] fraction of the fragment's velocity that a blob inherits
+    float drag = 4.0f;          ///< [1/s] rate at which the velocity approaches the velocity of the air
     float buoyancy = 1.0f;      ///< [1] multiple of the buoyancy force
-    float curlStrength = 0.35f; ///< [m/s] turbulence
+    float curlStrength = 0.35f; ///< [m/s] speed of the turbulence
     float curlScale = 0.7f;     ///< [m]
     float curlRate = 0.4f;      ///< [1/s]
     base::ColorCurve albedoOverLife{std::array{0.35f, 0.34f, 0.33f}};
@@ -69,10 +69,10 @@ struct TrailDef
 namespace fragment_work {
 constexpr double kMoved = 24.0; ///< work for each fragment and each blob of smoke in a sub-step
 constexpr double kBirth = 20.0; ///< work for each fragment or blob that is born
-constexpr double kShown = 11.0; ///< work of publishing a fragment or blob, once a step
+constexpr double kShown = 11.0; ///< work of publishing a fragment or blob, once per step
 } // namespace fragment_work
 
-/// A burst of fragments at one moment.
+/// A burst of fragments. All fragments start at the same time.
 struct FragmentsDef final : SolverDef
 {
     std::string name;
@@ -87,7 +87,8 @@ struct FragmentsDef final : SolverDef
     SizeLaw sizeLaw = SizeLaw::Mott;
     base::Range size{0.004f, 0.05f}; ///< [m] smallest and largest diameter
     float meanSize = 0.015f;         ///< [m] for SizeLaw::Mott: diameter of a fragment of mean mass
-    /// [1] for the power law: the number of fragments larger than d is proportional to d^-exponent; > 0
+    /// [1] Exponent of the power law, > 0. The number of fragments larger than d is proportional to
+    /// d^-exponent.
     float exponent = 2.5f;
 
     base::Range temperature{1300.0f, 1700.0f}; ///< [K] temperature of fragments at the start
@@ -95,7 +96,7 @@ struct FragmentsDef final : SolverDef
     FragmentMatter matter;
     TrailDef trail;
 
-    float visibleSize = 1.0f;   ///< [1] drawn radius over the radius of the fragment
+    float visibleSize = 1.0f;   ///< [1] drawn radius divided by the radius of the fragment
     float shutter = 0.0166667f; ///< [s]
     float heat = 0.0f;          ///< see EmitterDef
 

@@ -10,14 +10,14 @@
 
 namespace fx::sim {
 
-/// Steps ballistic fragments that do not interact. Fragments and their smoke depend only on the seed and the
-/// host's calls.
+/// Steps ballistic fragments that do not interact. The state of fragments and smoke depends only on the seed
+/// and the host's calls.
 class FragmentsSolver final : public Solver, public BudgetedSolver
 {
 public:
     /// Creates a solver.
     /// @param def definition; must outlive the solver
-    /// @param kind kind of its two groups: the fragments, then their smoke
+    /// @param kind kind of the two groups of the solver: the fragments, then the smoke
     FragmentsSolver(const FragmentsDef& def, base::KindId kind, std::pmr::memory_resource* memory);
 
     void step(const StepContext& context) override
@@ -44,7 +44,7 @@ private:
     /// State of a step that is not finished.
     struct OpenStep
     {
-        base::Ticks tick = -1; ///< local time at which the open step begins; -1: none is open
+        base::Ticks tick = -1; ///< local time at which the open step begins; -1: no step is open
         /// true: the fragments are at the end of the step, and smoke remains to be emitted
         bool hasFlown = false;
         uint32_t row = 0; ///< next row of smoke to move or to emit

@@ -58,14 +58,14 @@ struct FragmentWay
 {
     MotionState from;
     MotionState to;
-    float length;    ///< [m] length L of (2), by which smoke is emitted
-    float due;       ///< [m] distance D of (2) before the step
+    float length;    ///< [m] length L of equation (2), along which smoke is emitted
+    float due;       ///< [m] distance D of equation (2) before the step
     uint32_t blobs;  ///< number of blobs emitted in the step
     uint32_t stored; ///< number of emitted blobs that fit into the store
-    uint32_t first;  ///< row of the first of these blobs
+    uint32_t first;  ///< row of the first stored blob
 };
 
-/// Number n of blobs along a path, by (2).
+/// Number n of blobs along a path, by equation (2).
 uint32_t blobsAlong(float length, float due, float spacing);
 
 /// A range of consecutive rows.
@@ -75,7 +75,8 @@ struct SmokeRows
     uint32_t end;
 };
 
-/// Writes the smoke of fragment `row` along `way` to `rows`, in its state at the end of the step.
+/// Writes the smoke of fragment `row` along `way` to `rows`. The blobs have their state at the end of the
+/// step.
 /// @param begin local time at which `way` begins
 void emitSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
                base::Ticks begin, const SmokeRows& rows, TrailStore& trail);
@@ -83,12 +84,12 @@ void emitSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t r
 /// Moves the rows [begin, end) over the whole step.
 void moveSmoke(const TrailStep& step, TrailStore& trail, uint32_t begin, uint32_t end);
 
-/// Appearance of a blob at an age. @param radius [m] radius at birth
+/// Appearance of a blob at an age.
 struct SmokeAppearance
 {
-    float radius;      ///< [m] (3)
-    float temperature; ///< [K] (4)
-    float share;       ///< [1] (5)
+    float radius;      ///< [m] radius by equation (3)
+    float temperature; ///< [K] temperature by equation (4)
+    float share;       ///< [1] factor by equation (5)
 };
 SmokeAppearance smokeAppearance(const TrailDef& def, float radius, float age, float lifetime);
 

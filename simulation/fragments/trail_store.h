@@ -15,7 +15,7 @@ namespace fx::sim {
 namespace trail_column {
 enum : size_t
 {
-    X, ///< [m] local
+    X, ///< [m] local position
     Y,
     Z,
     VelocityX, ///< [m/s]
@@ -27,14 +27,14 @@ enum : size_t
 };
 }
 
-/// Id of a blob of a fragment. It does not depend on the length of steps.
+/// Id of a blob of a fragment. The id does not depend on the length of steps.
 constexpr uint64_t trailId(uint32_t fragment, uint32_t blob)
 {
     return (uint64_t(fragment) << 24) | (blob & 0xFFFFFFu);
 }
 
-/// Columns of blobs, with rows in the order of creation. Memory is reserved for a typical number of rows and
-/// grows as needed.
+/// Columns of blobs, with rows in the order of creation. Memory is reserved for a typical number of rows, and
+/// grows if more rows are needed.
 class TrailStore
 {
 public:
@@ -44,14 +44,15 @@ public:
 
     size_t capacity() const { return most_; }     ///< largest number of rows
     size_t held() const { return id.capacity(); } ///< number of rows for which memory is reserved
-    /// Reserves memory for `rows`, at most capacity(), at least doubling it. Strong guarantee.
+    /// Reserves memory for `rows` rows, at most capacity(). If memory grows, it at least doubles. Strong
+    /// guarantee.
     void reserve(size_t rows);
     /// [byte] Memory of this number of rows.
     static uint64_t bytesOf(size_t rows);
     float* at(size_t column) { return attributes[column].data(); }
     const float* at(size_t column) const { return attributes[column].data(); }
 
-    /// Removes the rows whose end is at or before `tick`; the other rows keep their order.
+    /// Removes the rows whose end is at or before `tick`. The order of the remaining rows does not change.
     void removeDead(base::Ticks tick);
 
     void save(StateWriter& writer) const;

@@ -1,6 +1,5 @@
 /// @file gas_air.h
-/// The air around an explosion: wind, the circulation of the rising cloud, turbulence, and its
-/// thermodynamics.
+/// The air around an explosion: wind, circulation of the rising cloud, turbulence and thermodynamics.
 #pragma once
 
 #include "simulation/combustion/charge_plan.h"
@@ -21,14 +20,14 @@ class GasAir
 public:
     GasAir(const GasDef& def, const StepContext& step, const ThermalFlow& thermal);
 
-    /// Turbulence at the full strength of flames. It is evaluated at several positions at once, because a
-    /// vector of positions takes little more time than a single one.
+    /// Turbulence at the full strength of flames. The turbulence is evaluated at several positions at once,
+    /// because a SIMD vector of positions takes little more time than one position.
     class Turbulence
     {
     public:
-        static constexpr uint32_t kMax = 64; ///< positions
+        static constexpr uint32_t kMax = 64; ///< largest number of positions
 
-        /// Evaluates at the slots [first, first + count) of the gas.
+        /// Evaluates the turbulence at the particles in the slots [first, first + count) of the gas.
         void evaluate(const GasAir& air, const GasView<float>& gas, uint32_t first, uint32_t count);
         glm::vec3 at(uint32_t k) const { return {velocity_[0][k], velocity_[1][k], velocity_[2][k]}; }
 
@@ -78,9 +77,11 @@ struct GasThermodynamics
     {
         return (fuelGasConstant + (mixing - 1.0) * kAirGasConstant) / mixing;
     }
-    double densityRatio(const FireParcel& parcel) const;                                     ///< [1] tau
-    double entropy(const FireParcel& parcel) const;                                          ///< K
-    double potentialTemperature(double entropy, double mixing) const;                        ///< [K] theta
+    double densityRatio(const FireParcel& parcel)
+        const; ///< [1] density at the air's pressure divided by the density of the air
+    double entropy(const FireParcel& parcel) const; ///< entropy function K of the formula
+    double potentialTemperature(double entropy,
+                                double mixing) const; ///< [K] temperature at the air's pressure
     double airDensity() const { return air.pressure / (kAirGasConstant * air.temperature); } ///< [kg/m3]
 };
 

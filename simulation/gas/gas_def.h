@@ -25,16 +25,18 @@ struct GasDef final : SolverDef
     float start = 0.0f;                                ///< [s]
     const Material* material = findMaterial("petrol"); ///< never null
     double energy = 20e6;                              ///< [J] > 0
-    /// [1] for charges that detonate: initial pressure over that of the air, 1 .. 100
+    /// [1] Initial pressure divided by the pressure of the air, 1..100; for charges that detonate.
     float pressureRatio = 12.0f;
-    /// [m/s] limit on the speed of sound; 0: no limit, with shorter steps and a realistic blast
+    /// [m/s] Upper limit of the speed of sound; 0: no limit. Without a limit, steps are shorter and the blast
+    /// wave is realistic.
     float soundSpeed = 60.0f;
-    /// [1] random displacement in units of the particle spacing, from which instabilities grow
+    /// [1] Random initial displacement in units of the particle spacing. Instabilities grow from this
+    /// displacement.
     float jitter = 0.15f;
     float lumpiness = 0.3f;      ///< [1] 0 .. 1, strength of the large jets of the release
     float throwSpeed = 1.0f;     ///< [1] factor on the initial speed of the material
     glm::vec3 initialBias{0.0f}; ///< [m/s] velocity added to every particle
-    float entrainment = 1.0f;    ///< [1] factor on the entrainment of air by a thermal, while the gas burns
+    float entrainment = 1.0f;    ///< [1] factor on the entrainment of air while the gas burns
     float radiation = 1.0f;      ///< [1] factor on the heat loss by radiation
     float drag = 0.35f;          ///< [1/s] rate of momentum exchange with the air
     float braking = 0.3f;        ///< [1] factor on the momentum lost to displaced air
@@ -46,13 +48,13 @@ struct GasDef final : SolverDef
 
     // optics
     float opacity = 1.0f; ///< [1] factor on the extinction by soot and salts
-    /// factor on the albedo of soot and salts over the burnt share, 0..1
+    /// Factor on the albedo of soot and salts, as a function of the burnt fraction 0..1.
     base::ColorCurve smokeTint{std::array{1.0f, 1.0f, 1.0f}};
     /// [K] temperature below which soot counts as smoke in the layers of the picture
     float sootTemperature = 1100.0f;
-    float growth = 1.4f;       ///< [1] radius of a blob over half the kernel's support
+    float growth = 1.4f;       ///< [1] radius of a blob divided by half the kernel's support
     float heat = 1.0f;         ///< see EmitterDef
-    float dissipation = 0.12f; ///< [1/s] rate at which cold smoke thins out
+    float dissipation = 0.12f; ///< [1/s] rate at which cold smoke becomes thinner
     float detailAmount = 0.8f;
     float detailScale = 1.5f;
     float anisotropy = 0.3f;

@@ -13,7 +13,7 @@ class GasDetail
 {
 public:
     /// Creates coordinates for a number of particles.
-    /// @param growth [1] radius of a drawn ball over half the support of its particle
+    /// @param growth [1] radius of a drawn ball divided by half the support of its particle
     GasDetail(const FieldDetail& detail, float growth, uint32_t particles, std::pmr::memory_resource* memory)
         : detail_(detail), growth_(growth), coordinates_(memory, particles)
     {}
@@ -27,7 +27,7 @@ public:
     void save(StateWriter& writer, uint32_t particles) const;
     void restore(StateReader& reader, uint32_t particles);
 
-    /// S of (1) [1/s].
+    /// [1/s] Shear rate S of equation (1).
     static double shearRate(const GasView<const float>& gas);
 
 private:

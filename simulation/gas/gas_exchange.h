@@ -53,7 +53,7 @@ struct GasExchange
     const StepContext& step;
     const GasAir& air;
     const GasThermodynamics& thermodynamics;
-    float hottest; ///< [K] temperature of the hottest parcel, by which the others are ignited
+    float hottest; ///< [K] temperature of the hottest parcel, which ignites the other parcels
 };
 
 /// Exchanges heat, mass and momentum of the particles at the slots [begin, end) with the air, over `seconds`.

@@ -33,11 +33,12 @@
 
 namespace fx::sim {
 
-/// Adds `particles` particles to `gas` and sets their parcels. Fails in the same cases as GasDynamics::add().
+/// Adds `particles` particles to `gas` and initializes the parcels of the particles. Fails in the same cases
+/// as GasDynamics::add().
 base::Status releaseGas(const GasDef& def, const ChargePlan& plan, const StepContext& context,
                         std::span<GasParticle> scratch, GasDynamics<float>& gas, GasParcels& parcels);
 
-/// [m] Distance between neighbors in the initial ball of the plan.
+/// [m] Distance between neighboring particles in the initial ball of the plan.
 double spacingOf(const ChargePlan& plan, uint32_t particles);
 
 } // namespace fx::sim

@@ -14,8 +14,8 @@
 
 namespace fx::sim {
 
-/// Maximum number of sub-steps between two exchanges with the air. Time that needs more sub-steps is not
-/// simulated; it is reported as debt.
+/// Maximum number of sub-steps between two exchanges with the air. The time that needs more sub-steps is not
+/// simulated and is reported as debt.
 constexpr uint32_t kMaxGasSubSteps = 400;
 constexpr double kMaxGasSlices = 64.0; ///< maximum number of exchanges with the air in a step
 constexpr double kGasCourant = 0.6;
@@ -26,17 +26,18 @@ constexpr uint64_t kGasExchangeWork = 80;
 constexpr uint64_t kGasShownWork = 12;
 constexpr uint64_t kGasBytes = 1500; ///< [byte] approximate memory per particle, including neighbor lists
 
-/// [m] Support radius at which each of `particles` particles in a ball of `radius` has `neighbors` neighbors.
+/// [m] Support radius with which a particle has `neighbors` neighbors, for `particles` particles in a ball of
+/// `radius` [m].
 double evenSupport(double radius, uint32_t particles, double neighbors);
 
-/// Gas dynamics with exchanges with the air in between. An exchange takes place whenever the cloud has moved
-/// by a third of its size, and at least once in every step.
+/// Alternates gas dynamics and exchanges with the air. An exchange takes place when the cloud has moved by a
+/// third of its size, and at least once in every step.
 class GasSolver final : public Solver, public BudgetedSolver, public AirMover
 {
 public:
     /// Creates a solver.
     /// @param def definition; must outlive the solver
-    /// @param kind kind of its groups
+    /// @param kind kind of the groups of the gas
     /// @param material kind of the groups with coordinates for detail
     GasSolver(const GasDef& def, const Quality& quality, base::KindId kind, base::KindId material,
               std::pmr::memory_resource* memory);
@@ -48,7 +49,7 @@ public:
     }
     bool proceed(const StepContext& context, base::WorkBudget& work) override;
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
-    /// Publishes the whole gas in one call, whatever the budget.
+    /// Publishes the whole gas in one call and ignores the budget.
     bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                             PublicationPlace& /*ioPlace*/, base::WorkBudget& work) const override
     {
@@ -68,7 +69,7 @@ private:
     /// State of a step that is computed over several calls of proceed().
     struct Open
     {
-        base::Ticks tick = -1; ///< local time at which the open step begins; -1: none is open
+        base::Ticks tick = -1; ///< local time at which the open step begins; -1: no step is open
         double seconds = 0;    ///< [s] length of the step
         double left = 0;       ///< [s] remaining time, from the beginning of the current slice
         /// [s] duration of gas dynamics between two exchanges with the air; 0 between slices
@@ -78,12 +79,13 @@ private:
     bool begin(const StepContext& context, base::WorkBudget& work);
     bool release(const StepContext& context);
     std::span<glm::vec3> ways(const StepContext& context);
-    /// [m/s]
+    /// Speeds of the gas [m/s].
     struct FlowSpeeds
     {
         double flow;         ///< [m/s] root mean square speed of the flow
         double sound;        ///< [m/s] speed of sound of the hottest gas
-        double reducedSound; ///< [m/s] the same speed of sound, as reduced in the simulation
+        double reducedSound; ///< [m/s] speed of sound of the hottest gas after the reduction by
+                             ///< GasDef::soundSpeed
     };
     FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;
     double exchange(const StepContext& context, double longest, double shortest);

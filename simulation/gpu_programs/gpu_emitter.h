@@ -1,7 +1,7 @@
 /// @file gpu_emitter.h
-/// Log of an emitter's births and conditions, from which the GPU computes its particles. It is always
-/// recorded. While the GPU computes the emitter, the emitter has no rows: births are only counted, and the
-/// log is published. The rows can be restored bit for bit at any time.
+/// Log of an emitter's births and conditions, from which the GPU computes the particles. The log is always
+/// recorded. While the GPU computes the emitter, the CPU stores no particles: births are only counted, and
+/// the log is published. The rows of the particles can be restored bit for bit at any time.
 #pragma once
 
 #include "simulation/emitters/births/birth_log.h"
@@ -28,28 +28,28 @@ public:
 
     /// Clears the log and ends GPU computation. History before `now` is unknown, unless `now` is 0.
     void clear(const BirthKey& key, base::Ticks now, uint64_t next, const glm::vec3& pull);
-    /// Records a step before it is taken, on the CPU or the GPU. Only for motion without a closed form.
+    /// Records a step, for motion without a closed form. Must be called before the step is computed.
     void noteStep(const StepContext& context);
     /// Records a change of gravity or wind.
     void setPull(base::Ticks now, const glm::vec3& pull);
     /// Records that births were dropped before `now`.
     void noteDrop(base::Ticks now) { dropped_ = now; }
-    /// Whether all births since the last forget() had free rows, by a conservative bound.
+    /// True if all births since the last forget() had free rows, by a conservative bound.
     bool surelyFits() const { return log_.next() - log_.front() <= rows_; }
     /// Removes entries of particles that are dead at `now`.
     void forget(base::Ticks now);
 
-    /// Whether a step needs a feature that the GPU does not support.
+    /// True if a step needs a feature that the GPU does not support.
     bool asksTooMuch(const StepContext& context) const
     {
         constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
         return (dependsOnHost_ && (context.collider || context.contactHook)) ||
                (steps_ && context.stepTicks > kLongest);
     }
-    /// Whether particles may die before the end of their lifetime.
+    /// True if particles may die before the end of their lifetime.
     bool kills() const { return kills_; }
     bool isOn() const { return on_; }
-    /// Whether the log covers all particles alive at `now` and is small enough for publication.
+    /// True if the log covers all particles alive at `now` and is small enough for publication.
     bool mayBegin(base::Ticks now) const;
     bool mayGoOn(base::Ticks now) const;
     void begin() { on_ = true; }
@@ -57,11 +57,12 @@ public:
 
     /// Upper bound of the number of living particles, which is also the number of logged births.
     uint32_t count() const { return uint32_t(log_.next() - log_.front()); }
-    /// Whether no particle is alive at `now`. After the last birth, all births are examined once and the
+    /// True if no particle is alive at `now`. After the last birth, all births are examined once and the
     /// result is cached.
     bool isEmpty(const BirthKey& key, base::Ticks now) const;
 
-    /// Restores the rows at `now`. @param store is filled; its `placed` does not change
+    /// Restores the rows of the particles at `now`. @param store store that is filled; the member `placed`
+    /// does not change
     AppearanceJob rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const;
     /// Adds a group of the kind "gpuParticle".
     void publish(const base::GroupInfo& base, base::KindId kind, const BirthKey& key, base::Ticks now,
@@ -84,10 +85,11 @@ private:
     bool meetsOthers_ = false;
     BirthLog log_;
     StepLog stepLog_;
-    /// conditions in the order of time; the first one applies to the oldest living particle
+    /// conditions in the order of time; the first condition applies to the oldest living particle
     std::pmr::vector<MotionCondition> conditions_;
-    base::Ticks known_ = 0;    ///< [tick] local time since which all steps are recorded
-    base::Ticks dropped_ = -1; ///< [tick] local time before which births were dropped; -1: none were
+    base::Ticks known_ = 0; ///< [tick] local time since which all steps are recorded
+    base::Ticks dropped_ =
+        -1; ///< [tick] local time before which births were dropped; -1: no birth was dropped
     bool on_ = false;
     mutable uint64_t deathsOf_ = ~uint64_t(0); ///< index of the next birth when lastDeath_ was computed
     mutable base::Ticks lastDeath_ = 0;

@@ -1,5 +1,5 @@
 /// @file gpu_program.h
-/// Selection of emitters for the GPU, and their parameters for it.
+/// Selects the emitters that the GPU can compute, and creates their GPU parameters.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -18,10 +18,10 @@ std::string_view gpuObstacle(const EmitterSettings& def);
 /// @param def a definition that the GPU can compute; it is copied
 std::shared_ptr<const base::GpuParticleProgram> makeGpuProgram(const EmitterSettings& def);
 
-/// Birth shape of an emitter for the GPU. @param def its shape must be one of GpuShape
+/// Birth shape of an emitter for the GPU. The shape of `def` must be one of GpuShape.
 base::GpuShape gpuShapeOf(const EmitterSettings& def);
 
-/// Parameters of an emitter's births and appearance for the GPU. @param program of `def`
+/// Parameters of an emitter's births and appearance for the GPU. @param program program of `def`
 base::GpuParticleNumbers gpuNumbersOf(const EmitterSettings& def, const ParticleProgram& program);
 
 } // namespace fx::sim

@@ -1,6 +1,6 @@
 /// @file gpu_replay.h
-/// Computes the rows of an emitter on the CPU from the log of its births. The rows have the bits that steps
-/// on the CPU would have given.
+/// Computes the rows of an emitter on the CPU from the log of its births. The rows have the same bits as
+/// after steps on the CPU.
 #pragma once
 
 #include "simulation/gpu_programs/step_log.h"
@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-/// Acceleration of particles with closed-form motion, valid from a time on.
+/// Acceleration of particles with closed-form motion, valid after the time `begin`.
 struct MotionCondition
 {
     base::Ticks begin; ///< local time
@@ -45,18 +45,18 @@ struct ReplayInput
     BirthKey key;
     uint64_t first; ///< births [first, next)
     uint64_t next;
-    /// Writes the ticks of the births from `first` on to `out`. They never decrease.
+    /// Writes the ticks of the births, beginning with birth `first`, to `out`. Ticks never decrease.
     std::function<void(uint64_t first, std::span<base::Ticks> out)> ticksOf;
-    std::span<const MotionCondition> conditions; ///< ascending, at least one
+    std::span<const MotionCondition> conditions; ///< conditions in the order of time, at least one
     base::Ticks now;
     bool placed; ///< see ParticleStore::placed
-    /// All steps during the lives of the particles; only for motion without a closed form.
+    /// All steps during the lives of the particles; used only for motion without a closed form.
     std::span<const ReplayStep> steps = {};
 };
 
-/// Fills `store` with the living particles. @return the job for their appearance
+/// Fills `store` with the living particles. @return the job for the appearance of the particles
 AppearanceJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
-/// As replayBirths(), step by step, for motion without a closed form.
+/// Fills `store` with the living particles, for motion without a closed form. The function replays all steps.
 AppearanceJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
 
 /// Restarts closed-form motion from the present state.

@@ -1,6 +1,6 @@
 /// @file step_log.h
-/// Log of an emitter's steps and their conditions, as runs of equal steps. The particles depend only on this
-/// log and on the births.
+/// Log of the steps of an emitter and their conditions, as runs of equal steps. The particles depend only on
+/// this log and on the births.
 #pragma once
 
 #include "foundation/snapshot/gpu_modules.h"
@@ -18,7 +18,7 @@ namespace fx::sim {
 /// Conditions of a step.
 struct StepConditions
 {
-    glm::vec3 gravity{0.0f}; ///< [m/s2] local
+    glm::vec3 gravity{0.0f}; ///< [m/s2] gravity in local space
     glm::vec3 wind{0.0f};    ///< [m/s] local wind, without the wind of the emitter itself
     float ground = 0.0f;     ///< [m] see StepContext::groundHeight
     float intensity = 1.0f;  ///< intensity of births
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    std::pmr::vector<Run> runs_; ///< ascending
+    std::pmr::vector<Run> runs_; ///< runs in the order of time
     uint64_t history_ = 0;
 };
 

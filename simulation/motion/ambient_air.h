@@ -5,6 +5,6 @@
 namespace fx::sim {
 
 constexpr double kAirKelvin = 293.15;                ///< [K] temperature of the ambient air
-constexpr float kAirTemperature = float(kAirKelvin); ///< [K] the same in single precision
+constexpr float kAirTemperature = float(kAirKelvin); ///< [K] kAirKelvin in single precision
 
 } // namespace fx::sim

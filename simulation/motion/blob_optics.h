@@ -1,5 +1,5 @@
 /// @file blob_optics.h
-/// Amount of medium that gives a blob an opacity.
+/// Amount of medium with which a blob has a given opacity.
 ///
 /// @formula blob-cross-section
 /// The extinction cross section that gives a blob a required optical depth along its diameter.

@@ -1,5 +1,6 @@
 /// @file curl_noise.h
-/// Turbulent air: a random, divergence-free velocity field. It mixes particles without concentrating them.
+/// Turbulent air: a random, divergence-free velocity field. The field mixes particles and does not
+/// concentrate them.
 ///
 /// @formula curl-noise
 /// The curl of a vector potential of gradient noise, differentiated analytically.
@@ -36,13 +37,13 @@
 
 namespace fx::sim {
 
-/// The field at one moment. Construction is cheap; evaluation is possible on any thread.
+/// The field at one moment. Any thread may evaluate the field.
 class CurlNoise
 {
 public:
     /// Creates the field at one moment.
     /// @param seed selects the field
-    /// @param strength [m/s] root mean square speed; 0 switches the field off
+    /// @param strength [m/s] root mean square speed; 0: the velocity is 0
     /// @param scale [m] length of one period, > 0
     /// @param turns number of elapsed periods of the noise's variation in time
     CurlNoise(uint32_t seed, float strength, float scale, double turns);
@@ -50,8 +51,8 @@ public:
     bool active() const { return strength_ > 0.0f; }
     /// Velocity [m/s] at `position` [m].
     glm::vec3 velocity(const glm::vec3& position) const;
-    /// Adds the velocity at each of `count` positions, with the bits of velocity(). Counts are rounded up to
-    /// a multiple of 16. Columns begin at multiples of 64 bytes.
+    /// Adds the velocity at each of `count` positions, with the same bits as velocity(). `count` is rounded
+    /// up to a multiple of 16. Columns must be aligned to 64 bytes.
     void addTo(const std::array<const float*, 3>& position, const std::array<float*, 3>& velocity,
                uint32_t count) const;
 

@@ -36,12 +36,12 @@ namespace fx::sim {
 
 struct DragStep
 {
-    float decay;   ///< [1] E
+    float decay;   ///< [1] decay E
     float share;   ///< [1] 1 - E, weight of the air's velocity in the velocity of the particle
-    float gain;    ///< [s] G
-    float drift;   ///< [s] t - G
-    float ramp;    ///< [s2] R
-    float seconds; ///< [s] t
+    float gain;    ///< [s] gain G
+    float drift;   ///< [s] drift t - G
+    float ramp;    ///< [s2] ramp R
+    float seconds; ///< [s] length t of the step
 };
 
 inline DragStep makeDragStep(double rate, double seconds)

@@ -33,11 +33,11 @@ namespace fx::sim {
 
 struct FlightBound
 {
-    double seconds = 0;      ///< [s] T
-    double speed = 0;        ///< [m/s] v
-    double acceleration = 0; ///< [m/s2] a
-    double air = 0;          ///< [m/s] u
-    double drag = 0;         ///< [1/s] k
+    double seconds = 0;      ///< [s] time of flight T
+    double speed = 0;        ///< [m/s] initial speed v
+    double acceleration = 0; ///< [m/s2] upper bound a of the acceleration
+    double air = 0;          ///< [m/s] upper bound u of the speed of the air
+    double drag = 0;         ///< [1/s] drag rate k
 };
 
 inline double flightBound(const FlightBound& b)

@@ -39,12 +39,12 @@ struct MotionState
 /// Collision with the ground.
 struct GroundContact
 {
-    float height;      ///< [m] -infinity for none
+    float height;      ///< [m] height of the ground; -infinity: no ground
     float restitution; ///< [1] 0..1
     float friction;    ///< [1] 0..1
 };
 
-/// State after a step that begins with `before`. `after` is the end of the free flight of `seconds`.
+/// State after a step that begins with `before`. `after` is the state after a free flight of `seconds` [s].
 inline MotionState bounce(const MotionState& before, const MotionState& after, float seconds,
                           const GroundContact& ground)
 {

@@ -1,6 +1,7 @@
 /// @file lanes-inl.h
-/// Elementary functions on vectors of particles. Included once for each instruction set. All instruction sets
-/// give the same bits, because every operation is correctly rounded and their order is the same.
+/// Elementary functions on vectors of particles. The file is included once for each instruction set. All
+/// instruction sets give the same bits, because every operation is correctly rounded and the order of
+/// operations is fixed.
 ///
 /// @formula drag-coefficients
 /// The coefficients of linear-drag-step in single precision, lane by lane.
@@ -60,9 +61,9 @@ HWY_INLINE Floats all(float x)
 /// Effect of drag and acceleration over a time, see linear-drag-step.
 struct DragLanes
 {
-    Floats decay; ///< [1] E
-    Floats gain;  ///< [s] G
-    Floats ramp;  ///< [s2] R
+    Floats decay; ///< [1] decay E
+    Floats gain;  ///< [s] gain G
+    Floats ramp;  ///< [s2] ramp R
 };
 
 /// e^-z for z >= 0.
@@ -83,7 +84,7 @@ HWY_INLINE Floats expMinus(Floats z)
 
 /// Coefficients of linear-drag-step for the drag rate k and the time t.
 /// @param perK 1 / k, where k > 0
-/// @tparam kDecay whether `decay` is required; the bits of the other two do not depend on it
+/// @tparam kDecay true: computes `decay`. The bits of `gain` and `ramp` do not depend on kDecay
 template <bool kDecay>
 HWY_INLINE DragLanes dragLanes(Floats k, Floats perK, Floats t)
 {
@@ -127,7 +128,7 @@ HWY_INLINE Floats secondsOf(const int64_t* HWY_RESTRICT born, int64_t now)
 #endif
 }
 
-/// As the function above, for differences below 2^32 ticks, from the low words of the times.
+/// [s] Time between two local times, from the low 32 bits of the times, for differences below 2^32 ticks.
 HWY_INLINE Floats secondsOf(const uint32_t* HWY_RESTRICT born, uint32_t now)
 {
     const Words ticks = hn::Sub(hn::Set(kWords, now), hn::LoadU(kWords, born));
@@ -141,13 +142,14 @@ HWY_INLINE Floats secondsOf(const uint32_t* HWY_RESTRICT born, uint32_t now)
 #endif
 }
 
-/// [1] in [0, 1) as base::toUnitFloat.
+/// Random numbers in [0, 1), with the same bits as base::toUnitFloat.
 HWY_INLINE Floats unitFloats(Words words)
 {
     return hn::ConvertTo(kFloats, hn::BitCast(kInts, hn::ShiftRight<8>(words))) * all(0x1.0p-24f);
 }
 
-/// Sine and cosine of `t` turns, |t| < 2^20, as in sine-cosine-of-turns; absolute error <= 2e-7.
+/// Sine and cosine of `t` [turns], |t| < 2^20, by formula sine-cosine-of-turns. The absolute error is at most
+/// 2e-7.
 struct SinCosLanes
 {
     Floats sin;

@@ -38,18 +38,18 @@ namespace fx::sim {
 struct ThermalFlow
 {
     glm::vec3 center{0.0f}; ///< [m]
-    glm::vec3 up{0.0f};     ///< direction in which the thermal rises, a unit vector; zero for no flow
-    float radius = 1;       ///< [m] a, > 0
-    float speed = 0;        ///< [m/s] U
+    glm::vec3 up{0.0f};     ///< direction in which the thermal rises, a unit vector; zero: no flow
+    float radius = 1;       ///< [m] radius a of the formula, > 0
+    float speed = 0;        ///< [m/s] speed U of the formula
     glm::vec3 mean{0.0f};   ///< [m/s] mean velocity u over the particles
 
     bool active() const { return speed != 0.0f; }
     /// [m/s] Velocity of the air at `position`, without ground.
     glm::vec3 velocity(const glm::vec3& position) const;
     /// [m/s] Velocity of the air at `position` above a ground plane.
-    /// @param height [m] of the ground, y; -infinity for none
+    /// @param height [m] y coordinate of the ground; -infinity: no ground
     glm::vec3 velocityAbove(float height, const glm::vec3& position) const;
-    /// The velocity minus the mean velocity over the cloud.
+    /// [m/s] Velocity minus the mean velocity over the particles.
     glm::vec3 circulation(const glm::vec3& position) const { return velocity(position) - mean; }
 };
 

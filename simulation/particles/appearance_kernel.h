@@ -43,8 +43,9 @@ struct AppearanceJob
     const ParticleStore* store;
     RowWindow rows;
     base::Ticks now;
-    base::Ticks motionBegin; ///< local time at which the motion of particles born before it began
-    glm::vec3 pull; ///< [m/s2] acceleration a + k u of (1), by gravity and wind; only for closed-form motion
+    base::Ticks motionBegin; ///< local time at which motion begins, for particles born before this time
+    glm::vec3 pull; ///< [m/s2] acceleration a + k u of equation (1), by gravity and wind; used only for
+                    ///< closed-form motion
     float secondsBack = kLongestStep; ///< [s] time since the previous snapshot, for bounds
 };
 
@@ -76,22 +77,22 @@ struct AppearanceBounds
     base::Bounds box() const;
 };
 
-/// Writes the rows [begin, end). `begin` is a multiple of kTilePadding; `end` is a multiple too or the
-/// window's count. All columns of empty rows are zero.
+/// Writes the rows [begin, end). `begin` must be a multiple of kTilePadding. `end` must be a multiple of
+/// kTilePadding or the window's count. All columns of empty rows are zero.
 AppearanceBounds writeAppearance(const AppearanceJob& job, const AppearanceColumns& out, uint32_t begin,
                                  uint32_t end);
 
-/// One of many groups that are written in one call.
+/// A group that writeManyAppearances() writes.
 struct AppearancePart
 {
     AppearanceJob job;
     float* storage;          ///< columns that the program publishes, see base::SnapshotGroup::editStorage()
     size_t group;            ///< index of the group in the snapshot
-    AppearanceBounds bounds; ///< out
+    AppearanceBounds bounds; ///< output: bounds of the particles
 };
 
-/// As writeAppearance() for all rows of each part, with the same bits; much faster for small parts.
-/// Consecutive parts of one program share the most work.
+/// Writes all rows of each part, with the same bits as writeAppearance(). The function is much faster for
+/// small parts, and fastest if parts of one program are consecutive.
 void writeManyAppearances(std::span<AppearancePart> parts);
 
 /// Positions and velocities of particles, for rows that are read one by one.
@@ -100,10 +101,10 @@ struct alignas(64) MotionTile
     float position[3][kTileRows];
     float velocity[3][kTileRows];
     float age[kTileRows];  ///< [s]
-    float life[kTileRows]; ///< [1] age over lifetime; values >= 1 and NaN mark empty rows
+    float life[kTileRows]; ///< [1] age divided by lifetime; values >= 1 and NaN mark empty rows
 };
 
-/// Fills the first `count` rows of a MotionTile from the rows of the store that begin at `row`, a multiple of
+/// Fills the first `count` rows of a MotionTile. The rows of the store begin at `row`, a multiple of
 /// kTilePadding.
 void readMotion(const AppearanceJob& job, uint32_t row, uint32_t count, MotionTile& out);
 

@@ -1,5 +1,5 @@
 /// @file appearance_lanes-inl.h
-/// The pass that writes groups of the kind "particle". Included once for each instruction set.
+/// The pass that writes groups of the kind "particle". The file is included once for each instruction set.
 #if defined(FX_PARTICLE_LOOK_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PARTICLE_LOOK_LANES_INL
 #undef FX_PARTICLE_LOOK_LANES_INL
@@ -89,8 +89,8 @@ public:
 
     /// Writes the rows [begin, end).
     /// @tparam kPlain ParticleProgram::plain
-    /// @tparam kStream true: plain columns are written with non-temporal stores; false: as
-    ///         AppearanceColumns::stream specifies
+    /// @tparam kStream true: plain columns are written with non-temporal stores; false:
+    ///         AppearanceColumns::stream decides
     template <bool kBallistic, bool kBrief, bool kPlain, bool kStream>
     void run(uint32_t begin, uint32_t end, AppearanceBounds& outBounds) const
     {
@@ -134,8 +134,8 @@ public:
         }
         bounds.store(outBounds);
     }
-    /// Executes vzeroupper, which the compiler omits here; otherwise the transition from AVX to SSE costs 60
-    /// ns.
+    /// Executes vzeroupper, which the compiler omits here. Without this instruction, the transition from AVX
+    /// to SSE costs 60 ns.
     static HWY_INLINE void leaveVectors()
     {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
@@ -144,8 +144,8 @@ public:
     }
 
 private:
-    /// Prefetch distance in rows. It covers the latency of memory and keeps the prefetched data within a
-    /// cache.
+    /// Prefetch distance in rows. The distance covers the latency of memory, and the prefetched data fit into
+    /// a cache.
     static constexpr uint32_t kAhead = 256;
 
     /// Indices of the curve pieces that the previous particles used.
@@ -176,7 +176,7 @@ private:
             hn::Store(color.high, kWides, to + kWidth / 2);
         }
     }
-    /// Mask of the rows that are neither in the gap nor beyond the window.
+    /// Mask of the rows that are in the window and outside of its gap.
     HWY_INLINE Which inWindow(uint32_t row) const
     {
         const auto rows = hn::Add(hn::Iota(kInts, 0), hn::Set(kInts, int32_t(row)));
@@ -185,7 +185,7 @@ private:
                                    hn::Lt(rows, hn::Set(kInts, int32_t(job_->rows.count))));
         return hn::RebindMask(kFloats, hn::Or(lower, upper));
     }
-    /// End of the whole vectors from `row` on whose rows are all in the window.
+    /// End of the whole vectors that begin at `row` and lie completely in the window.
     uint32_t insideFrom(uint32_t row) const
     {
         const RowWindow& rows = job_->rows;
@@ -278,8 +278,8 @@ HWY_INLINE void AppearanceLanes::write(uint32_t row, Which alive, const MotionLa
 }
 
 /// Extends the bounds. Sprites are stretched along their path unless they rotate. Particles born since the
-/// previous snapshot are drawn along their path since birth. They cannot be found by age, because the
-/// instance's time may run faster.
+/// previous snapshot are drawn along their path since birth. The age of a particle does not show whether it
+/// was born since then, because the instance's time may run faster.
 HWY_INLINE void AppearanceLanes::addMoving(Which alive, const MotionLanes& motion, Floats radius,
                                            BoundsLanes& bounds) const
 {

@@ -1,5 +1,5 @@
 /// @file birth_kernel.h
-/// Creates particles: draws their random attributes and writes them to their rows.
+/// Creates particles: draws random attributes and writes the particles to their rows.
 #pragma once
 
 #include "simulation/particles/birth.h"
@@ -17,7 +17,7 @@ struct BirthKey
 };
 
 /// Draws and stores `births`, at most as many as the store has rows, with consecutive ascending indices. A
-/// birth is left out if its row is occupied at its birth tick.
+/// birth is omitted if its row is occupied at its birth tick.
 /// @return number of stored births
 uint32_t storeBirths(const ParticleProgram& program, const BirthKey& key, std::span<const Birth> births,
                      ParticleStore& store);
@@ -28,12 +28,12 @@ struct ScatteredBirth
     ParticleStore* store;
     uint64_t seed;
     Birth birth;
-    uint32_t row;  ///< its row by ParticleStore::rowOf()
+    uint32_t row;  ///< row of the birth by ParticleStore::rowOf()
     bool isStored; ///< result: false if the row was occupied
 };
 
-/// As storeBirths() for births in different emitters, with the bits of separate emitters. The births of one
-/// emitter are in order and have different rows.
+/// Draws and stores births in different emitters, with the same bits as storeBirths() for each emitter. The
+/// births of one emitter are in order and have different rows.
 void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<ScatteredBirth> births);
 
 /// A birth in one of many emitters that share the rows of one store.
@@ -44,8 +44,8 @@ struct PooledBirth
     uint64_t seed;
 };
 
-/// As storeBirths() for emitters that share a store. Indices are consecutive and ascending; the rows must be
-/// free.
+/// Draws and stores births of emitters that share a store. Indices are consecutive and ascending. The rows
+/// must be free.
 void storePooled(const ParticleProgram& program, uint32_t solver, std::span<const PooledBirth> births,
                  ParticleStore& store);
 

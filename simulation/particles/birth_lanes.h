@@ -24,7 +24,8 @@
 
 namespace fx::sim {
 
-/// Working columns of up to kTileRows births; rows up to the next multiple of kTilePadding are written too.
+/// Working columns of up to kTileRows births. The rows up to the next multiple of kTilePadding are also
+/// written.
 struct alignas(64) BirthTile
 {
     float u[4][kTileRows];       ///< [1] random numbers of the last draw
@@ -40,7 +41,7 @@ struct alignas(64) BirthTile
     bool seedsDiffer = false;
 };
 
-/// Draws four uniform numbers for each birth, as base::randomUnit4.
+/// Draws four uniform numbers for each birth, with the same bits as base::randomUnit4.
 /// @param seed seed of all births, unless tile.seedsDiffer is set
 void drawUnits(const BirthTile& tile, uint64_t seed, uint32_t solver, uint32_t purpose,
                float (*out)[kTileRows]);
@@ -53,8 +54,9 @@ enum class LaneShape : uint8_t
     Cone
 };
 
-/// Fills position (relative to the shape's center) and direction from u and heading.
-/// @param size as EmitterDef::size
+/// Computes position and direction from `u` and `heading`. The position is relative to the center of the
+/// shape.
+/// @param size size of the shape, see EmitterDef::size
 /// @param cosLimit cosine of the cone's half angle
 void sampleShape(LaneShape shape, const glm::vec3& size, float cosLimit, BirthTile& tile);
 

@@ -35,7 +35,7 @@ public:
             row = row + 1 == store_.capacity() ? 0 : row + 1;
         }
     }
-    /// Pointer to the first value of a column if the rows are contiguous; otherwise null.
+    /// Pointer to the first value of a column if the rows are contiguous; null if not.
     float* run(size_t column) const
     {
         const uint32_t row = store_.rowOf(births_[0].index);

@@ -14,8 +14,8 @@ namespace fx::sim {
 /// Appends the built-in modules that `def` needs, in the order of execution.
 void addBuiltinOps(const EmitterSettings& def, std::vector<std::shared_ptr<const TileOp>>& ops);
 
-/// Reflects the rows below the ground that are neither Empty nor Stuck, and marks them Hit and Collided.
-/// Gives the bits of bounce() for each row.
+/// Reflects the particles below the ground that are neither Empty nor Stuck, and marks them Hit and Collided.
+/// The result has the same bits as bounce() for each row.
 void bounceTile(const GroundContact& ground, Tile& tile);
 
 } // namespace fx::sim

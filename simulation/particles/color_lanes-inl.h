@@ -1,6 +1,6 @@
 /// @file color_lanes-inl.h
-/// Converts four floats per particle to four binary16 values in 64 bits. Included once for each instruction
-/// set.
+/// Converts four floats per particle to four binary16 values in 64 bits. The file is included once for each
+/// instruction set.
 ///
 /// @formula half-floats
 /// Converts a float in [0, 65504] to binary16, to nearest, ties to even, as the conversion instruction does.
@@ -61,7 +61,7 @@ HWY_INLINE Words halfWords(Floats bounded)
 }
 #endif
 
-/// The colors of kWidth particles. With one lane, `low` contains all of them.
+/// The colors of kWidth particles. With one lane, `low` contains all four values.
 struct ColorLanes
 {
     hn::Vec<WideTag> low;
@@ -79,7 +79,7 @@ HWY_INLINE ColorLanes packColor(const Floats* rgb, Floats opacity)
     };
     const __m512i redBlue = pair(rgb[0], rgb[2]);
     const __m512i greenOpacity = pair(rgb[1], opacity);
-    // Words of two channels: particles 0..3 and 8..11 in the first, the others in the second.
+    // Words of two channels. `first` has the particles 0..3 and 8..11, the second vector has 4..7 and 12..15.
     const __m512i first = _mm512_unpacklo_epi16(redBlue, greenOpacity);
     const __m512i second = _mm512_unpackhi_epi16(redBlue, greenOpacity);
     const __m512i low = _mm512_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11, 16, 24, 17, 25, 18, 26, 19, 27);

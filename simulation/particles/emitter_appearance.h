@@ -14,13 +14,13 @@ enum class AppearanceKind : uint8_t
     Medium, ///< balls of participating medium, published as the kind "blob"
     Sprite, ///< sprites, published as the kind "particle"
     Mesh,   ///< instanced meshes, published as the kind "particle"
-    None,   ///< no particles are published: they only cause births of other particles
+    None,   ///< particles are not published; they only cause births of other particles
 };
 
 /// Selection of the frame of a flipbook texture.
 enum class FrameClock : uint8_t
 {
-    None,      ///< constant frame: the first one, or a random one within `firstFrame`
+    None,      ///< constant frame, drawn at random from the range `firstFrame`
     OverLife,  ///< all frames in order, once between birth and death
     PerSecond, ///< `framesPerSecond` frames per second, repeated from the first frame
 };
@@ -54,7 +54,7 @@ struct EmitterAppearance
     base::Range opacity{1.0f, 1.0f};
     base::Range brightness{1.0f, 1.0f}; ///< [1] factor on the color
 
-    base::Range angle{0.0f, 0.0f}; ///< [rad] at birth
+    base::Range angle{0.0f, 0.0f}; ///< [rad] rotation angle at birth
     base::Range spin{0.0f, 0.0f};  ///< [rad/s]
     FrameClock frames = FrameClock::None;
     float framesPerSecond = 0.0f;

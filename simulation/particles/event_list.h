@@ -48,7 +48,7 @@ namespace fx::sim {
 enum class EventKind : uint8_t
 {
     Birth,
-    Age, ///< the particle has reached the age that its rule states
+    Age, ///< the particle has reached the age in the rule
     Collision,
     Death,
     Host, ///< the host has triggered the event
@@ -64,21 +64,21 @@ struct ParticleEvent
     glm::vec3 position;     ///< [m]
     glm::vec3 velocity;     ///< [m/s]
     glm::vec3 color{1.0f};  ///< [1] color of the particle, linear Rec. 709; set only if a rule needs it
-    bool scheduled = false; ///< true: the schedule or the host caused the event, not a particle
-    /// For EventKind::Age: index among the ages of the emitter. For Collision: see TileContact.
+    bool scheduled = false; ///< true: the schedule or the host caused the event; false: a particle caused it
+    /// For EventKind::Age: index among the ages of the emitter. For EventKind::Collision: see TileContact.
     uint32_t number = 0;
     float speed = 0.0f;  ///< [m/s] for EventKind::Collision: see TileContact
     bool isLast = false; ///< for EventKind::Collision: see TileContact
 };
 
-/// The order (3).
+/// The order of events by equation (3).
 inline bool happensBefore(const ParticleEvent& a, const ParticleEvent& b)
 {
     return std::tuple(a.tick, a.scheduled, a.emitter, a.index, a.kind, a.number) <
            std::tuple(b.tick, b.scheduled, b.emitter, b.index, b.kind, b.number);
 }
 
-/// The tick of a contact, (1).
+/// The tick of a contact by equation (1).
 inline base::Ticks contactTick(base::Ticks begin, base::Ticks ticks, float contact)
 {
     const double share = double(contact > 0.0f ? (contact < 1.0f ? contact : 1.0f) : 0.0f);
@@ -105,8 +105,8 @@ public:
             add(event);
         dropped_ += other.dropped_;
     }
-    /// Sorts the events into processing order by heap sort, without allocation. The keys of different events
-    /// differ, so the order is unique.
+    /// Sorts the events into processing order by heap sort, without allocation. The order is unique, because
+    /// different events have different keys.
     void sort()
     {
         std::make_heap(room_.begin(), room_.begin() + ptrdiff_t(count_), happensBefore);

@@ -7,7 +7,8 @@
 
 namespace fx::sim {
 
-/// Creates an event of row `i` at a share of its part of the step, without position and velocity.
+/// Creates an event of row `i`, without position and velocity. `share` is the time of the event as a fraction
+/// of the row's part of the step.
 inline ParticleEvent eventAt(const TileContext& context, const Tile& tile, uint32_t i, float share,
                              EventKind kind)
 {

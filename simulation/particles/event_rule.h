@@ -9,8 +9,8 @@
 namespace fx::sim {
 
 constexpr uint32_t kMaxEventAges = 256; ///< maximum number of ages for one emitter, repetitions included
-/// [m/s] Default minimum speed against the surface at a contact, the speed after a fall of 13 mm. A bouncing
-/// particle with a lower speed counts as resting.
+/// [m/s] Default minimum speed against the surface at a contact. A particle has this speed after a fall of 13
+/// mm. A bouncing particle with a lower speed counts as resting.
 constexpr float kUsualContactSpeed = 0.5f;
 
 /// Rule of an emitter: an event of one of its particles causes births in another emitter.
@@ -25,18 +25,20 @@ struct EventRule
     float minLastSpeed = 0.0f;
     uint32_t hostEvent = 0; ///< for EventKind::Host: index in EffectDef::hostEvents
     uint32_t target = 0;    ///< solver index of the emitter in which births happen
-    uint32_t fewest = 1;    ///< number of births that one event causes, a random number in [fewest, most]
+    uint32_t fewest =
+        1; ///< smallest number of births that one event causes; the number is random in [fewest, most]
     uint32_t most = 1;
     float probability = 1.0f;     ///< [1] probability that an event causes births, 0..1
-    float inheritVelocity = 0.0f; ///< [1] share of the particle's velocity that is added to births, 0..1
-    /// [1] weight, 0..1, by which the color of births is blended with its product with the particle's color
+    float inheritVelocity = 0.0f; ///< [1] fraction of the particle's velocity that is added to births, 0..1
+    /// [1] Weight w of the particle's color, 0..1. The color of a birth is multiplied by (1 - w) + w times
+    /// the particle's color.
     float inheritColor = 0.0f;
 };
 
 /// Births that one event causes in the target emitter.
 struct EventBirth
 {
-    ParticleEvent cause; ///< event; births inherit its velocity
+    ParticleEvent cause; ///< event that causes the births; births inherit the velocity of the event
     uint32_t rule;       ///< index among the rules of the emitter in which the event happened
     uint32_t count;
 };

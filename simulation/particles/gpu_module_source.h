@@ -7,15 +7,15 @@
 
 namespace fx::sim {
 
-/// A TileOp that implements this interface can run on the GPU; any other TileOp runs on the CPU only.
-/// Immutable.
+/// A TileOp that implements this interface can run on the GPU; any other TileOp runs on the CPU only. Objects
+/// are immutable.
 class GpuModuleSource
 {
 public:
     virtual ~GpuModuleSource() = default;
-    /// Describes the module to `out`. @return false if only the CPU can compute it
+    /// Describes the module to `out`. @return false if only the CPU can compute the module
     virtual bool describe(base::GpuModules& out) const = 0;
-    /// Writes the scratch data of prepare() as words for the GPU, in the number requested by describe().
+    /// Writes the scratch data of prepare() as words for the GPU. describe() defines the number of words.
     virtual void writeWords(const void* /*scratch*/, uint32_t* /*out*/) const {}
 };
 

@@ -1,5 +1,6 @@
 /// @file motion_lanes-inl.h
-/// Positions of particles at a time, and curves over their lives. Included once for each instruction set.
+/// Positions of particles at a time, and curves over their lives. The file is included once for each
+/// instruction set.
 #if defined(FX_PARTICLE_MOTION_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PARTICLE_MOTION_LANES_INL
 #undef FX_PARTICLE_MOTION_LANES_INL
@@ -15,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 
-/// Values of an attribute, either stored in rows or constant for all particles.
+/// Values of an attribute, which are stored in rows or constant for all particles.
 struct Source
 {
     const float* rows;
@@ -70,9 +71,9 @@ public:
         longest_ = float(base::toSeconds(job.now - job.motionBegin));
     }
 
-    /// Reads the motion of the particles in the rows from `row` on.
-    /// @tparam kDeadStay true: dead particles are not moved, so that less data is read; their positions are
-    ///         arbitrary
+    /// Reads the motion of the particles in the rows that begin at `row`.
+    /// @tparam kDeadStay true: dead particles are not moved, so that less data is read. The positions of dead
+    ///         particles are then arbitrary
     template <bool kVelocity, bool kDeadStay>
     HWY_INLINE MotionLanes read(uint32_t row) const
     {

@@ -2,10 +2,10 @@
 /// The particles of one emitter of one instance, stored in a ring of rows.
 ///
 /// The particle with birth index i occupies row i mod capacity for its whole lifetime. The row depends only
-/// on i, so any division of time into steps, and any seek, gives the same rows. A birth whose row is still
-/// occupied is dropped. Columns are filled in order of birth and never moved. All columns are in one block of
-/// memory, beginning with the columns that every publication reads, so that a small emitter uses few cache
-/// lines.
+/// on i. Therefore the rows do not depend on the division of time into steps, or on seeks. A birth whose row
+/// is still occupied is dropped. Columns are filled in order of birth and never moved. All columns are in one
+/// block of memory. The columns that every publication reads come first, so that a small emitter uses few
+/// cache lines.
 #pragma once
 
 #include "foundation/memory/column.h"
@@ -30,7 +30,7 @@ struct RowWindow
     uint32_t gapEnd = 0;
 };
 
-/// A column in the memory of the store; null if the store does not have it.
+/// A column in the memory of the store; null if the store does not have the column.
 template <class T>
 class StoredColumn
 {
@@ -86,7 +86,7 @@ public:
     {
         return values[column].data() ? values[column][row] : constant[column];
     }
-    /// Whether the particle in `row` is alive. Uses the same comparison as the kernels.
+    /// True if the particle in `row` is alive. The comparison is the same as in the kernels.
     bool isAlive(uint32_t row, base::Ticks now) const;
     /// [s] Age of the particle in `row`, with the same bits as in the kernels.
     float ageOf(uint32_t row, base::Ticks now) const;
@@ -94,7 +94,7 @@ public:
     /// Marks the indices [next(), next() + count) as used by births.
     void advance(uint64_t count) { next_ += count; }
     uint64_t next() const { return next_; }
-    /// birth index of the oldest particle that may be alive; next() if none is
+    /// Birth index of the oldest particle that may be alive; next() if no particle is alive.
     uint64_t front() const { return front_; }
     /// Removes rows without living particles at the old end of the window.
     void retire(base::Ticks now)
@@ -103,8 +103,8 @@ public:
             retireFront(now);
     }
     uint32_t countAlive(base::Ticks now) const;
-    /// [tick] Time up to which the particles of all rows are certainly alive; valid only if particles die of
-    /// age alone.
+    /// [tick] Time up to which the particles of all rows are certainly alive. Valid only if no event or
+    /// module kills particles.
     base::Ticks allLiveUntil() const;
     bool isAnyAlive(base::Ticks now) const
     {
@@ -112,26 +112,28 @@ public:
     }
     /// Empties all rows; the next birth has index `next`.
     void clear(uint64_t next);
-    /// Empties all rows. The birth indices [front, next) count as used. The caller then writes the particles
-    /// with some of these indices to their rows; one of them is the particle `front`.
+    /// Empties all rows. The birth indices [front, next) count as used. The caller then writes particles with
+    /// these indices to their rows, at least the particle `front`.
     void clear(uint64_t front, uint64_t next, base::Ticks now);
     /// Copies a particle from a store of the same program into `row`, with its index and birth.
     void copyRow(const ParticleStore& from, uint32_t fromRow, uint32_t row, const Birth& birth);
-    /// Kills the particle in `row`. If the program is `brief`, the mark is valid until the row leaves the
-    /// window, at most 3 s from now.
+    /// Kills the particle in `row`. If the program is `brief`, the row counts as dead until it leaves the
+    /// window, which takes at most 3 s.
     void endRow(uint32_t row, base::Ticks now);
 
     void save(StateWriter& writer, base::Ticks now) const;
-    void saveEmpty(StateWriter& writer) const; ///< like save(), as if all particles alive now had died
+    void saveEmpty(StateWriter& writer) const; ///< saves the store without particles, in the format of save()
     /// Restores the output of save().
-    /// @param now [tick] local time of the state: living particles are born before it and die after it
+    /// @param now [tick] local time of the state; the birth of a living particle is before `now`, and its
+    /// death
+    ///         after `now`
     void restore(StateReader& reader, base::Ticks now);
 
 private:
     // Members that every step and publication reads, adjacent for the cache.
     uint64_t front_ = 0; ///< birth index of the oldest particle that may be alive
     uint64_t next_ = 0;
-    /// time until which the particle front_ lives, unless an event kills it earlier
+    /// Time at which the particle front_ dies of age.
     base::Ticks frontUntil_ = 0;
     uint32_t capacity_;
     bool brief_;
@@ -140,11 +142,11 @@ private:
 
 public:
     bool placed; ///< false: all particles began at one position, so that the columns X, Y, Z are not used
-    StoredColumn<uint32_t> bornShort; ///< low 32 bits of `born`; only if the program is `brief`
-    std::array<StoredColumn<float>, stored::Count> values; ///< empty when not stored
+    StoredColumn<uint32_t> bornShort; ///< low 32 bits of `born`; present only if the program is `brief`
+    std::array<StoredColumn<float>, stored::Count> values; ///< empty if not stored
     StoredColumn<uint64_t> index;   ///< birth index of the particle that lives or last lived in the row
-    StoredColumn<base::Ticks> born; ///< local time
-    StoredColumn<uint32_t> flags;   ///< bits of tile_flag; only if a module keeps them
+    StoredColumn<base::Ticks> born; ///< local time of the birth
+    StoredColumn<uint32_t> flags;   ///< bits of tile_flag; present only if a module stores flags
     std::array<float, stored::Count> constant;
 
 private:

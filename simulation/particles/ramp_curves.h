@@ -1,5 +1,5 @@
 /// @file ramp_curves.h
-/// Several curves over the same parameter, compiled for evaluation in vectors.
+/// Several curves over the same parameter, in a form for SIMD evaluation.
 ///
 /// @formula ramp-curves
 /// A piecewise linear function as a sum of ramps.
@@ -36,12 +36,13 @@ namespace fx::sim {
 
 constexpr uint32_t kMaxRamps = 8;
 constexpr uint32_t kMaxChannels = 8;
-constexpr uint32_t kPieceRoom = 16; ///< maximum number of pieces, padded to the width of the widest vector
+constexpr uint32_t kPieceRoom =
+    16; ///< maximum number of pieces, rounded up to the width of the widest SIMD vector
 
 struct RampCurves
 {
     /// Converts sampled curves to ramps.
-    /// @param channels for each channel the values at the 65 equally spaced samples of base::Curve
+    /// @param channels for each channel, the values at the 65 equally spaced samples of base::Curve
     explicit RampCurves(std::span<const std::array<float, base::kCurveSamples + 1>> channels);
 
     /// Smallest or largest sample of a channel.
@@ -51,17 +52,17 @@ struct RampCurves
 
     uint32_t channels = 0;
     uint32_t varying = 0; ///< bit c is set if channel c is not constant
-    bool byTable = false; ///< whether the curves are evaluated by (3) instead of (2)
+    bool byTable = false; ///< true: the curves are evaluated by equation (3); false: by equation (2)
     uint32_t ramps = 0;   ///< number of ramps, one less than the number of pieces
-    /// t_i, begin of piece i; -infinity for the first, +infinity after the last piece
+    /// t_i, beginning of piece i; -infinity for the first piece, +infinity after the last piece
     std::array<float, kPieceRoom + 1> from{};
-    /// a_i, values at the begin of pieces; the last value is repeated
+    /// a_i, values at the beginning of pieces; the last value is repeated
     std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceStart{};
-    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceSlope{}; ///< b_i
-    std::array<float, kMaxRamps> at{};                                    ///< t_k
-    std::array<float, kMaxChannels> start{};                              ///< c
-    std::array<float, kMaxChannels> slope{};                              ///< s
-    std::array<std::array<float, kMaxRamps>, kMaxChannels> bend{};        ///< d_k
+    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceSlope{}; ///< slopes b_i of pieces
+    std::array<float, kMaxRamps> at{};                             ///< parameters t_k at which slopes change
+    std::array<float, kMaxChannels> start{};                       ///< values c at 0
+    std::array<float, kMaxChannels> slope{};                       ///< slopes s from 0 to t_1
+    std::array<std::array<float, kMaxRamps>, kMaxChannels> bend{}; ///< changes d_k of the slope at t_k
     std::array<std::array<float, base::kCurveSamples + 1>, kMaxChannels> table{};
 };
 

@@ -25,7 +25,7 @@ struct GroupPlace
     const base::GroupInfo& base;
 };
 
-/// Adds a group of `rows` particles, whose columns are filled afterwards.
+/// Adds a group of `rows` particles. The caller fills the columns afterwards.
 base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, uint32_t rows,
                              const GroupPlace& place, base::FrameSnapshot& snapshot);
 

@@ -1,13 +1,14 @@
 /// @file tile.h
 /// Working set of an emitter's modules: a tile of particles whose columns fit into the L1 cache.
 ///
-/// An emitter whose motion has no closed form is stepped tile by tile. A tile is loaded from the store, all
-/// modules process it in order of phase, and it is stored. Memory is therefore read and written once, for any
-/// number of modules. Rows without a living particle are loaded too: they have seconds 0 and the flag Empty,
-/// and their results are discarded. Arithmetic consists of multiplications and additions in a fixed order (no
-/// fused multiply-add, no sums across rows), so every vector width gives the same bits.
+/// An emitter whose motion has no closed form is stepped tile by tile. A tile is loaded from the store,
+/// processed by all modules in the order of phases, and stored. Memory is therefore read and written once,
+/// for any number of modules. Rows without a living particle are also loaded. These rows have seconds 0 and
+/// the flag Empty, and their results are discarded. Modules use multiplications and additions in a fixed
+/// order, without fused multiply-add and without sums over rows. Therefore every vector width gives the same
+/// bits.
 ///
-/// Threads: several threads process tiles of one step at once; modules keep no mutable state.
+/// Threads: several threads process tiles of one step at once; modules have no mutable state.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -24,15 +25,15 @@ namespace fx::sim {
 constexpr uint32_t kTileRows = 256;
 constexpr uint32_t kTilePadding = 16; ///< modules may process rows up to the next multiple of this number
 
-/// Bits of Tile::flags. Stuck and Collided are kept from step to step; the others are set for one step.
+/// Bits of Tile::flags. Stuck and Collided persist from step to step. The other flags are set for one step.
 namespace tile_flag {
 enum : uint32_t
 {
     Stuck = 1,    ///< at rest permanently
     Collided = 2, ///< the particle has had a contact during its life
-    Empty = 4,    ///< no particle lives here
-    Hit = 8,      ///< the particle has a contact in this step, at the share `contact` of its path
-    Killed = 16,  ///< a module has killed the particle in this step, at the share `contact` of its path
+    Empty = 4,    ///< the row has no living particle
+    Hit = 8,      ///< the particle has a contact in this step; Tile::contact is the time of the contact
+    Killed = 16,  ///< a module has killed the particle in this step; Tile::contact is the time of its death
 };
 }
 
@@ -40,38 +41,39 @@ enum : uint32_t
 /// hold finite numbers.
 struct alignas(64) Tile
 {
-    /// [m] local position: before TilePhase::Integrate at the begin of the step, afterwards at its end
+    /// [m] Local position. Before TilePhase::Integrate, it is the position at the beginning of the step;
+    /// after this phase, at the end.
     float x[kTileRows];
     float y[kTileRows];
     float z[kTileRows];
     float vx[kTileRows]; ///< [m/s] velocity
     float vy[kTileRows];
     float vz[kTileRows];
-    float fromX[kTileRows]; ///< [m] position at the begin of the row's part of the step
+    float fromX[kTileRows]; ///< [m] position at the beginning of the row's part of the step
     float fromY[kTileRows];
     float fromZ[kTileRows];
-    float fromVX[kTileRows]; ///< [m/s] velocity at the begin of the row's part of the step
+    float fromVX[kTileRows]; ///< [m/s] velocity at the beginning of the row's part of the step
     float fromVY[kTileRows];
     float fromVZ[kTileRows];
-    float ax[kTileRows]; ///< [m/s2] sum of accelerations; forces add to it
+    float ax[kTileRows]; ///< [m/s2] sum of the accelerations by all forces
     float ay[kTileRows];
     float az[kTileRows];
-    float ux[kTileRows]; ///< [m/s] velocity of the air; forces add to it
+    float ux[kTileRows]; ///< [m/s] velocity of the air, a sum over all forces
     float uy[kTileRows];
     float uz[kTileRows];
-    float drag[kTileRows]; ///< [1/s] rate of linear drag towards the air, >= 0; forces add to it
-    /// [1/m] coefficient q of quadratic drag, >= 0: acceleration -q |v - u| (v - u); forces add to it
+    float drag[kTileRows]; ///< [1/s] rate of linear drag towards the air, >= 0, a sum over all forces
+    /// [1/m] Coefficient q >= 0 of the quadratic drag -q |v - u| (v - u), a sum over all forces.
     float quadratic[kTileRows];
-    /// [s] age at the begin of the row's part of the step; 0 for a row born within the step
+    /// [s] age at the beginning of the row's part of the step; 0 for a particle born within the step
     float age[kTileRows];
-    /// [s] length of the row's part of the step; shorter for a row born within the step, 0 if Empty
+    /// [s] length of the row's part of the step; shorter for a particle born within the step, 0 if Empty
     float seconds[kTileRows];
-    float life[kTileRows];   ///< [1] age / lifetime at the begin of the row's part of the step, 0..1
-    float excess[kTileRows]; ///< [K] temperature above that of the air
-    /// [1] time of the contact as a share of the row's part of the step, 0..1; set together with Hit or
-    /// Killed
+    float life[kTileRows];   ///< [1] age / lifetime at the beginning of the row's part of the step, 0..1
+    float excess[kTileRows]; ///< [K] difference between the temperatures of particle and air
+    /// [1] Time of the contact as a fraction of the row's part of the step, 0..1. Set together with Hit or
+    /// Killed.
     float contact[kTileRows];
-    uint32_t indexLow[kTileRows]; ///< birth index; it forms the counter words 0 and 1 of base::philox
+    uint32_t indexLow[kTileRows]; ///< birth index, which forms the counter words 0 and 1 of base::philox
     uint32_t indexHigh[kTileRows];
     uint32_t flags[kTileRows]; ///< tile_flag
     uint32_t count;            ///< rows in use
@@ -82,18 +84,19 @@ struct alignas(64) Tile
 /// One contact of a row in its part of the step.
 struct TileContact
 {
-    float share;        ///< [1] time of the contact as a share of the row's part of the step, 0..1
+    float share;        ///< [1] time of the contact as a fraction of the row's part of the step, 0..1
     float speed;        ///< [m/s] speed against the surface along its normal, just before the contact, >= 0
     glm::vec3 position; ///< [m]
-    glm::vec3 velocity; ///< [m/s] velocity just after the contact; of killed particles, just before it
-    bool isLast;        ///< true if the particle dies or sticks at this contact
-    uint32_t number;    ///< lower bound of the number of previous contacts of the row in this step
+    glm::vec3
+        velocity;    ///< [m/s] velocity just after the contact; just before the contact if the particle dies
+    bool isLast;     ///< true if the particle dies or sticks at this contact
+    uint32_t number; ///< lower bound of the number of previous contacts of the row in this step
 };
 
 struct TileContext;
 
-/// Interface that receives every contact when it begins. It is called by several threads at once, for
-/// different tiles.
+/// Interface that receives every contact when it begins. Several threads call the listener at the same time,
+/// for different tiles.
 class ContactListener
 {
 public:
@@ -109,14 +112,14 @@ struct TileContext
     base::Ticks end;                     ///< local time at which the step ends
     glm::vec3 wind;                      ///< [m/s] sum of the winds of effect, host and emitter
     double begin;                        ///< [s] local time at which the step begins
-    float seconds;                       ///< [s] its length
+    float seconds;                       ///< [s] length of the step
     ContactListener* listener = nullptr; ///< receives contacts; null: contacts are not collected
 };
 
 /// Phases of the step of a tile, in which modules run.
 enum class TilePhase : uint8_t
 {
-    /// adds to acceleration, air velocity and drag; reads position and velocity at the begin of the step
+    /// adds to acceleration, air velocity and drag; reads position and velocity at the beginning of the step
     Force,
     Integrate, ///< built in: moves every row over its part of the step
     Contact,   ///< corrects the path from `from` to x, y, z: collisions, kill volumes
@@ -128,28 +131,27 @@ struct TileBound
 {
     float acceleration = std::numeric_limits<float>::infinity(); ///< [m/s2]
     float air = 0.0f; ///< [m/s] largest velocity that the module adds to the air
-    /// true if the module accelerates particles towards the air's velocity by something other than linear
-    /// drag
+    /// true if the module accelerates particles towards the velocity of the air without linear drag
     bool followsAir = false;
 };
 
-/// A compiled module. It is immutable and shared by all instances and threads.
+/// A compiled module. Modules are immutable. All instances and threads share them.
 class TileOp
 {
 public:
     virtual ~TileOp() = default;
     virtual TilePhase phase() const = 0;
-    /// [byte] Size of the memory that prepare() fills once a step and that all tiles of the step read. It is
-    /// aligned to 64 bytes.
+    /// [byte] Size of the module's data for one step. prepare() writes the data once per step, and all tiles
+    /// of the step read it. The memory is aligned to 64 bytes.
     virtual size_t scratchBytes() const { return 0; }
     virtual void prepare(const TileContext&, void* /*scratch*/) const {}
     virtual void run(const TileContext& context, const void* scratch, Tile& tile) const = 0;
-    /// Upper bounds of the effect of the module, from which distances of particles are bounded; unbounded by
-    /// default.
+    /// Upper bounds of the effect of the module; unbounded by default. From these bounds, upper bounds of the
+    /// distances of particles are computed.
     virtual TileBound bound() const { return {}; }
-    /// Whether the tile flags Stuck or Collided must be kept after the step.
+    /// True if the tile flags Stuck or Collided must be stored after the step.
     virtual bool keepsFlags() const { return false; }
-    /// Whether the module depends on StepContext::collider.
+    /// True if the module depends on StepContext::collider.
     virtual bool collides() const { return false; }
 };
 
@@ -161,15 +163,15 @@ public:
 
     struct Births
     {
-        /// [1] uniform random numbers in [0, 1) for the position, four per birth in one array each
+        /// [1] Uniform random numbers in [0, 1) for the position: four arrays with one number per birth.
         const float* place[4];
         const float* heading[4]; ///< [1]
-        float* position[3];      ///< [m] out, local
-        float* direction[3];     ///< [1] out, unit vectors
+        float* position[3];      ///< [m] output: local positions
+        float* direction[3];     ///< [1] output: unit vectors
         uint32_t count;
     };
     virtual void sample(const Births& births) const = 0;
-    /// [m] Upper bound of the distance of births from the origin; infinite when unknown.
+    /// [m] Upper bound of the distance of births from the origin; infinite if unknown.
     virtual float extent() const { return std::numeric_limits<float>::infinity(); }
 };
 

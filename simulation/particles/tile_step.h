@@ -1,6 +1,6 @@
 /// @file tile_step.h
-/// Steps particles whose motion has no closed form: loads them into a tile, runs all modules on it, and
-/// stores it.
+/// Steps particles whose motion has no closed form. The particles are loaded into a tile, all modules process
+/// the tile, and the tile is stored.
 #pragma once
 
 #include "simulation/particles/particle_store.h"
@@ -17,22 +17,22 @@ struct PreparedOp
 };
 
 /// Interface that is called for each tile after its modules have run and before the tile is stored, and for
-/// each contact while the modules run. It is called by several threads at once.
+/// each contact while the modules run. Several threads call the interface at the same time.
 class TileWatch : public ContactListener
 {
 public:
     virtual void see(const TileContext& context, const Tile& tile, const ParticleStore& store) = 0;
 };
 
-/// One step of one emitter. Rows may be stepped by several threads at once.
+/// One step of one emitter. Several threads may step rows at the same time.
 class TileStep
 {
 public:
     /// Prepares a step: calls prepare() of all modules.
     TileStep(const ParticleProgram& program, const StepContext& step);
 
-    /// Steps those rows in [begin, end) of `store` that are in its window. `begin` is a multiple of
-    /// kTilePadding.
+    /// Steps the rows of `store` that are in [begin, end) and in the window of the store. `begin` must be a
+    /// multiple of kTilePadding.
     void run(ParticleStore& store, uint32_t begin, uint32_t end) const;
 
     /// Restricts the step to particles whose index is at least `first`.

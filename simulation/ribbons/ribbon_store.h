@@ -64,15 +64,15 @@ public:
     };
     /// Adds the points of a step, within the work budget. `job` describes the particles at the end of the
     /// step.
-    /// @param ioRow row of the next particle, 0 at first
-    /// @return whether all particles have been processed
+    /// @param ioRow row of the next particle; 0 for the first call
+    /// @return true if all particles have been processed
     bool follow(const AppearanceJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work);
     bool empty() const { return count_ == 0; }
     /// Maximum number of rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
-    /// Writes all trails at `now`, as BudgetedSolver::proceedPublication().
-    /// @param past [tick] time before `now` for which the tails must be known; trails are longer by about
-    ///             this time
+    /// Writes all trails at `now`. See BudgetedSolver::proceedPublication() for the budget.
+    /// @param past [tick] time before `now` for which the ends of trails must be known. Trails are longer by
+    ///         about this time
     bool publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group, PublicationPlace& ioPlace,
                  base::WorkBudget& work) const;
     void clear();
@@ -115,7 +115,7 @@ private:
     uint32_t rows_;
     base::Ticks lifetime_;
     base::Ticks interval_;
-    uint32_t count_ = 0; ///< trails that have points
+    uint32_t count_ = 0; ///< number of trails that have points
     std::pmr::vector<Trail> trails_;
     base::Column<Point> points_;
 };

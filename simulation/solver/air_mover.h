@@ -8,14 +8,14 @@
 
 namespace fx::sim {
 
-/// Maximum number of thermals of an effect that other effects follow; further ones are ignored.
+/// Maximum number of thermals of an effect that other effects follow. Further thermals are ignored.
 constexpr size_t kMaxThermals = 8;
 
 /// A solver whose matter moves the surrounding air. See Solver::airMover().
 class AirMover
 {
 public:
-    /// The air flow in the present state. It depends only on the state and the arguments.
+    /// The air flow in the present state. The result depends only on the state and the arguments.
     /// @param gravity [m/s2] local gravity
     /// @param wind [m/s] local wind
     virtual ThermalFlow thermal(const glm::vec3& gravity, const glm::vec3& wind) const = 0;

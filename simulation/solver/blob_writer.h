@@ -47,7 +47,7 @@ public:
     float& constant(size_t index) { return group_.editConstants()[index]; }
     void copy(size_t index, const float* values) { copy(index, values, 0, count_); }
     void fill(size_t index, float value) { fill(index, value, 0, count_); }
-    /// As the function above, but only for the rows [begin, end).
+    /// Copies the values of a column for the rows [begin, end).
     void copy(size_t index, const float* values, uint32_t begin, uint32_t end)
     {
         std::copy(values + begin, values + end, column(index) + begin);
@@ -60,8 +60,8 @@ public:
     void closeBounds() { addBounds(0, count_); } ///< computes the bounds of all rows
     /// Extends the bounds by the rows [begin, end), which have been written. The bounds contain the balls,
     /// stretched along their path by the open shutter, at any time since the previous snapshot. Blobs born
-    /// since then are included for the whole time, because they cannot be found by their age: ages are in the
-    /// time of the instance, which may run faster.
+    /// since then are included for the whole time. Their age does not show this birth, because the time of
+    /// the instance may run faster.
     void addBounds(uint32_t begin, uint32_t end)
     {
         namespace blob = base::blob_column;

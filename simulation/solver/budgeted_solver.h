@@ -14,27 +14,29 @@ namespace fx::sim {
 struct PublicationPlace
 {
     uint32_t group = 0;    ///< index among the groups of the solver
-    uint32_t part = 0;     ///< stage of the work on that group
-    uint32_t row = 0;      ///< next row of that stage
+    uint32_t part = 0;     ///< stage of the work on the group
+    uint32_t row = 0;      ///< next row of the stage
     uint32_t count = 0;    ///< number of elements found or written so far
-    bool isSorted = true;  ///< whether these elements are sorted
+    bool isSorted = true;  ///< true: the elements found so far are sorted
     base::Bounds bounds{}; ///< bounds of the rows written so far
     float radius = 0;      ///< [m] largest radius so far
 };
 
-/// A solver that counts its work itself, so that its steps can be divided. See Solver::budgeted().
+/// A solver that counts its own work, so that its steps can be divided. See Solver::budgeted().
 class BudgetedSolver
 {
 public:
-    /// Solver::step() within a budget. Returns false if the budget is used up before the end of the step.
-    /// Then the call must be repeated with an equal context before any other call except the destructor. The
-    /// results have the bits of a single step(). Scratch memory may be freed between the calls.
+    /// Executes Solver::step() within a budget. Returns false if the budget is used up before the end of the
+    /// step. The caller must then repeat the call with an equal context, before any other call except the
+    /// destructor. The results have the same bits as a single step(). Scratch memory may be freed between the
+    /// calls.
     virtual bool proceed(const StepContext& context, base::WorkBudget& work) = 0;
 
-    /// Solver::publish() within a budget. Returns false if the budget is used up before the end. Then the
-    /// call must be repeated before any other call of the solver, and before another group is added to
-    /// `snapshot`. The results have the bits of publish().
-    /// @param ioPlace default for the first call; then unchanged from the previous call
+    /// Executes Solver::publish() within a budget. Returns false if the budget is used up before the end of
+    /// the publication. The caller must then repeat the call before any other call of the solver, and before
+    /// another group is added to `snapshot`. The results have the same bits as publish().
+    /// @param ioPlace default-constructed for the first call; for further calls, the value from the previous
+    ///         call
     virtual bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                                     PublicationPlace& ioPlace, base::WorkBudget& work) const = 0;
 
@@ -42,12 +44,12 @@ protected:
     ~BudgetedSolver() = default;
 };
 
-/// BudgetedSolver::proceed() for any solver. A solver that is not budgeted takes the whole step, which counts
-/// one unit for each particle that is stepped and for each birth.
+/// Steps any solver within a budget. A solver without BudgetedSolver executes the whole step; one unit is
+/// counted for each stepped particle and for each birth.
 bool stepWithin(Solver& solver, const StepContext& context, base::WorkBudget& work);
 
-/// BudgetedSolver::proceedPublication() for any solver. A solver that is not budgeted publishes everything,
-/// at no cost.
+/// Publishes any solver within a budget. A solver without BudgetedSolver publishes everything and uses no
+/// budget.
 bool publishWithin(Solver& solver, const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                    PublicationPlace& ioPlace, base::WorkBudget& work);
 

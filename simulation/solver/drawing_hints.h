@@ -1,6 +1,6 @@
 /// @file drawing_hints.h
-/// Drawing hints: how the author of an effect intends it to be drawn, and the hints of several effects
-/// together. They are for renderers; the simulation does not depend on them.
+/// Drawing hints: the author's intended way of drawing an effect, and the combination of the hints of several
+/// effects. Only renderers use the hints. The simulation does not depend on them.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace fx::sim {
 
-/// Intended composition of the media of an effect where they overlap.
+/// Intended composition of overlapping media of an effect.
 enum class PreferredComposition : uint8_t
 {
     None,
@@ -23,13 +23,13 @@ enum class PreferredComposition : uint8_t
 enum class PreferredScattering : uint8_t
 {
     Automatic, ///< no preference
-    Single,    ///< light that is scattered once only
+    Single,    ///< single scattering only
     ClosedForm,
     Network, ///< an illumination network
 };
 
-/// Drawing hints of an effect. When a picture has several effects, the greatest value of each member applies.
-/// The alignment is the size: only then does every compiler load and store the struct as an atomic without
+/// Drawing hints of an effect. If a picture has several effects, the greatest value of each member applies.
+/// The alignment equals the size, so that every compiler loads and stores the struct atomically without
 /// libatomic.
 struct alignas(uint16_t) DrawingHints
 {
@@ -49,8 +49,8 @@ inline DrawingHints greatest(const DrawingHints& a, const DrawingHints& b)
 class HintCounts
 {
 public:
-    /// Counts one effect more or less with the given hints.
-    /// @param more 1: an effect was added; -1: one was removed
+    /// Adds or removes one effect with the given hints.
+    /// @param more 1: adds an effect; -1: removes an effect
     void add(const DrawingHints& hints, int more)
     {
         compositions_[size_t(hints.composition)] += uint32_t(more);

@@ -29,36 +29,37 @@ struct EffectDef
     std::string name;
     /// hash of the preset, equal for equal presets; 0 if the effect was not built from a preset
     uint64_t fingerprint = 0;
-    base::Ticks duration = 0;         ///< lifetime of the effect; 0: it ends when its solvers have finished
-    base::Ticks prewarm = 0;          ///< time that is simulated before the first visible step
-    uint32_t subSteps = 1;            ///< steps of the effect per step of the scene, 1..16
-    glm::vec3 wind{0.0f};             ///< [m/s] local
-    bool hasGround = true;            ///< whether particles are kept above the plane y = 0 of the instance
-    std::optional<CatchUp> offscreen; ///< policy of hidden instances; empty: that of the solvers
+    base::Ticks duration = 0; ///< lifetime of the effect; 0: the effect ends when its solvers have finished
+    base::Ticks prewarm = 0;  ///< time that is simulated before the first visible step
+    uint32_t subSteps = 1;    ///< number of steps of the effect per step of the scene, 1..16
+    glm::vec3 wind{0.0f};     ///< [m/s] wind in local space
+    bool hasGround = true;    ///< true: the plane y = 0 of the instance stops particles
+    std::optional<CatchUp> offscreen; ///< policy of hidden instances; empty: the policy of the solvers
     /// [m] Upper bound of the local distance of elements from the origin; 0: the bound is computed from the
     /// solvers.
     float bound = 0;
     std::vector<std::unique_ptr<const SolverDef>> solvers;
-    /// Order of all solvers in which events of one solver cause births in later ones; empty: any order.
+    /// Order of all solvers in which events of one solver cause births only in later solvers; empty: any
+    /// order.
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of the host's events
-    EffectCost cost;                     ///< cost as estimated by the loader of presets
+    EffectCost cost;                     ///< cost estimated by the loader of presets
     DrawingHints hints;
 
-    /// Whether the effect depends on the host's geometry.
+    /// True if the effect depends on the host's geometry.
     bool collides() const
     {
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->collides(); });
     }
 
-    /// Whether the effect depends on the placement of the instance, even without geometry.
+    /// True if the effect depends on the placement of the instance, even without geometry.
     bool dependsOnPlacement() const
     {
         return std::any_of(solvers.begin(), solvers.end(),
                            [](const auto& def) { return def->dependsOnPlacement(); });
     }
 
-    /// Whether one of its solvers publishes groups of `kind`.
+    /// True if one of the effect's solvers publishes groups of `kind`.
     bool publishes(const base::KindDesc& kind) const
     {
         return std::any_of(solvers.begin(), solvers.end(),
@@ -70,7 +71,8 @@ struct EffectDef
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->bendsLight(); });
     }
 
-    /// Sum of the influences of all solvers. It is a sum because solvers may cause births in each other.
+    /// Sum of the influences of all solvers. The influences are added, because solvers may cause births in
+    /// each other.
     Influence influence() const
     {
         Influence sum;
@@ -79,7 +81,8 @@ struct EffectDef
         return sum;
     }
 
-    /// Policy of hidden instances: the preset's choice, or else the most restrictive policy of its solvers.
+    /// Policy of hidden instances. The result is the policy in the preset if there is one, else the most
+    /// restrictive policy of the solvers.
     CatchUp catchUp() const
     {
         if (offscreen)
@@ -90,7 +93,7 @@ struct EffectDef
         return most;
     }
 
-    /// [m] Radius about the local origin within which all elements stay; infinite when unknown.
+    /// [m] Radius about the local origin within which all elements stay; infinite if unknown.
     float reach(float gravity, float windSpeed) const
     {
         if (bound > 0)

@@ -11,7 +11,7 @@
 
 namespace fx::sim {
 
-/// The host's contact callback at the placement of one instance. Threads: any.
+/// The host's contact callback at the placement of one instance. [any thread]
 class PlacedContact
 {
 public:
@@ -23,8 +23,8 @@ public:
     PlacedContact& operator=(const PlacedContact&) = delete;
 
     const ContactHook& hook() const { return hook_; }
-    /// The arguments of the constructor, with which the same contact can be created at another placement;
-    /// valid during the lifetime of this object.
+    /// The arguments of the constructor, valid during the lifetime of this object. With these arguments, a
+    /// caller can create the callback at another placement.
     const base::Placement& placement() const { return placement_; }
     const HostContact& host() const { return host_; }
     std::atomic<uint64_t>& faults() const { return faults_; }

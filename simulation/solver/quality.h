@@ -1,9 +1,9 @@
 /// @file quality.h
-/// Simulation quality, which controls the cost of an instance. It is chosen when the instance is created and
-/// does not change, so that equal calls give equal bits.
+/// Simulation quality, which controls the cost of an instance. The quality is chosen when the instance is
+/// created and does not change. Therefore equal calls give equal bits.
 ///
-/// Quality applies to gases, not to emitters. The author chooses the particle counts of emitters, their cost
-/// is small compared to a gas, and fewer but denser particles would change the picture.
+/// Quality applies to gases, not to emitters. The author chooses the particle counts of emitters. The cost of
+/// an emitter is small compared to a gas, and fewer but denser particles would change the picture.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ enum class QualityLevel : uint8_t
     Low,
     Medium, ///< the level for which presets are designed
     High,
-    Reference, ///< level against which the errors of the other levels are measured
+    Reference, ///< reference level, against which errors of all other levels are measured
 };
 
 /// Parameters of solvers at a quality level. `fx accuracy` measures the errors of the levels.
@@ -27,8 +27,8 @@ struct Quality
     float neighbors = 58.0f;
     /// [1] smallest radius of a gas particle, relative to its radius at release; 0: no limit
     float radiusFloor = 0.25f;
-    /// [1] highest Mach number of the flow down to which the speed of sound is reduced, for longer steps; 0:
-    /// the speed of sound is not reduced
+    /// [1] Highest Mach number of the flow that the reduction of the speed of sound may cause; 0: the speed
+    /// of sound is not reduced. The reduction allows longer steps.
     float flowMach = 0.3f;
 };
 

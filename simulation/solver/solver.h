@@ -1,9 +1,9 @@
 /// @file solver.h
 /// Interface of a simulation technique: an immutable definition, built from a preset, and a solver per
-/// instance. Optional capabilities have interfaces of their own: budgeted_solver.h, seekable_solver.h,
+/// instance. Optional capabilities have separate interfaces: budgeted_solver.h, seekable_solver.h,
 /// finite_memory_solver.h, and emitters/pools/pooled_emitter.h.
 ///
-/// Solvers work in the instance's local space. Time is the instance's own: tick 0 is its start.
+/// Solvers work in the instance's local space. Tick 0 of the local time is the start of the instance.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -30,21 +30,23 @@ class GpuParticleProgram;
 
 namespace fx::sim {
 
-/// Policy for a hidden instance: how its state is brought to the present when the instance becomes visible
-/// again.
+/// Policy for a hidden instance. It defines how the state is advanced to the present when the instance
+/// becomes visible again.
 enum class CatchUp : uint8_t
 {
-    Analytic, ///< not simulated; the present is computed directly, with the bits of an unbroken simulation
-    /// not simulated while hidden; the missing steps are taken later, some in each frame, with the same bits
+    Analytic, ///< not simulated while hidden; the present state is computed directly, with the same bits as
+              ///< without hiding
+    /// not simulated while hidden; the missing steps are executed later, some in each frame, with the same
+    /// bits as without hiding
     Replay,
     /// simulated while hidden, in steps of four times the length at fixed ticks; deterministic, but with
-    /// other bits
+    /// different bits than a visible instance
     Coarse,
-    Skip,          ///< not simulated while hidden; the missing time is skipped: particles age without moving
+    Skip,          ///< not simulated while hidden; particles then age by the missing time without moving
     Authoritative, ///< always simulated
 };
 
-/// Whether hiding an instance leaves its later state unchanged, bit for bit.
+/// True if hiding an instance does not change a bit of its later state.
 constexpr bool isExact(CatchUp policy)
 {
     return policy == CatchUp::Analytic || policy == CatchUp::Replay || policy == CatchUp::Authoritative;
@@ -60,7 +62,7 @@ struct InstanceParameters
     bool emitting = true;   ///< false: there are no births; existing elements continue
 };
 
-/// Counts of the work of a step. They are exact, not times.
+/// Counts of the work of a step.
 struct StepCounters
 {
     uint64_t born = 0;
@@ -70,7 +72,7 @@ struct StepCounters
     uint64_t subSteps = 0;
     uint64_t clamped = 0; ///< number of values that were limited to keep the state finite
     base::Ticks debt = 0; ///< time that is not simulated, because the limit of sub-steps was reached
-    /// number of events of particles, each counted once for each rule that may apply to it
+    /// number of pairs of an event of a particle and a rule that may apply to the event
     uint64_t events = 0;
 
     StepCounters& operator+=(const StepCounters& more)
@@ -85,7 +87,7 @@ struct StepCounters
         debt += more.debt;
         return *this;
     }
-    /// The counts since an earlier state `before` of these counters.
+    /// The difference between these counters and their earlier state `before`.
     StepCounters since(const StepCounters& before) const
     {
         return {born - before.born,
@@ -99,15 +101,15 @@ struct StepCounters
     }
 };
 
-/// Geometry of the host behind a callback. The callback is called for the path of each particle that collides
-/// with it.
+/// Geometry of the host behind a callback. The callback is called for the path of each particle that may
+/// collide with the geometry.
 struct ContactHook
 {
     void* user = nullptr;
-    /// Intersects the segment from `from` to `to` [m, local] with the geometry. Returns 0 when the segment is
-    /// free. Otherwise returns another number, the share of the path before the contact, 0..1, and the
-    /// normal, of any length. Called by several threads at once. Equal arguments must give equal results
-    /// during a step.
+    /// Intersects the segment from `from` to `to` [m, local] with the geometry. Returns 0 if there is no
+    /// intersection. If there is one, returns a number other than 0, the fraction of the path before the
+    /// contact, 0..1, and the normal, of any length. Several threads call the function at the same time.
+    /// Equal arguments must give equal results during a step.
     int (*meet)(void* user, const float from[3], const float to[3], float* outShare,
                 float outNormal[3]) = nullptr;
 };
@@ -127,7 +129,7 @@ class EventBoard;
 struct HostEvent
 {
     uint32_t event; ///< index in EffectDef::hostEvents
-    uint32_t count; ///< number of times that it was triggered
+    uint32_t count; ///< number of times that the event was triggered
 };
 
 /// Input of a solver for one step.
@@ -137,31 +139,31 @@ struct StepContext
     base::Ticks stepTicks;    ///< length of the step, > 0
     uint64_t seed;            ///< seed of the instance
     uint32_t solverIndex;     ///< index of the solver in the effect; part of the key of every random number
-    glm::vec3 gravity;        ///< [m/s2] local
-    glm::vec3 wind;           ///< [m/s] local
-    float groundHeight;       ///< [m] local y of the ground plane; -infinity for none
-    const Collider* collider; ///< the host's geometry; null for none
-    /// intensity and emission; its wind is already part of `wind`
+    glm::vec3 gravity;        ///< [m/s2] gravity in local space
+    glm::vec3 wind;           ///< [m/s] wind in local space
+    float groundHeight;       ///< [m] local y of the ground plane; -infinity: no ground
+    const Collider* collider; ///< the host's geometry; null: no geometry
+    /// intensity and emission; the wind of these parameters is already part of `wind`
     const InstanceParameters* parameters;
     base::TaskRunner* tasks;
     base::Arena* scratch; ///< freed after the step
     StepCounters* counters;
-    const ContactHook* contactHook = nullptr; ///< null for none
-    EventBoard* board = nullptr;              ///< events between solvers in this step; null: there are none
+    const ContactHook* contactHook = nullptr; ///< the host's contact callback; null: no callback
+    EventBoard* board = nullptr;              ///< events between solvers in this step; null: no events
     std::span<const HostEvent> hostEvents{};  ///< host events, which happen at `tick`
     /// batch to which births may be deferred until the end of the step; null: births are computed at once
     SpawnBatch* spawnBatch = nullptr;
-    /// placement that the instance moves to; identity unless the effect depends on the placement
+    /// placement to which the instance moves; identity unless the effect depends on the placement
     base::Placement placement{};
-    /// [1] share of the remaining motion to `placement` that takes place in this step, 0..1
+    /// [1] fraction of the remaining motion to `placement` that takes place in this step, 0..1
     float moveShare = 1.0f;
-    glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
-    /// [m/s] the host's share of `wind`, in world space; 0 unless the effect depends on the placement
+    glm::vec3 worldGravity{0.0f}; ///< [m/s2] gravity in world space
+    /// [m/s] part of `wind` that the host sets, in world space; 0 unless the effect depends on the placement
     glm::vec3 worldWind{0.0f};
-    glm::vec3 effectWind{0.0f}; ///< [m/s] the preset's share of `wind`, in local space
-    /// air flows of the effect's gases, for solvers that follow them
+    glm::vec3 effectWind{0.0f}; ///< [m/s] part of `wind` that the preset sets, in local space
+    /// air flows of the effect's gases, for solvers that depend on these flows
     std::span<const ThermalFlow> thermals{};
-    bool gpuParticles = false; ///< true: emitters that the GPU can compute need not be computed as rows
+    bool gpuParticles = false; ///< true: the CPU need not compute emitters that the GPU can compute
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -172,14 +174,14 @@ class FiniteMemorySolver;
 class PooledEmitter;
 class SeekableSolver;
 
-/// The changing state of one part of an instance, such as an emitter or a gas.
+/// The state of one part of an instance, such as an emitter or a gas.
 class Solver
 {
 public:
     virtual ~Solver() = default;
 
-    /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates scratch
-    /// memory only.
+    /// Advances by one fixed step. Equal calls give equal bits for any number of threads. The function
+    /// allocates only scratch memory.
     virtual void step(const StepContext& context) = 0;
 
     /// Adds the visible groups to `snapshot`. `base` has instance, solver and placement to copy into each
@@ -187,23 +189,23 @@ public:
     /// the first birth.
     virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
 
-    /// Whether no element is alive and none will be born from local time `tick` on.
+    /// True if no element is alive at local time `tick`, and no element will be born later.
     virtual bool finished(base::Ticks tick) const = 0;
 
     virtual uint32_t elementCount() const = 0;
 
-    /// Whether elementCount() is above 0. An implementation may be faster than counting.
+    /// True if elementCount() is above 0. An override may be faster than elementCount().
     virtual bool hasElements() const { return elementCount() > 0; }
 
-    /// Writes exactly the data that later steps and publications depend on, so equal states write equal
-    /// bytes.
+    /// Writes exactly the data on which later steps and publications depend. Therefore equal states write
+    /// equal bytes.
     virtual void save(StateWriter& writer) const = 0;
 
     /// Restores the state of a solver of the same definition and quality; later results have the same bits.
     /// Validates all data. After a failure, which the reader records, the solver may only be destroyed.
     virtual void restore(StateReader& reader) = 0;
 
-    // Optional interfaces; null if the solver does not have one.
+    // Optional interfaces; null if the solver does not have the interface.
 
     virtual const AirMover* airMover() const { return nullptr; }
     virtual BudgetedSolver* budgeted() { return nullptr; }
@@ -215,8 +217,8 @@ public:
 /// Conditions on which the upper bound of distances depends.
 struct ReachConditions
 {
-    float gravity = 0; ///< [m/s2] magnitude
-    float wind = 0;    ///< [m/s] magnitude
+    float gravity = 0; ///< [m/s2] magnitude of gravity
+    float wind = 0;    ///< [m/s] magnitude of the wind
     float seconds = 0; ///< [s] time since the start of the instance
 };
 
@@ -236,9 +238,9 @@ struct BirthReach
 /// Influence of the past of an instance on its living elements.
 struct Influence
 {
-    /// [s] time, in the time of the instance, after which the past has no influence; infinite if unknown
+    /// [s] local time span after which the past has no influence; infinite if unknown
     float seconds = 0;
-    float inherits = 0; ///< [1] share of the instance's velocity that particles inherit
+    float inherits = 0; ///< [1] fraction of the instance's velocity that particles inherit
     float extent = 0;   ///< [m] local extent of the births of particles that inherit velocity
     float drawnOut = 0; ///< [s] time by which sprites are stretched along their velocity
 
@@ -254,10 +256,10 @@ struct Influence
 /// Expected amounts of a step of a solver, from which its work is estimated.
 struct StepLoad
 {
-    double seconds;    ///< [s] length
-    double births = 0; ///< number of births of an emitter, including those caused by events
+    double seconds;    ///< [s] length of the step
+    double births = 0; ///< number of births of an emitter, including births caused by events
     double alive = 0;  ///< number of living particles of an emitter, at most its capacity
-    /// number of events of an emitter's particles, each counted once for each rule that may apply to it
+    /// number of pairs of an event of the emitter's particles and a rule that may apply to the event
     double events = 0;
 };
 
@@ -266,40 +268,40 @@ class SolverDef
 {
 public:
     virtual ~SolverDef() = default;
-    /// Creates a solver with all memory that it needs at this quality.
+    /// Creates a solver, and allocates all memory that it needs at this quality.
     virtual std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                            std::pmr::memory_resource* memory) const = 0;
     /// Maximum number of simultaneously alive elements, at medium quality.
     virtual uint32_t capacity() const = 0;
-    /// Whether its solvers publish groups of `kind`.
+    /// True if solvers of this definition publish groups of `kind`.
     virtual bool publishes(const base::KindDesc& kind) const = 0;
-    /// Whether its published media refract light (heat shimmer).
+    /// True if the published media refract light (heat shimmer).
     virtual bool bendsLight() const { return false; }
     /// Program by which the GPU replaces the solvers; null if this is impossible or disabled. [any thread]
     virtual std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const { return nullptr; }
-    /// Influence of the past of an instance, without that of the host's parameters.
+    /// Influence of the past of an instance, without the influence of the host's parameters.
     virtual Influence influence() const { return {.seconds = std::numeric_limits<float>::infinity()}; }
     /// [byte] maximum memory of a solver, at medium quality.
     virtual uint64_t bytes() const { return 0; }
-    /// Whether its solvers depend on StepContext::collider.
+    /// True if the solvers depend on StepContext::collider.
     virtual bool collides() const { return false; }
-    /// Whether its solvers depend on StepContext::placement.
+    /// True if the solvers depend on StepContext::placement.
     virtual bool dependsOnPlacement() const { return false; }
-    /// Whether its solvers depend on StepContext::thermals.
+    /// True if the solvers depend on StepContext::thermals.
     virtual bool followsThermals() const { return false; }
     /// Policy of hidden instances, unless the preset defines one.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
-    /// [m] Upper bound of the distance of elements, radius included, from the instance's origin within
-    /// `seconds` after the start; infinite when unknown.
+    /// [m] Upper bound of the distance of elements from the instance's origin within `seconds` after the
+    /// start. The radius of elements is included. The bound is infinite if unknown.
     /// @param gravity [m/s2] magnitude of gravity
     /// @param wind [m/s] magnitude of the wind
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {
         return std::numeric_limits<float>::infinity();
     }
-    /// As reach(), for solvers whose births are caused by events.
-    /// @param births bounds of its births @param ioOthers bounds of births by solver index; extended by the
-    ///         births that it causes in other solvers
+    /// Computes reach() for solvers whose births are caused by events.
+    /// @param births bounds of the births of this solver @param ioOthers bounds of births by solver index;
+    ///         extended by the births that this solver causes in other solvers
     virtual float reachFrom(const ReachConditions& conditions, const BirthReach& /*births*/,
                             std::span<BirthReach> /*ioOthers*/) const
     {

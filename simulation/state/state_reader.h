@@ -1,6 +1,6 @@
 /// @file state_reader.h
-/// Reads and validates the output of a StateWriter. The first failure is recorded. All later values are zero,
-/// so that code can check once at the end. Never reads beyond the given bytes.
+/// Reads and validates the output of a StateWriter. The first failure is recorded, and all later values are
+/// zero. Therefore callers need only one check at the end. The reader never reads beyond the given bytes.
 #pragma once
 
 #include "foundation/math/bits.h"
@@ -20,13 +20,14 @@ public:
     const base::Status& status() const { return status_; }
     size_t left() const { return left_.size(); } ///< [byte]
 
-    /// Records the failure `what` unless `condition` holds. An earlier failure is kept.
+    /// Records the failure `what` unless `condition` holds. If a failure is already recorded, this failure
+    /// does not change.
     void require(bool condition, const char* what)
     {
         if (!condition && status_.ok())
             status_ = {base::Code::Parse, what};
     }
-    /// Records the failure of a larger state that contains this one, unless there already is a failure.
+    /// Records `status` as the failure, unless a failure is already recorded.
     void fail(const base::Status& status)
     {
         if (status_.ok())
@@ -79,8 +80,8 @@ public:
             require(std::all_of(out.begin(), out.end(), [](T x) { return base::isFinite(x); }),
                     "a number of the state is not finite");
     }
-    /// Reads the bytes of StateWriter::block(). They are valid as long as the bytes of the reader; empty
-    /// after a failure.
+    /// Reads the bytes of StateWriter::block(). The result is valid as long as the bytes of the reader, and
+    /// empty after a failure.
     std::span<const std::byte> block()
     {
         const uint64_t size = value<uint64_t>();

@@ -1,7 +1,7 @@
 /// @file state_writer.h
 /// Serializes the state of solvers and scenes, either to memory for restoring or to a hash for comparison.
-/// Values are written one by one in the byte order of the machine, without pointers and padding, so equal
-/// states give equal bytes. A StateReader reads the values in the same order.
+/// Values are written one by one in the byte order of the machine, without pointers and padding. Therefore
+/// equal states give equal bytes. A StateReader reads the values in the same order.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -51,13 +51,13 @@ public:
         const float xyzw[4] = {q.x, q.y, q.z, q.w};
         put(xyzw, sizeof xyzw);
     }
-    /// Writes the elements without their number, which the reader must know.
+    /// Writes the elements without their count. The reader must know the count.
     template <StateValue T>
     void values(std::span<const T> values)
     {
         put(values.data(), values.size_bytes());
     }
-    /// Writes bytes that have a format of their own, preceded by their number.
+    /// Writes the number of bytes, then the bytes. The bytes may have any format.
     void block(std::span<const std::byte> bytes)
     {
         value(uint64_t(bytes.size()));
@@ -87,7 +87,7 @@ private:
     std::pmr::vector<std::byte> bytes_;
 };
 
-/// Computes a hash of the written values and stores nothing. Allocates nothing.
+/// Computes a hash of the written values, without storing them. Allocates no memory.
 class StateHasher final : public StateWriter
 {
 public:

@@ -30,17 +30,17 @@ namespace fx::sim {
 
 constexpr double kAirPressure = 101325;  ///< [Pa]
 constexpr double kAirDensity = 1.225;    ///< [kg/m3] density of air at 15 degrees C
-constexpr double kEnergyOfTnt = 4.184e6; ///< [J/kg] by definition
+constexpr double kEnergyOfTnt = 4.184e6; ///< [J/kg] energy of TNT, by definition
 
 double kinneyGrahamOverpressure(double scaledDistance);   ///< [Pa]
 double kingeryBulmashOverpressure(double scaledDistance); ///< [Pa]
 
-/// Friedlander wave (3), fitted to a history of overpressure.
+/// Friedlander wave of equation (3), fitted to a history of overpressure.
 struct FriedlanderWave
 {
     double peak = 0;     ///< [Pa]
     double duration = 0; ///< [s]
-    double decay = 0;    ///< [1] b
+    double decay = 0;    ///< [1] decay b of the wave
     double arrival = 0;  ///< [s]
 
     double at(double time) const;
@@ -53,8 +53,8 @@ struct PressureSample
 };
 
 /// Fits a wave to samples in the order of time. For a smeared shock, the arrival is the time at which half of
-/// the rise is reached, and the peak is the decay curve extrapolated back to the arrival. The peak is 0 if
-/// the samples contain no complete positive phase.
+/// the rise is reached. The peak is the extrapolation of the decay curve to the arrival. If the samples
+/// contain no complete positive phase, the peak is 0.
 FriedlanderWave fitFriedlander(std::span<const PressureSample> samples);
 
 } // namespace fx::sim

@@ -1,5 +1,6 @@
 /// @file case_base.h
-/// Common base of most cases: stores particles and sample times, and evaluates around the origin.
+/// Common base class of most cases. The class stores particles and sample times, and evaluates the flow
+/// around the origin.
 #pragma once
 
 #include "simulation/verification/gas_case.h"
@@ -19,16 +20,16 @@ public:
 
 protected:
     /// Stores the settings of a case.
-    /// @param gamma, time defaults of the case, used if the settings do not set these values
+    /// @param gamma, time defaults of the case for values that the settings do not set
     CaseBase(const CaseSettings& settings, double gamma, double time);
 
-    /// Sets def_ from the particles and settings. Constructors of derived classes call it last.
+    /// Sets def_ from the particles and settings. Constructors of derived classes call this function last.
     /// @param sampleCount number of equal intervals between samples
     void finish(uint32_t sampleCount);
 
     double gamma_;
     double time_;  ///< [s] end of the simulation
-    bool ownTime_; ///< true: gamma and end time are the defaults of the case, so its limits apply
+    bool ownTime_; ///< true: the limits of the case apply, because gamma and end time are defaults
     GasDynamicsDef def_;
     std::vector<GasParticle> particles_;
 

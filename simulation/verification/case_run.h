@@ -16,10 +16,10 @@ struct CaseReport
     uint32_t particles = 0;
     double seconds = 0;     ///< [s] simulated time
     double energyStart = 0; ///< [J]
-    /// [1] change of the total energy from the start to the end, relative to that at the start
+    /// [1] Change of the total energy from the start to the end, divided by the initial energy.
     double energyDrift = 0;
-    /// [1] magnitude of the change of the total momentum over the sum of mass times speed; not measured if
-    /// there are walls
+    /// [1] Magnitude of the change of the total momentum, divided by the sum of mass times speed. Not
+    /// measured if there are walls.
     double momentumDrift = 0;
     AdvanceReport work;         ///< total of all steps
     double initialSeconds = 0;  ///< [s] wall time before the first step
@@ -30,9 +30,10 @@ struct CaseReport
 
 struct CaseWatch
 {
-    /// Called before each sample with the index of the sample and the number of samples.
+    /// Callback before each sample, with the index of the sample and the number of samples.
     std::function<void(uint32_t sample, uint32_t samples)> progress;
-    /// Called often. When it returns true, the run ends as soon as possible with Code::Interrupted.
+    /// Callback that is called often. If it returns true, the run ends as soon as possible with
+    /// Code::Interrupted.
     std::function<bool()> stop;
 };
 

@@ -32,7 +32,7 @@
 
 namespace fx::sim {
 
-/// Accumulates the sums of (1) over particles.
+/// Accumulates the sums of equation (1) over particles.
 class FlowErrors
 {
 public:
@@ -46,20 +46,21 @@ private:
     std::vector<DensityError> densities_;
 };
 
-/// Means over the particles in one shell of the profile, an interval of the distance.
+/// Means over the particles in one shell of the profile. A shell is an interval of the distance from the
+/// origin.
 struct Shell
 {
-    double place = 0;   ///< [m] its middle
-    uint32_t count = 0; ///< number of particles; without particles the state is 0
+    double place = 0;   ///< [m] middle of the interval
+    uint32_t count = 0; ///< number of particles; if it is 0, `state` is 0
     FlowState state;    ///< means over particles
 };
 
 std::vector<Shell> shellsOf(std::span<const ProfilePoint> points, double width);
 
-/// Radius of the shock by (2); 0 if no shell is denser than the gas ahead of the shock.
+/// Radius of the shock by equation (2); 0 if no shell is denser than the gas ahead of the shock.
 double shockRadius(std::span<const Shell> shells, double densityAhead);
 
-/// Radius of the shock by (3).
+/// Radius of the shock by equation (3).
 double densestRadius(std::span<const Shell> shells);
 
 std::vector<ProfilePoint> profileOf(const GasCase& gasCase, std::span<const CaseParticle> particles);

@@ -20,7 +20,7 @@ constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 /// Settings of a case.
 struct CaseSettings
 {
-    /// requested number of particles, which the lattice rounds; 0: default of the case
+    /// Requested number of particles; 0: default of the case. The lattice rounds the number.
     uint32_t particles = 0;
     double gamma = 0; ///< [1] ratio of specific heats; 0: default of the case
     double time = 0;  ///< [s] end of the simulation; 0: default of the case
@@ -39,10 +39,10 @@ struct CaseParticle
     double support;      ///< [m]
 };
 
-/// Position and state of a particle along the one direction in which the flow varies.
+/// Position and state of a particle along the direction in which the flow varies.
 struct ProfilePoint
 {
-    double place; ///< [m] distance from the center; in planar cases x
+    double place; ///< [m] distance from the center; in planar cases, the coordinate x
     double mass;  ///< [kg]
     FlowState state;
 };
@@ -56,7 +56,7 @@ struct Measure
     double expected = kNotMeasured; ///< exact or published value
 };
 
-/// A bound on a measure. It applies to the default settings of the case.
+/// A bound on a measure. The bound applies to the default settings of the case.
 struct CaseLimit
 {
     std::string name; ///< name of the measure
@@ -93,7 +93,7 @@ public:
     /// Definition of the dynamics of the case; its capacity is the number of particles.
     virtual const GasDynamicsDef& dynamics() const = 0;
     virtual const std::vector<GasParticle>& particles() const = 0;
-    /// [s] Times of samples, ascending; the last is the end of the simulation.
+    /// [s] Times of samples, ascending; the last time is the end of the simulation.
     virtual const std::vector<double>& sampleTimes() const = 0;
     /// Measures the particles at one of sampleTimes().
     virtual void look(double /*time*/, std::span<const CaseParticle> /*particles*/) {}

@@ -1,5 +1,6 @@
 /// @file gas_cases.h
-/// The list of verification cases. A new case adds its maker here and a line in gas_cases.cpp.
+/// The list of verification cases. For a new case, declare its make function here and add a line in
+/// gas_cases.cpp.
 #pragma once
 
 #include "simulation/verification/gas_case.h"
@@ -30,7 +31,7 @@ std::span<const GasCaseEntry> gasCases();
 /// Finds a case by name; null for an unknown name.
 const GasCaseEntry* findGasCase(std::string_view name);
 
-/// Creates a case. If the settings give no number of particles, the case's own number is used.
+/// Creates a case. If the settings give no number of particles, the default number of the case is used.
 std::unique_ptr<GasCase> makeGasCase(const GasCaseEntry& entry, CaseSettings settings);
 
 } // namespace fx::sim

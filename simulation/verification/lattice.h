@@ -11,9 +11,9 @@ namespace fx::sim {
 /// Points at the centers of cubic cells.
 struct Lattice
 {
-    glm::dvec3 low;     ///< [m] corner
+    glm::dvec3 low;     ///< [m] lower corner of the lattice
     double spacing;     ///< [m]
-    glm::u32vec3 count; ///< cells along the axes
+    glm::u32vec3 count; ///< number of cells along each axis
 
     /// Calls f(position) for all points, x fastest.
     template <class F>
@@ -28,15 +28,15 @@ struct Lattice
     }
 };
 
-/// The even integer, at least `least`, whose cube is nearest to `particles`. With an even side, the center of
-/// a cube lies between particles, so that an event at the center affects the nearest particles equally.
+/// The even integer, at least `least`, whose cube is nearest to `particles`. With an even side, no particle
+/// is at the center of a cube. Therefore an event at the center affects the nearest particles equally.
 uint32_t evenSide(uint32_t particles, uint32_t least);
 
 /// Rounds `value` up to an even number.
 uint32_t evenAbove(double value);
 
-/// [1] Ratio of the support H to the spacing of a lattice at which 4/3 pi n H^3 = neighbors, with the number
-/// density n.
+/// [1] Ratio of the support H to the spacing of a lattice with 4/3 pi n H^3 = neighbors, where n is the
+/// number density.
 double supportInSpacings(double neighbors);
 
 } // namespace fx::sim

@@ -30,8 +30,8 @@ namespace fx::sim {
 struct NohImplosion
 {
     double gamma = 5.0 / 3.0;
-    double density = 1; ///< [kg/m3] rho0
-    double speed = 1;   ///< [m/s] v0
+    double density = 1; ///< [kg/m3] initial density rho0
+    double speed = 1;   ///< [m/s] inward speed v0, > 0
 
     double shockSpeed() const { return 0.5 * (gamma - 1) * speed; } // (2)
 

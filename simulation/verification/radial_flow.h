@@ -64,7 +64,7 @@ private:
     struct Cell
     {
         double velocity;
-        double energy; ///< [J/kg] total
+        double energy; ///< [J/kg] total energy
     };
     struct Face
     {
@@ -92,10 +92,10 @@ private:
     std::vector<double> masses_;
     std::vector<double> faces_;
     std::vector<Cell> cells_;
-    /// positions of cell centers; like states_ and slopes_, they are derived from faces_ and cells_
+    /// Positions of cell centers. `centers_`, `states_` and `slopes_` are derived from `faces_` and `cells_`.
     std::vector<double> centers_;
     std::vector<FlowState> states_;
-    std::vector<FlowState> slopes_; ///< per m
+    std::vector<FlowState> slopes_; ///< derivatives per meter
 };
 
 } // namespace fx::sim

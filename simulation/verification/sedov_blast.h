@@ -51,14 +51,14 @@ public:
     double shockSpeed(double time) const;  ///< [m/s]
     /// State immediately behind the shock.
     FlowState behindShock(double time) const;
-    /// State at a radius and time. Ahead of the shock the gas is at rest without pressure.
+    /// State at a radius and time. Ahead of the shock, the gas is at rest and its pressure is 0.
     FlowState at(double radius, double time) const;
 
 private:
     struct Similar
     {
         double velocity; ///< V x, the velocity in units of the shock speed
-        double density;  ///< G
+        double density;  ///< density G without dimension
         double pressure; ///< G Z x^2 / gamma, the pressure in units of rho0 U^2
     };
     double gamma_;

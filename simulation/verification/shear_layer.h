@@ -36,7 +36,7 @@ struct ShearLayer
     double sound1, sound2;     ///< [m/s]
 
     double incompressibleGrowth() const; ///< [1/s]
-    double growth() const;               ///< [1/s] with compressibility
+    double growth() const;               ///< [1/s] growth rate with compressibility
 };
 
 } // namespace fx::sim

@@ -33,9 +33,9 @@ constexpr uint32_t kHighestRate = 16u << 16;
 
 struct InstanceClock
 {
-    base::Ticks scene = 0;       ///< s0
-    base::Ticks local = 0;       ///< l0
-    uint32_t rate = kNormalRate; ///< p
+    base::Ticks scene = 0;       ///< scene time s0 of the last change of the rate
+    base::Ticks local = 0;       ///< local time l0 at scene time s0
+    uint32_t rate = kNormalRate; ///< rate p, local ticks per 2^16 ticks of the scene
 
     base::Ticks toLocal(base::Ticks tick) const
     {
@@ -45,7 +45,7 @@ struct InstanceClock
             return local + since;
         return local + base::Ticks((Wide(since) * rate) >> 16); // (1)
     }
-    /// Scene time at which a local time is reached; INT64_MAX / 4 if it is never reached.
+    /// Scene time at which the instance reaches a local time; INT64_MAX / 4 if it never does.
     base::Ticks toScene(base::Ticks tick) const
     {
         __extension__ using Wide = __int128;

@@ -1,6 +1,6 @@
 /// @file simulation_pool.h
-/// The simulations behind the instances of a world. Instances with equal results share one simulation. When
-/// one of these instances must differ, the state of the simulation is copied first.
+/// The simulations behind the instances of a world. Instances with equal results share one simulation. Before
+/// one of these instances is changed, the state of the simulation is copied.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -21,32 +21,33 @@
 
 namespace fx::sim {
 
-/// Key of a shared simulation: all conditions on which its results depend. The key contains neither the
-/// position and scale of the instance nor a rotation that leaves local gravity and wind unchanged. Only if
-/// the simulation collides with the host's geometry or depends on its placement, the key contains these too.
+/// Key of a shared simulation: all conditions on which its results depend. The key does not contain the
+/// placement of the instance, except its effect on local gravity and wind. If the simulation collides with
+/// the host's geometry or depends on its placement, the key also contains the geometry and the placement.
 struct SimulationConditions
 {
     uint64_t seed = 0;
-    /// clock; its anchor is the start, or the time at which the host last changed the clock
+    /// Clock of the instance, relative to the start or to the last change of the clock by the host.
     InstanceClock clock;
     Quality quality;
-    glm::vec3 gravity{0.0f};       ///< [m/s2] local gravity
-    glm::vec3 wind{0.0f};          ///< [m/s] local wind, the sum of the winds of effect and host
-    float groundHeight = 0;        ///< [m] local y of the ground plane; -infinity for none
-    InstanceParameters parameters; ///< intensity and emission; its wind is 0, because `wind` contains it
-    const DistanceField* field = nullptr; ///< the host's geometry; null for none
-    bool hasContact = false;              ///< whether the host's contact callback is used
-    base::Placement placement; ///< target placement if the results depend on it; otherwise the default
+    glm::vec3 gravity{0.0f}; ///< [m/s2] local gravity
+    glm::vec3 wind{0.0f};    ///< [m/s] local wind, the sum of the winds of effect and host
+    float groundHeight = 0;  ///< [m] local y of the ground plane; -infinity: no ground
+    InstanceParameters
+        parameters; ///< intensity and emission; the member for wind is 0, because `wind` includes it
+    const DistanceField* field = nullptr; ///< the host's geometry; null: no geometry
+    bool hasContact = false;              ///< true: the host's contact callback is used
+    base::Placement placement; ///< target placement if the results depend on it; else the default placement
     /// [m/s] the host's wind in world space, if the effect depends on the placement
     glm::vec3 worldWind{0.0f};
 
-    /// Whether all members are equal, bit for bit.
+    /// True if all members are equal, bit for bit.
     bool equals(const SimulationConditions& other) const;
     uint64_t hash() const;
 };
 
-/// State of an incomplete sub-step of solvers that exchange events, in a shared simulation that is stepped
-/// separately. It keeps the events until the next call.
+/// Events of an incomplete sub-step, for solvers that exchange events. The struct is used for a shared
+/// simulation that is stepped separately.
 struct LinkedPart
 {
     explicit LinkedPart(std::pmr::memory_resource* memory) : scratch(memory) {}
@@ -59,8 +60,8 @@ struct LinkedPart
 /// The solvers of one effect and their inputs.
 struct SharedSimulation
 {
-    /// A pending change of the conditions of a paused simulation, at a time that the simulation has not
-    /// reached yet.
+    /// A pending change of the conditions of a paused simulation. The simulation has not yet reached the time
+    /// of the change.
     struct Change
     {
         base::Ticks tick; ///< scene time
@@ -77,19 +78,19 @@ struct SharedSimulation
 
     // Members that every step and publication reads, adjacent for the cache.
     std::vector<std::unique_ptr<Solver>> solvers; ///< empty while released
-    Solver* only = nullptr;                       ///< the solver, if there is only one; otherwise null
-    base::Ticks simulated = 0;                    ///< scene time that the state refers to
+    Solver* only = nullptr;                       ///< the solver, if there is only one; else null
+    base::Ticks simulated = 0;                    ///< scene time of the state
     base::Ticks restUntil = 0;                    ///< scene time up to which steps have no effect
-    /// Scene time up to which steps need not be taken, see SeekableSolver::passTo().
+    /// Scene time up to which passTo() may replace steps, see SeekableSolver::passTo().
     base::Ticks quietUntil = 0;
     base::Ticks quietOffset = 0; ///< local time minus scene time, until quietUntil
     uint64_t steppedIn = 0;      ///< number of the last step of the world in which the simulation was stepped
     uint32_t users = 0;          ///< number of instances that use the simulation; 0: the simulation is unused
-    uint32_t hidden = 0; ///< number of users that are out of sight; if all are, the simulation is paused
-    /// true: its only solver is in a pool; `simulated` is then the time at which it joined
+    uint32_t hidden = 0; ///< number of hidden users; if all users are hidden, the simulation is paused
+    /// True: the only solver is in a pool. `simulated` is then the time at which the solver joined the pool.
     bool pooled = false;
-    /// True: the solvers were released; `kept` has their state, and is empty before the start of the
-    /// instance.
+    /// True: the solvers were released. `kept` then has the state of the solvers. Before the start of the
+    /// instance, `kept` is empty.
     bool released = false;
     std::shared_ptr<const EffectDef> effect;
     SimulationConditions conditions;
@@ -99,11 +100,11 @@ struct SharedSimulation
     std::shared_ptr<const DistanceField> field; ///< keeps the field of a paused simulation's conditions alive
     std::shared_ptr<const StateBuffer> pristine; ///< state of the solvers before their first step
     std::optional<StateBuffer> kept;
-    bool brief = false; ///< true: the kept state lacks elements that have died since
+    bool brief = false; ///< true: `kept` does not contain elements that have died since it was saved
     /// For a released simulation: scene time after which no particle of the state is alive.
     base::Ticks forgottenAt = kNever;
-    bool fresh = false;     ///< true: not stepped yet, so that another instance may still join
-    uint32_t nextFresh = 0; ///< see SimulationPool
+    bool fresh = false; ///< true: another instance may still join, because the simulation was not yet stepped
+    uint32_t nextFresh = 0; ///< next fresh simulation with the same hash, see SimulationPool
 
     // State of an open step, see World::proceed(), and of an incomplete prewarm or seek, see World::arrive().
     bool inStep = false;        ///< true: some sub-steps of the step are complete, or one is open
@@ -113,23 +114,25 @@ struct SharedSimulation
     base::Ticks part = 0;       ///< number of complete sub-steps of the step
     base::Ticks stepTick = 0;   ///< [tick] scene time at which the step begins
     base::Ticks stepLength = 0; ///< [tick] length of the step in scene time
-    base::Ticks reached = 0;    ///< [tick] local
-    base::Ticks target = 0;     ///< [tick] local
+    base::Ticks reached = 0;    ///< [tick] local time
+    base::Ticks target = 0;     ///< [tick] local time
     /// events of a sub-step; exists while the simulation catches up separately
     std::unique_ptr<LinkedPart> linked{};
 
     // Data of one step of the world.
     uint64_t visitedIn = 0; ///< number of the last step whose list contained an instance of the simulation
-    uint64_t dividedIn = 0; ///< number of the last step whose list contained only some of its instances
-    uint32_t visits = 0;    ///< number of its instances in the list of that step
-    uint32_t division = 0;  ///< index of the simulation to which these instances are moved
+    uint64_t dividedIn =
+        0; ///< number of the last step whose list contained only some instances of the simulation
+    uint32_t visits = 0; ///< number of instances of the simulation in the list of step `visitedIn`
+    uint32_t division =
+        0; ///< index of the simulation to which the instances in the list of step `dividedIn` are moved
 
     static constexpr base::Ticks kNever = std::numeric_limits<base::Ticks>::max();
     bool isPaused() const { return hidden == users; }
-    /// [tick] Local time after which no element that is alive now exists, see
+    /// [tick] Local time at which all presently living elements are dead, see
     /// FiniteMemorySolver::influenceHorizon(). kNever while host events are pending.
     base::Ticks influenceHorizon() const;
-    /// Updates `only`. Called after the solvers have been created or moved.
+    /// Updates `only`. Must be called after the solvers have been created or moved.
     void updateOnly() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
     void save(StateWriter& writer) const;
     void saveWithoutElements(StateWriter& writer) const;
@@ -151,37 +154,37 @@ public:
     uint32_t count() const { return count_; }           ///< number of simulations in use
     size_t size() const { return simulations_.size(); } ///< number of indices, used and unused
 
-    // Functions that create solvers may throw std::bad_alloc; then the pool is unchanged.
+    // Functions that create solvers may throw std::bad_alloc. The pool then does not change.
 
-    /// Adds an instance, which joins an equal fresh simulation or starts a new one.
+    /// Adds an instance. The instance joins an equal fresh simulation or starts a new simulation.
     /// @param released true: a new simulation is started without solvers
     SimulationIndex acquire(const std::shared_ptr<const EffectDef>& effect,
                             const SimulationConditions& conditions, bool released = false);
-    /// Creates a simulation without users. Instances cannot join it before publish().
+    /// Creates a simulation without users. Instances cannot join the simulation before publish().
     SimulationIndex create(const std::shared_ptr<const EffectDef>& effect,
                            const SimulationConditions& conditions, bool released = false);
     /// Restores the solvers of a released simulation.
     void materialize(SimulationIndex index);
-    /// Moves the solvers of a shared simulation to the free list and keeps its state as bytes.
+    /// Moves the solvers of a shared simulation to the free list and saves its state as bytes.
     /// @param mayForget true: the saved state may omit elements that die before the simulation is restored
     void release(SimulationIndex index, base::Ticks now, bool mayForget);
-    /// Frees solvers that have been in the free list since before `tick`.
+    /// Frees solvers that were moved to the free list before `tick`.
     void trimFreeList(base::Ticks tick);
     size_t freeSolvers() const { return freeList_.size(); }
-    /// Copies a shared simulation with its state; the copy has one user.
+    /// Copies a shared simulation with its state. The copy has one user.
     SimulationIndex copy(SimulationIndex index);
-    /// Changes the conditions of a shared simulation for all users from now on. Never fails.
+    /// Changes the conditions of a shared simulation for all users at the present time. Never fails.
     void reset(SimulationIndex index, const SimulationConditions& conditions);
-    /// Changes the conditions of one user of a shared simulation from now on. @return the simulation of this
-    /// user afterwards
+    /// Changes the conditions of one user of a shared simulation at the present time. @return new simulation
+    /// of the user
     SimulationIndex change(SimulationIndex index, const SimulationConditions& conditions);
-    /// Removes a user. If it was the last one, the solvers are destroyed.
+    /// Removes a user. If no user remains, the solvers are destroyed.
     void leave(SimulationIndex index);
-    /// As leave(), but moves the solvers of the last user to the free list.
+    /// Removes a user. If no user remains, the solvers are moved to the free list.
     void recycle(SimulationIndex index, base::Ticks now);
-    /// Marks a simulation as stepped; it is no longer fresh.
+    /// Marks a simulation as stepped. The simulation is then no longer fresh.
     void touch(SimulationIndex index);
-    /// Allows instances to join a fresh simulation from now on.
+    /// Allows instances to join a fresh simulation.
     void publish(SimulationIndex index);
 
     void swap(SimulationPool& other) noexcept;
@@ -212,9 +215,9 @@ private:
     bool share_;
     std::vector<SharedSimulation> simulations_;
     std::vector<SimulationIndex> free_;
-    std::vector<FreeSolvers> freeList_; ///< sorted by time
-    std::array<SimulationIndex, kChains>
-        chains_; ///< first fresh simulation of each hash; SharedSimulation::nextFresh is the next
+    std::vector<FreeSolvers> freeList_;           ///< sorted by time
+    std::array<SimulationIndex, kChains> chains_; ///< first fresh simulation of each hash;
+                                                  ///< SharedSimulation::nextFresh links the next simulation
     uint32_t count_ = 0;
 };
 

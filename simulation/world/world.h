@@ -1,15 +1,16 @@
 /// @file world.h
-/// Holds all existing instances and steps those in a given list.
+/// Stores all existing instances and steps the instances in a given list.
 ///
 /// Instances with equal results are simulated once. Results are equal if effect, seed, start, quality,
 /// intensity, emission, and gravity and wind in local space are equal. If the instances collide with the
-/// host's geometry, their placements must be equal too. Each instance is published at its own placement.
-/// Sharing never changes results: when one of the instances is changed, the state is copied first.
+/// host's geometry, their placements must also be equal. Each instance is published at its own placement.
+/// Sharing never changes results, because the state is copied before one of the instances is changed.
 ///
-/// A simulation is paused while all of its instances are hidden. It then costs nothing until catchUp()
-/// advances it to the present. Changes made meanwhile are applied at the time at which they were made.
+/// A simulation is paused while all of its instances are hidden. A paused simulation has no cost until
+/// catchUp() advances it to the present. Pending changes are applied at the time at which the host made them.
 ///
-/// Threads: one thread at a time (the scene thread). Work inside a step is spread over the task runner.
+/// Threads: one thread at a time (the scene thread). The work of a step is distributed to the threads of the
+/// task runner.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -40,18 +41,18 @@ struct InstanceStart
     base::Placement placement;
     InstanceParameters parameters;
     QualityLevel quality = QualityLevel::Medium; ///< never changes
-    uint32_t rate = kNormalRate;                 ///< rate of the clock from the start on, see InstanceClock
-    /// Clock of the instance, if the host has changed its time; otherwise the clock follows from the members
-    /// above.
+    uint32_t rate = kNormalRate;                 ///< initial rate of the clock, see InstanceClock
+    /// Clock of the instance, if the host has changed its time. Without a value, `startTick` and `rate`
+    /// define the clock.
     std::optional<InstanceClock> clock{};
 };
 
 /// Conditions shared by all instances of a world.
 struct Environment
 {
-    glm::vec3 gravity{0.0f, -9.80665f, 0.0f}; ///< [m/s2] world
-    bool hasGround = true;                    ///< true: presets may have a ground; false: no effect has one
-    std::shared_ptr<const DistanceField> field{}; ///< geometry of the host; null for none
+    glm::vec3 gravity{0.0f, -9.80665f, 0.0f}; ///< [m/s2] gravity in world space
+    bool hasGround = true; ///< true: presets may have a ground; false: no effect has a ground
+    std::shared_ptr<const DistanceField> field{}; ///< geometry of the host; null: no geometry
 };
 
 /// Index of an instance inside the world, valid until the instance is removed.
@@ -66,8 +67,7 @@ public:
           const Environment& environment = {}, bool share = true);
 
     /// Adds an instance and creates all solvers of `effect`. Strong guarantee.
-    /// @param hidden true: the instance starts out of sight, and its solvers are created when it becomes
-    ///          visible
+    /// @param hidden true: the instance starts hidden, and its solvers are created when it becomes visible
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
     /// Removes an instance at the end of its life, and moves its solvers to the free list.
@@ -77,21 +77,23 @@ public:
     void hide(Slot slot);
     void show(Slot slot); ///< makes a hidden instance visible, after catchUp() has returned true
     bool isHidden(Slot slot) const { return instances_[slot].hidden; }
-    /// Whether the state of the instance lags behind the present.
+    /// True if the state of the instance lags behind the present.
     bool lags(Slot slot) const;
     base::Ticks simulated(Slot slot) const
     {
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
         return simulation.pooled ? pools_.now() : simulation.simulated;
     }
-    /// Whether the simulation has many pending changes, so that catchUp() should be called to apply them.
+    /// True if the simulation has many pending changes. The caller should then call catchUp() to apply the
+    /// changes.
     bool hasManyChanges(Slot slot) const;
-    /// Advances a hidden instance towards the present by `policy`; a prewarm comes first. Strong guarantee
-    /// for each step.
-    /// @param ioBudget [1] number of particle steps that are allowed; each step costs the number of its
-    ///          particles plus one. The last step may exceed the budget.
-    /// @param work limits the call too, possibly in the middle of a step; the next call continues the step
-    /// @return true when the instance is at the present, or finished
+    /// Advances a hidden instance towards the present by `policy`. If there is a prewarm, it is simulated
+    /// first. Strong guarantee for each step.
+    /// @param ioBudget [1] number of particle steps that are allowed. The cost of a step is its number of
+    ///         particles plus one. The last step may exceed the budget
+    /// @param work additional limit of the call. The limit may interrupt a step; the next call then continues
+    ///         the step
+    /// @return true if the instance is at the present, or finished
     bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters,
                  base::WorkBudget& work);
     bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters)
@@ -99,11 +101,11 @@ public:
         base::WorkBudget unlimited;
         return catchUp(slot, policy, stepTicks, ioBudget, counters, unlimited);
     }
-    /// Takes one step, of any length, from the state of a hidden instance to the present, or continues such a
-    /// step that exceeded the work budget.
+    /// Advances a hidden instance to the present in one step of any length. If a previous call exceeded the
+    /// work budget, continues its step.
     void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work);
     /// Simulates the prewarm of an instance before its first step.
-    /// @return whether the prewarm is complete; if it is not, the instance must be hidden, and catchUp()
+    /// @return true if the prewarm is complete. If it is not, the instance must be hidden, and catchUp()
     ///         continues the prewarm
     bool arrive(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
     {
@@ -111,70 +113,71 @@ public:
     }
     /// Ends a step that catchUp() has left incomplete.
     void closeStep(Slot slot) { closeSimulation(instances_[slot].simulation); }
-    /// Whether a prewarm, or a seek of seekTo(), is incomplete.
+    /// True if a prewarm, or a seek of seekTo(), is incomplete.
     bool isArriving(Slot slot) const { return simulations_.at(instances_[slot].simulation).arriving; }
-    /// [tick] Local time of an incomplete prewarm or seek that is not simulated yet.
+    /// [tick] Part of an incomplete prewarm or seek that is not simulated yet, in local time.
     base::Ticks missing(Slot slot) const
     {
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
         return simulation.arriving ? simulation.target - simulation.reached : 0;
     }
-    /// Moves the solvers of a paused simulation to the free list and keeps its state as bytes.
-    /// @param mayForget true: particles that will be dead when the instance catches up are not kept, because
-    ///          the host skips the time in between and there is no difference
-    /// @return scene time at which another call would free more memory; the largest number for never
+    /// Moves the solvers of a paused simulation to the free list and saves its state as bytes.
+    /// @param mayForget true: particles that will be dead when the instance catches up are not saved
+    /// @return scene time at which another call would free more memory; the largest number: never
     base::Ticks release(Slot slot, bool mayForget);
-    /// Skips time of a lagging simulation if its past has no influence on the present. Moves it to a step
-    /// shortly before the present; from there catchUp() gives the same bits.
+    /// Skips time of a lagging simulation if its past has no influence on the present. The simulation is
+    /// moved to a step shortly before the present. A following catchUp() gives the same bits as without
+    /// skipping.
     void passOver(Slot slot, base::Ticks stepTicks);
     /// Restores the solvers of a hidden instance.
     void materialize(Slot slot) { simulations_.materialize(instances_[slot].simulation); }
-    /// Frees solvers that have been in the free list since before `tick`.
+    /// Frees solvers that were moved to the free list before `tick`.
     void trimFreeList(base::Ticks tick) { simulations_.trimFreeList(tick); }
     /// number of sets of solvers in the free list
     size_t freeSolvers() const { return simulations_.freeSolvers(); }
     /// Scene time, at least the present, up to which steps do not change the visible state of the instance.
-    /// These steps are not taken.
+    /// World skips these steps.
     base::Ticks restsUntil(Slot slot) const;
     /// Number of instances that pools compute, see EmitterPool.
     uint32_t pooled() const { return pools_.members(); }
-    /// Number of slots that the last step() skipped because they were at rest.
+    /// Number of resting instances that the last step() skipped.
     uint32_t resting() const { return resting_; }
-    /// Allows or forbids that steps of resting instances are skipped.
-    /// @param allow false: every step is taken
+    /// Allows or forbids skipping the steps of resting instances.
+    /// @param allow false: every step is executed
     void allowRest(bool allow) { mayRest_ = allow; }
-    /// Allows or forbids the use of pools by emitters, from the next step on. The results are the same.
+    /// Allows or forbids the use of pools by emitters, beginning with the next step. The results do not
+    /// depend on pools.
     /// @param allow false: no pools
     void allowPools(bool allow) { mayPool_ = allow; }
-    /// Enables or disables that emitters are published as input of the GPU where possible, from the next step
-    /// on; see StepContext::gpuParticles.
+    /// Enables or disables GPU particles, beginning with the next step. See StepContext::gpuParticles.
     void setGpuParticles(bool onGpu) { gpuParticles_ = onGpu; }
     /// Advances resting instances to the present, for saving and hashing.
     void endRests();
-    /// Sets the present time after restore(). All instances must have reached it.
+    /// Sets the present time after restore(). All instances must have reached this time.
     void setNow(base::Ticks now);
 
     const Environment& environment() const { return environment_; }
-    /// Replaces the geometry of the host from the next step on; null for none. Strong guarantee. Allocates
-    /// memory when instances at different positions share a simulation.
+    /// Replaces the geometry of the host, beginning with the next step; null: no geometry. Strong guarantee.
+    /// Allocates memory if instances at different positions share a simulation.
     void setField(std::shared_ptr<const DistanceField> field);
 
-    /// Sets the contact callback of the host from the next step on. If its member `meet` is null, there are
-    /// no contacts. Strong guarantee; allocates as setField() does.
+    /// Sets the contact callback of the host, beginning with the next step. If its member `meet` is null,
+    /// there are no contacts. Strong guarantee. Allocates memory if instances at different positions share a
+    /// simulation.
     void setContact(const HostContact& contact);
     const HostContact& contact() const { return contact_; }
     /// Returns the number of invalid results of the contact callback since the last call.
     uint64_t takeContactFaults() { return contactFaults_ == 0 ? 0 : contactFaults_.exchange(0); }
 
-    // Strong guarantee. The functions may allocate if the instance then differs from the instances that share
-    // its simulation.
+    // Strong guarantee. The functions may allocate memory if the instance shares a simulation.
     void setPlacement(Slot slot, const base::Placement& placement);
     void setParameters(Slot slot, const InstanceParameters& parameters);
-    /// Changes the playback rate of an instance from now on; allocates as setParameters() does.
+    /// Changes the playback rate of an instance at the present time. May allocate memory if the instance
+    /// shares a simulation.
     void setRate(Slot slot, uint32_t rate);
-    /// Moves an instance to local time `to`. The result is that of playing it from its first step in steps of
+    /// Moves an instance to local time `to`. The result equals a simulation from the first step in steps of
     /// `stepTicks` under the present conditions. Host events are not replayed. Strong guarantee.
-    /// @return whether `to` is reached; if not, see arrive()
+    /// @return true if `to` is reached; if not, see arrive()
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
                 base::WorkBudget& work);
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters)
@@ -185,38 +188,39 @@ public:
     base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
     /// The present clock of an instance, including a change that is still pending. See InstanceClock.
     InstanceClock clockOf(Slot slot) const;
-    /// Posts a host event to an instance. It takes effect in the next step after its state has reached the
-    /// present. Strong guarantee; may allocate.
+    /// Posts a host event to an instance. The event takes effect in the next step after the instance has
+    /// reached the present. Strong guarantee; may allocate.
     void postEvent(Slot slot, const HostEvent& event);
-    /// Whether the instance has finished: the effect's duration is over, all solvers have finished, or the
-    /// instance no longer emits and has no particles.
+    /// True if the instance has finished. Causes are: the effect's duration is over, all solvers have
+    /// finished, or the instance does not emit and has no particles.
     bool finished(Slot slot, base::Ticks sceneTick) const;
     uint32_t elementCount(Slot slot) const;
-    bool hasElements(Slot slot) const; ///< whether elementCount() is above 0
+    bool hasElements(Slot slot) const; ///< true if elementCount() is above 0
     const EffectDef& effect(Slot slot) const;
     /// number of simulations, at most one per instance
     uint32_t simulations() const { return simulations_.count(); }
 
-    /// Steps each slot of `active` from scene time `tick` to `tick + stepTicks`, in the order of the list. A
-    /// slot whose start is inside the step begins at its start tick; a slot that starts later is not stepped.
+    /// Steps each slot of `active` from scene time `tick` to `tick + stepTicks`, in the order of the list. An
+    /// instance that starts within the step is stepped from its start tick. An instance that starts later is
+    /// not stepped.
     StepCounters step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
-    /// step() in parts, with equal bits: call beginStep() once, then proceed() until it returns true. While a
-    /// step is open, changes of instances are deferred to its end, see makeChanges(). Only functions that
-    /// change or query an instance may be called meanwhile.
+    /// Begins a step in parts, with the same bits as step(). Call beginStep() once, then proceed() until it
+    /// returns true. While a step is open, only functions that change or query an instance may be called.
+    /// Changes of instances are deferred to the end of the step, see makeChanges().
     void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
-    /// Continues the open step. Returns true when the step is complete. After an exception no step is open.
-    /// @param work budget. At least one piece of work is done, even if it exceeds the budget: a sub-step of a
-    ///          solver or of a gas.
+    /// Continues the open step. Returns true when the step is complete. After an exception, no step is open.
+    /// @param work budget. At least one sub-step of a solver or of a gas is computed, even if it exceeds the
+    ///         budget
     /// @param counters receives the counts when the step is complete
     bool proceed(base::WorkBudget& work, StepCounters& counters);
-    /// Whether a step or its publication is open.
+    /// True if a step or its publication is open.
     bool isStepping() const { return hand_.isOpen || publication_.isOpen; }
     bool isPublishing() const { return publication_.isOpen; }
     /// Applies deferred changes. If an exception is thrown, the remaining changes stay deferred.
     void makeChanges();
     bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
 
-    /// Takes a step without instances: time advances to `now`.
+    /// Executes a step without instances. The time advances to `now`.
     void passTime(base::Ticks now)
     {
         if (!pools_.empty())
@@ -227,16 +231,18 @@ public:
 
     /// Writes the groups of each slot of `active`, in the order of the list.
     void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot);
-    /// publish() in parts, with equal bits: call beginPublication() once, then proceedPublication() until it
-    /// returns true. Meanwhile the rules of an open step apply, and no other code may write to `snapshot`.
+    /// Begins a publication in parts, with the same bits as publish(). Call beginPublication() once, then
+    /// proceedPublication() until it returns true. Until then, the rules of an open step apply, and no other
+    /// code may write to `snapshot`.
     void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
-    /// Continues the publication. Returns true when it is complete. An exception ends the publication.
+    /// Continues the publication. Returns true when the publication is complete. An exception ends the
+    /// publication.
     bool proceedPublication(base::WorkBudget& work);
     void dropPublication() { publication_.isOpen = false; } ///< discards the written part of the snapshot
 
-    /// Hash of the states behind `slots`; equal for shared and separate simulations.
+    /// Hash of the states of `slots`; equal for shared and separate simulations.
     uint64_t hash(std::span<const Slot> slots) const;
-    /// Writes the states behind `slots`; a shared state is written once.
+    /// Writes the states of `slots`. A shared state is written once.
     void save(std::span<const Slot> slots, StateWriter& writer) const;
 
     /// An instance to be restored, with the arguments of add().
@@ -247,7 +253,7 @@ public:
     };
     /// Fills an empty world with instances, in the order in which save() received them. After a failure,
     /// which the reader records, the world may only be destroyed.
-    /// @param outSlots receives the slots; as many elements as `entries`
+    /// @param outSlots receives the slots; has as many elements as `entries`
     void restore(std::span<const Entry> entries, StateReader& reader, std::span<Slot> outSlots);
     /// Exchanges all instances with a world of the same schema, memory and environment.
     void swap(World& other) noexcept;
@@ -266,7 +272,7 @@ private:
     struct Waiting
     {
         Slot slot;
-        /// event; empty: the start of the instance changes to the one in wanted_
+        /// event; empty: the start of the instance changes to its entry in wanted_
         std::optional<HostEvent> event;
     };
 
@@ -293,8 +299,8 @@ private:
         size_t place = 0; ///< index of the present slot in the list
         std::span<const Slot> list;
         std::vector<Slot> own; ///< memory of `list` between two calls
-        uint32_t solver = 0;   ///< index of the solver in that slot
-        PublicationPlace part; ///< progress within that solver
+        uint32_t solver = 0;   ///< index of the present solver in the slot
+        PublicationPlace part; ///< progress of the publication of the present solver
         base::FrameSnapshot* snapshot = nullptr;
     };
     /// Inputs of a step of one simulation.
@@ -302,9 +308,9 @@ private:
     {
         base::Ticks tick; ///< scene time
         base::Ticks stepTicks;
-        /// set only if its results are complete before the simulation is read
+        /// Batch of births. Set only if the batch is executed before the simulation is read.
         SpawnBatch* spawnBatch = nullptr;
-        /// event board of the step; null: the simulation has its own, see linkedPartOf()
+        /// event board of the step; null: the simulation has its own event board, see linkedPartOf()
         std::optional<EventBoard>* board = nullptr;
     };
     struct LocalSpan
@@ -401,7 +407,7 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
-    SpawnBatch spawnBatch_; ///< batch of the open step or publication; empty otherwise
+    SpawnBatch spawnBatch_; ///< batch of the open step or publication; empty if neither is open
     EmitterPools pools_;    ///< pools; declared before the simulations, because solvers are in the pools
     SimulationPool simulations_;
     std::vector<Instance> instances_;
@@ -409,16 +415,16 @@ private:
     Plan stepPlan_;
     StepInHand hand_;
     PublicationInHand publication_;
-    StepCounters closed_;          ///< counts of the work of steps that were ended early, not reported yet
-    std::vector<Waiting> waiting_; ///< deferred changes, in the order of the calls
-    std::vector<InstanceStart> wanted_;    ///< starts that apply from the end of the open step on
+    StepCounters closed_;                  ///< unreported counts of the work of steps that were ended early
+    std::vector<Waiting> waiting_;         ///< deferred changes, in the order of the calls
+    std::vector<InstanceStart> wanted_;    ///< starts that apply after the end of the open step
     std::vector<Slot> leaving_;            ///< removed instances
     std::vector<SimulationIndex> joining_; ///< simulations that may join a pool after the step
     std::vector<SimulationIndex> left_;    ///< simulations that left their pool in a step
     Plan publishPlan_;
     uint64_t placed_ = 0; ///< value of moves_ when publishPlan_ was made
     uint64_t moves_ = 1;  ///< number of motions of instances whose simulation is in a pool, plus 1
-    /// memory of rosters; snapshots hold some of them
+    /// Memory of rosters. Snapshots share the ownership of some rosters.
     std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_;
     std::shared_ptr<base::GroupRoster> roster_; ///< roster of the last publication
     std::vector<uint32_t> ends_;                ///< see FrameSnapshot::setRoster()

@@ -1,5 +1,5 @@
 /// @file world_context.h
-/// Step contexts of the solvers of a world, for those parts of World that step.
+/// Step contexts of the solvers of a world.
 #pragma once
 
 #include "simulation/solver/placed_contact.h"

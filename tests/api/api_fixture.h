@@ -1,5 +1,5 @@
 /// @file api_fixture.h
-/// A host for the tests of the C API: its memory, its presets, a context and a scene.
+/// A host for the tests of the C API, with an allocator, presets, a context and a scene.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -14,17 +14,17 @@
 
 namespace fx::test {
 
-/// An allocator that counts blocks and bytes, and that can be set to fail. Several threads may call its hooks
-/// at once.
+/// An allocator that counts blocks and bytes, and that can be set to fail. Several threads may call its
+/// callbacks at the same time.
 class HostAllocator
 {
 public:
     FxAllocator hooks() { return {this, &allocate, &release}; }
 
-    /// Makes allocation number `n` from now (1: the next) and all later ones fail; 0: none fails.
+    /// Makes the `n`th allocation after this call and all later allocations fail; 0: no allocation fails.
     void failFrom(uint64_t n) { remaining_ = n; }
     bool hasFailed() const { return failed_; }
-    int64_t blocks() const { return blocks_; } ///< allocated and not released
+    int64_t blocks() const { return blocks_; } ///< number of blocks that are allocated and not released
     int64_t bytes() const { return bytes_; }   ///< [byte]
 
 private:
@@ -33,7 +33,7 @@ private:
 
     bool isLeft();
 
-    /// Number of allocations until the first one that fails, itself included; 0: none fails.
+    /// Number of allocations up to and including the first failing allocation; 0: no allocation fails.
     std::atomic<uint64_t> remaining_{0};
     std::atomic<bool> failed_{false};
     std::atomic<int64_t> blocks_{0};
@@ -42,7 +42,7 @@ private:
 
 constexpr double kFrame = 1.0 / 60.0; ///< [s]
 
-/// A preset with 60 particles a second, without end. The particles live 1 s and fall under gravity.
+/// A preset that emits 60 particles per second without end. The particles live 1 s and fall under gravity.
 std::string fountainPreset();
 /// A preset of one burst of `count` particles that live `seconds`.
 std::string burstPreset(int count, double seconds);
@@ -54,12 +54,13 @@ constexpr const char* kLargeEffect = "library:explosion"; ///< preset of the lib
 constexpr bool kHasGas = false;
 constexpr const char* kLargeEffect = "library:burning-debris";
 #endif
-/// Skips a test about gases if the build has no gases.
+/// Skips a test of gases if the build has no gases.
 #define FX_NEEDS_GAS()                                                                                       \
     if (!fx::test::kHasGas)                                                                                  \
     GTEST_SKIP() << "this build has no gases (FXSDK_WITH_SPH)"
 
-/// A preset of a gas (if the build has gases), a burst and a fountain: little work, but every kind of state.
+/// A preset of a burst, a fountain, and a gas if the build has gases. It needs little work, but has every
+/// kind of state.
 std::string smallBlastPreset();
 
 FxPresetId loadText(FxContext* context, const std::string& text);

@@ -1,5 +1,5 @@
 /// @file background_calls.h
-/// Threads that make every call that the C API allows on any thread, while other threads update and draw.
+/// Threads that call all functions that the C API allows on any thread, while other threads update and draw.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -11,7 +11,7 @@
 
 namespace fx::test {
 
-/// Makes calls on threads of its own. Each function starts a thread, which runs until stop() or the
+/// Calls functions on separate threads. Each member function starts a thread, which runs until stop() or the
 /// destruction of this object.
 class BackgroundCalls
 {
@@ -21,8 +21,8 @@ public:
     BackgroundCalls(const BackgroundCalls&) = delete;
     BackgroundCalls& operator=(const BackgroundCalls&) = delete;
 
-    /// Acquires one snapshot after another, reads it completely, and expects that it does not change while it
-    /// is held.
+    /// Acquires snapshots repeatedly and reads them completely. Expects that a snapshot does not change
+    /// before its release.
     void readSnapshots(FxScene* scene);
     /// Loads, queries and unloads presets with images and meshes, and expects an error for a broken preset.
     void loadPresets(FxContext* context);

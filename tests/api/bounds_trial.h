@@ -1,6 +1,6 @@
 /// @file bounds_trial.h
-/// Plays one random preset to a random time, moves it, and renders it from a random position. Measures which
-/// pixels change and how far they are outside of the published bounds.
+/// Plays one random preset to a random time, moves the instance, and renders it from a random position.
+/// Measures the distance of changed pixels from the published bounds.
 #pragma once
 
 #include "tests/api/published_boxes.h"
@@ -27,7 +27,7 @@ struct TrialCamera
 /// A ball in world space that no particle should leave.
 struct TrialBall
 {
-    glm::dvec3 center; ///< [m] world
+    glm::dvec3 center; ///< [m] position of the center in the world
     double radius;     ///< [m]
 };
 
@@ -36,19 +36,21 @@ struct TrialResult
 {
     RandomPreset preset;
     int drawn = 0; ///< number of changed pixels
-    /// [pixel] for each kind of omission: distance of the farthest changed pixel from the bounds
+    /// [pixel] Distance of the farthest changed pixel from the bounds, for each kind of omission.
     std::array<double, size_t(Without::Count)> by{};
-    double slack = 0;   ///< [pixel] distance that is allowed
-    bool isCut = false; ///< whether the bounds reach behind the near plane
-    /// [1] linear size of the bounds in the picture over that of the changed pixels; 0: not measured
+    double slack = 0;   ///< [pixel] allowed distance of changed pixels from the bounds
+    bool isCut = false; ///< true: the bounds extend behind the near plane
+    /// [1] Linear size of the bounds in the picture divided by the linear size of the changed pixels; 0: not
+    /// measured.
     double tightness = 0;
     double reach = 0; ///< [m] reach that the instance reports
-    /// [m] distance of the ray of the farthest changed pixel from the ball of radius `reach`, less the slack
+    /// [m] Distance of the ray of the farthest changed pixel from the ball of radius `reach`, minus the
+    /// allowed distance.
     double beyond = 0;
-    double room = 0;       ///< [1] `reach` over the distance of the bounds' farthest corner
+    double room = 0;       ///< [1] `reach` divided by the distance of the bounds' farthest corner
     uint32_t onGpu = 0;    ///< number of particles that the GPU computed
     uint32_t thinned = 0;  ///< number of particles that the level of detail omitted
-    uint32_t pictures = 0; ///< number of effects drawn as impostors
+    uint32_t pictures = 0; ///< number of effects that were drawn as impostors
 };
 
 class BoundsTrialTest : public ViewApiTest
@@ -57,10 +59,11 @@ protected:
     BoundsTrialTest();
 
     /// Runs one trial.
-    /// @param isSharp true: a preset of sharpPreset(), moved in the last step and drawn at full detail, large
-    ///          and from the side
+    /// @param isSharp true: uses a preset of sharpPreset(). The instance is moved in the last step and drawn
+    /// at
+    ///         full detail, large and from the side
     TrialResult tryOne(uint64_t seed, bool isSharp = false);
-    /// [m] Distance as TrialResult::beyond for the last trial, but with the reach of the preset `text`.
+    /// [m] TrialResult::beyond of the last trial, computed with the reach of the preset `text`.
     double beyondReachOf(const std::string& text);
 
 private:
@@ -84,7 +87,7 @@ private:
     TempFolder folder_;
     FxScene* own_ = nullptr;
     std::vector<float> pattern_;
-    // of the last trial
+    // Data of the last trial.
     FxInstanceDef def_{};
     TrialCamera camera_{};
     TrialBall ball_{};

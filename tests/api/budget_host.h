@@ -1,5 +1,5 @@
 /// @file budget_host.h
-/// A host that gives its scene a budget of work, for tests.
+/// A host for tests, which sets the work budget of its scene.
 #pragma once
 
 #include "tests/api/api_fixture.h"

@@ -7,9 +7,10 @@
 
 namespace fx::test {
 
-/// Number of calls of operator new, in all forms and threads, since the program began.
+/// Number of calls of all forms of operator new, on all threads, since the start of the program.
 uint64_t newCalls();
-/// As newCalls(), for the calling thread only, because GL drivers have threads of their own.
+/// Number of calls of operator new on the calling thread. Other threads are not counted, because GL drivers
+/// have threads.
 uint64_t newCallsOfThisThread();
 
 } // namespace fx::test

@@ -2,7 +2,7 @@
 /// Intercepts the OpenGL calls of a context and records the existing objects: textures by format, buffers by
 /// label, programs by name, and the number of framebuffers.
 ///
-/// Threads: one thread, and only one ledger at a time.
+/// Threads: one thread. Only one ledger may exist at a time.
 #pragma once
 
 #include "rendering/platform/gl_context.h"
@@ -27,23 +27,23 @@ public:
     render::GlLoader loader() { return {this, &find}; }
 
     using Counts = std::map<std::string, int>;
-    Counts textures() const ///< alive, by format
+    Counts textures() const ///< number of existing textures by format
     {
         Counts counts;
         for (const auto& [name, format] : textures_)
             ++counts[format];
         return counts;
     }
-    Counts buffers() const ///< alive, by label
+    Counts buffers() const ///< number of existing buffers by label
     {
         Counts counts;
         for (const auto& [name, label] : buffers_)
             ++counts[label];
         return counts;
     }
-    /// names of all programs that were created, deleted ones included
+    /// names of all created programs, including deleted programs
     const std::set<std::string>& programs() const { return programs_; }
-    size_t framebuffers() const { return framebuffers_.size(); } ///< alive
+    size_t framebuffers() const { return framebuffers_.size(); } ///< number of existing framebuffers
 
 private:
     static GlLedger*& current()

@@ -1,6 +1,6 @@
 /// @file host_target_fixture.h
-/// Draws the burning scene of ViewApiTest into textures of various formats. Each result is compared with that
-/// of an RGBA32F texture of the same light.
+/// Draws the burning scene of ViewApiTest into textures of various formats. Each result is compared with the
+/// result of an RGBA32F texture with the same light.
 #pragma once
 
 #include "tests/api/host_textures.h"
@@ -24,7 +24,7 @@ struct ColorFormat
         Float,
         Srgb,
     } kind;
-    double step; ///< distance of neighboring values: absolute for Unorm and Srgb codes, relative for Float
+    double step; ///< distance of neighboring values; absolute for Unorm and Srgb codes, relative for Float
     double alphaStep; ///< distance of neighboring values of alpha; 0: the format has no alpha
 };
 
@@ -43,23 +43,23 @@ protected:
     HostTargetTest();
 
     /// Sets the settings of the view.
-    /// @param inPlace true: only media are drawn and blended into the picture; false: also glare and shimmer,
-    ///          for which the picture is copied and written back
+    /// @param inPlace true: only media are drawn and blended into the picture; false: glare and shimmer are
+    ///         also drawn, so that the picture is copied and written back
     void useSettings(bool inPlace, bool toneMap = false);
     Outcome render(const FxFrameDef& def);
 
-    /// A picture whose middle covers all of [0, 1]. Media do not reach its corner.
+    /// A picture whose middle has all values of [0, 1]. The media of the scene do not cover its corner.
     std::vector<float> gradient() const;
     void write(GLuint texture, const std::vector<float>& rgba);
     std::vector<float> read(GLuint texture); ///< RGBA as stored
     /// Converts stored codes to light.
     static std::vector<float> lightOf(const ColorFormat& format, std::vector<float> stored);
-    /// Result of the frame in RGBA32F over `light`.
+    /// Result of the frame in an RGBA32F texture with the initial content `light`.
     std::vector<float> reference(FxFrameDef def, const std::vector<float>& light);
     /// Compares the stored values with the reference picture. @return a message; empty if they agree
     std::string faultOf(const ColorFormat& format, const std::vector<float>& stored,
                         const std::vector<float>& expected) const;
-    /// Creates the depth of a far plane on the left, and of a wall through the flames on the right.
+    /// Creates a depth image. The left half is a far plane, the right half a wall through the flames.
     void buildWall(GLuint depth, GLenum attachment);
     /// Depth in [0, 1] at a distance along the axis.
     static float depthAt(double distance);

@@ -11,7 +11,7 @@
 
 namespace fx::test {
 
-/// GL functions that hosts call and the library does not.
+/// GL functions that only hosts call. The library does not call these functions.
 struct HostGl
 {
     explicit HostGl(const render::GlLoader& loader);
@@ -78,8 +78,8 @@ public:
     GLuint make2D(GLenum format, int size) { return make(GL_TEXTURE_2D, format, size, size); }
     /// A 2-D view of one level of one layer.
     GLuint makeView(GLuint of, GLenum format, GLuint level, GLuint layer);
-    /// Texture created by glTexImage2D, without mipmaps, with the default filters. If `size` is 0, it has no
-    /// image.
+    /// Texture created by glTexImage2D, without mipmaps, with the default filters. If `size` is 0, the
+    /// texture has no image.
     GLuint makeMutable(GLenum format, int size);
     /// A framebuffer with the whole texture as its only color attachment.
     GLuint makeFramebuffer(GLuint color);

@@ -1,6 +1,6 @@
 /// @file host_threads.h
-/// A host's own threads for FxContextDef::parallelFor. They are compiled with the test, so that the thread
-/// sanitizer sees all of their synchronization.
+/// Threads of a host for FxContextDef::parallelFor. The code is compiled with the test, so that the thread
+/// sanitizer sees all synchronization.
 #pragma once
 
 #include "fxsdk/fx_context.h"
@@ -14,8 +14,8 @@
 
 namespace fx::test {
 
-/// Runs parallel loops for any number of simultaneous callers. A caller also processes ranges of its own
-/// loop. Ranges have the minimum allowed length, and no range waits for another range of its loop.
+/// Runs parallel loops for any number of simultaneous callers. A caller also processes ranges of its loop.
+/// Ranges have the minimum allowed length, and no range waits for another range of its loop.
 class HostThreads
 {
 public:
@@ -35,11 +35,11 @@ private:
         void* argument;
         uint64_t count;
         uint64_t batch;
-        std::atomic<uint64_t> next{0}; ///< begin of the next range
-        uint32_t helpers = 0;          ///< inside; guarded by mutex_
+        std::atomic<uint64_t> next{0}; ///< beginning of the next range
+        uint32_t helpers = 0;          ///< number of helper threads in the loop; guarded by mutex_
     };
     static void run(void* user, uint32_t count, uint32_t minBatch, FxLoopBody body, void* argument);
-    static uint64_t takeRanges(Loop& loop); ///< @return how many
+    static uint64_t takeRanges(Loop& loop); ///< @return number of processed ranges
     void help();
     Loop* openLoop() const;
 

@@ -7,7 +7,8 @@
 
 namespace fx::test {
 
-/// Names of the library's presets that this build can load; without gases: of the presets without gas.
+/// Names of the library's presets that this build can load. A build without gases cannot load presets with a
+/// gas.
 std::vector<std::string> libraryNames();
 
 } // namespace fx::test

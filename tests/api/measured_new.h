@@ -9,6 +9,7 @@ namespace fx::test {
 /// Restarts the measurement at 0.
 void resetMeasuredNew();
 size_t largestNew(); ///< [byte] largest block since the restart
-size_t highestNew(); ///< [byte] largest simultaneous total since the restart, beyond what existed then
+size_t
+highestNew(); ///< [byte] largest total size of blocks since the restart, minus the total at the restart
 
 } // namespace fx::test

@@ -1,5 +1,5 @@
 /// @file memory_sweep.h
-/// A host whose allocator fails at the first request, then at the second, and so on.
+/// Tests calls with an allocator that fails at the first request, then at the second request, and so on.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -13,15 +13,16 @@
 
 namespace fx::test {
 
-/// An allocator in which one request fails, or one request and all later ones.
+/// An allocator in which one request fails, or one request and all later requests.
 class ScarceMemory
 {
 public:
     FxAllocator hooks() { return {this, &allocate, &release}; }
 
     /// Sets the request that fails.
-    /// @param n      number of the failing request from now, 1 for the next; 0 for none
-    /// @param isGone true: all later requests fail as well
+    /// @param n number of the failing request, counted from this call, 1 for the next request; 0: no request
+    ///         fails
+    /// @param isGone true: all later requests also fail
     void refuse(uint64_t n, bool isGone)
     {
         requests_ = 0;
@@ -30,7 +31,7 @@ public:
         hasRefused_ = false;
     }
     bool hasRefused() const { return hasRefused_; }
-    int64_t blocks() const { return blocks_; } ///< allocated and not released
+    int64_t blocks() const { return blocks_; } ///< number of blocks that are allocated and not released
 
 private:
     static void* allocate(void* user, size_t size, size_t alignment)
@@ -59,19 +60,19 @@ private:
 };
 
 /// Number of the failing request that follows `n` in a sweep. With the environment variable
-/// FXSDK_EVERY_ALLOCATION every request fails in turn. Without it, each of the first 32 fails in turn; after
-/// that the number grows by a sixteenth in each step.
+/// FXSDK_EVERY_ALLOCATION every request fails in turn. Without the variable, each of the first 32 requests
+/// fails in turn. Then the number grows by a sixteenth in each step.
 inline uint64_t nextRefused(uint64_t n)
 {
     static const bool everyOne = std::getenv("FXSDK_EVERY_ALLOCATION") != nullptr;
     return everyOne ? n + 1 : n + 1 + n / 32 * 2;
 }
 
-/// Repeats `action` with a failing request, which is a later one in each repetition, until `action` succeeds
-/// without reaching it. Each request fails once alone and once together with all later ones. A call that
-/// fails must return FX_ERROR_OUT_OF_MEMORY, and then `isAsBefore` must hold. A call may also succeed in
-/// spite of the failing request. There must be no leak: memory that is kept after a failure is reused in the
-/// next repetition, so repeated failures at the same request soon add nothing.
+/// Repeats `action` with a failing request. The number of the failing request increases until `action`
+/// succeeds before this request. Each request fails once alone and once together with all later requests. A
+/// failing call must return FX_ERROR_OUT_OF_MEMORY, and `isAsBefore` must then return true. A call may also
+/// succeed despite the failing request. There must be no leak: the number of blocks must stop growing if the
+/// failure at one request is repeated.
 /// @return number of failures
 template <class Action, class IsAsBefore>
 uint64_t refuseEach(ScarceMemory& memory, Action&& action, IsAsBefore&& isAsBefore)

@@ -69,7 +69,7 @@ private:
             most = glm::max(most, sign * p);
         return sign * most;
     }
-    /// Andrew's monotone chain, counterclockwise.
+    /// Computes the convex hull by Andrew's monotone chain, counterclockwise.
     void wrap(std::vector<glm::dvec2>& points)
     {
         std::sort(points.begin(), points.end(),

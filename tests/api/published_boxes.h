@@ -15,23 +15,23 @@ namespace fx::test {
 /// Kinds of incomplete bounds, by what is omitted.
 enum class Without
 {
-    Nothing, ///< nothing is omitted: the published bounds
-    /// nothing is omitted, but bounds are computed again row by row; they are never larger than the published
-    /// ones
+    Nothing, ///< nothing is omitted; the bounds are the published bounds
+    /// Nothing is omitted, but bounds are computed again row by row. These bounds are never larger than the
+    /// published bounds.
     Rows,
     Tenth,    ///< a tenth of the size of the bounds
     Size,     ///< radii, corners and widths
     Stretch,  ///< the stretching of sprites by their speed
     Shutter,  ///< the stretching of media by the open shutter
-    Births,   ///< the path from births since the older snapshot
-    Children, ///< emitters whose births other emitters cause
+    Births,   ///< paths of particles born since the older snapshot
+    Children, ///< emitters whose births are caused by other emitters
     Trails,
     OlderPlace, ///< the placement that the instance had before its last move
     Count
 };
 const char* nameOf(Without what);
 
-/// A box that is aligned with the axes of the local space. It has one or two placements.
+/// A box that is aligned with the axes of the local space. The box has one or two placements.
 struct PublishedBox
 {
     glm::dvec3 low, high;
@@ -41,13 +41,14 @@ struct PublishedBox
         glm::dquat rotation;
         double scale;
     };
-    Place place, other; ///< placement at the step of the box, and at the other step
+    Place place,
+        other; ///< `place` is the placement at the step of the box, `other` the placement at the second step
 };
 
-/// Corners of all boxes in the world. For moving boxes, also the corners at times between both steps.
+/// Corners of all boxes in the world. For moving boxes, the corners at times between both steps are included.
 std::vector<glm::dvec3> cornersOf(const std::vector<PublishedBox>& boxes);
 
-/// One snapshot of a scene, held during the lifetime of this object.
+/// The boxes of one snapshot of a scene. The snapshot is acquired during the lifetime of this object.
 class PublishedBoxes
 {
 public:

@@ -13,7 +13,7 @@ class Dice
 public:
     explicit Dice(uint64_t seed);
     double between(double low, double high) { return low + (high - low) * unit(); }
-    /// Uniform in the logarithm.
+    /// A random number in [low, high) whose logarithm is uniformly distributed.
     double magnitude(double low, double high);
     bool one(int in) { return next() % uint64_t(in) == 0; } ///< true with the probability 1 / in
     size_t below(size_t count) { return size_t(next() % count); }
@@ -32,14 +32,14 @@ struct RandomPreset
     std::string kind;
 };
 
-/// A random preset with one emitter, a chain of emitters, fragments or gas. It refers to the assets below and
-/// to "library:debris-chunk.obj".
-/// @param gpu whether emitters may prefer the GPU
-/// @param gas whether the preset may have gas
+/// A random preset with one emitter, a chain of emitters, fragments or gas. The preset may refer to the
+/// assets below and to "library:debris-chunk.obj".
+/// @param gpu true: emitters may prefer the GPU
+/// @param gas true: the preset may have gas
 RandomPreset randomPreset(uint64_t seed, bool gpu, bool gas);
 
-/// A random preset with one emitter of few small solid particles, which are fast in one direction, so that
-/// their extent is clearly visible.
+/// A random preset with one emitter of few small solid particles. The particles are fast in one direction, so
+/// that their extent is clearly visible.
 RandomPreset sharpPreset(uint64_t seed);
 
 /// Contents of the assets that random presets refer to: "lump.obj", a mesh for births; "cloud.fxgrid", a

@@ -1,6 +1,6 @@
 /// @file scene_script.h
-/// Calls of a host on one scene, the same in every run: instances are created, destroyed, moved, hidden and
-/// taken to other times, and states are saved and restored. The result must not depend on other threads.
+/// Calls of a host on one scene. The calls are equal in every run: they create, destroy, move, hide and seek
+/// instances, and save and restore states. The result must not depend on other threads.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -22,7 +22,7 @@ public:
     FxScene* scene() const { return scene_; }
     void play(int frames);
     uint64_t stateHash() const;      ///< hash of the visible state
-    uint64_t simulationHash() const; ///< hash of everything that later steps depend on
+    uint64_t simulationHash() const; ///< hash of all data on which later steps depend
 
 private:
     static constexpr size_t kMaxInstances = 10;

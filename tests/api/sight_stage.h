@@ -22,14 +22,14 @@ constexpr base::Ticks kStep = base::kTicksPerSecond / 60;
 struct ToyKind
 {
     bool seeks = false;         ///< true: the state is a pure function of time and intensity
-    uint32_t elements = 4;      ///< number of elements that it reports
-    base::Ticks restsUntil = 0; ///< local time before which it has no elements
+    uint32_t elements = 4;      ///< number of elements that the solver reports
+    base::Ticks restsUntil = 0; ///< local time before which the solver has no elements
     base::Ticks endsAt = INT64_MAX;
     int* created = nullptr; ///< counter of created solvers
 };
 
-/// A solver whose state is a single number. If the solver seeks, the number is a sum over time; otherwise it
-/// is a chain of hashes over steps.
+/// A solver whose state is a single number. If the solver seeks, the number is a sum over time. If it does
+/// not, the number is a chain of hashes over steps.
 class ToySolver final : public sim::Solver, public sim::SeekableSolver
 {
 public:
@@ -113,8 +113,7 @@ inline Effect toyEffect(const ToyKind& kind)
     return effect;
 }
 
-/// An emitter of 60 particles a second that live half a second.
-/// @param curls true: their motion is integrated
+/// An emitter of 60 particles per second. @param curls true: the motion of the particles is integrated
 inline Effect fountainEffect(bool curls = false, float longestLife = 0.5f)
 {
     auto emitter = std::make_unique<sim::EmitterDef>();
@@ -141,7 +140,7 @@ inline activation::Frustum lookAt(double radians, activation::Frustum::Limits li
     return {glm::dvec3(0.0), view, glm::perspective(1.0472f, 1.0f, 0.1f, 1000.0f), limits};
 }
 
-/// A scene that is used without the C API.
+/// A scene for tests that do not use the C API.
 class SightStage
 {
 public:

@@ -1,5 +1,6 @@
 /// @file technique_rows.h
-/// The objects in a frame that exist because of one technique only. A new technique needs a row here.
+/// Table of techniques, with the objects in a frame that only one technique causes. A new technique needs an
+/// entry in this table.
 #pragma once
 
 #include "tests/api/gl_ledger.h"
@@ -13,20 +14,20 @@ namespace fx::test {
 struct TechniqueRow
 {
     std::string name;
-    /// members of a preset that use the technique; empty: a setting of the view enables it
+    /// Members of a preset that use the technique; empty: a setting of the view enables the technique.
     std::string members;
     std::string standsOn;            ///< name of another technique that is required for drawing; empty: none
     std::vector<std::string> passes; ///< names of the passes of a frame right after a step
     std::set<std::string> programs;
     GlLedger::Counts textures, buffers;
-    /// Passes and programs that occur only in this row and in rows that require its technique.
+    /// Passes and programs that occur only in this entry and in entries that require its technique.
     std::set<std::string> ownPasses, ownPrograms;
-    /// whether the effect collides with the host's geometry, which the test then sets
+    /// True if the effect collides with the host's geometry, which the test then sets.
     bool meetsMesh = false;
 };
 
-/// Members of a preset with an emitter of 60 particles a second at the origin. @param more further members of
-/// the emitter
+/// Members of a preset with an emitter of 60 particles per second at the origin. @param more further members
+/// of the emitter
 inline std::string emitterMembers(const std::string& more)
 {
     return R"("emitters": [{"shape": "sphere", "size": 0.4, "emission": {"rate": 60}, "lifetime": 1, "speed": 1,
@@ -102,7 +103,7 @@ inline TechniqueRow meshesRow()
             {"particle meshes"}};
 }
 
-inline TechniqueRow lightsRow() ///< row for lights that are listed for the host, and not drawn
+inline TechniqueRow lightsRow() ///< entry for lights that are listed for the host, and not drawn
 {
     return {"particle lights",
             emitterMembers(R"("appearance": {"kind": "none"}, "light": {"intensity": 10})"),
@@ -115,7 +116,7 @@ inline TechniqueRow lightsRow() ///< row for lights that are listed for the host
             {}};
 }
 
-/// Row for the host's geometry with which effects collide. Steps sample the geometry; it is not drawn.
+/// Entry for the host's geometry, with which effects collide. The geometry is not drawn.
 inline TechniqueRow sceneMeshRow()
 {
     TechniqueRow row{"scene mesh",
@@ -131,7 +132,7 @@ inline TechniqueRow sceneMeshRow()
     return row;
 }
 
-/// Row for sprites whose rows and order the GPU computes.
+/// Entry for sprites that the GPU simulates and sorts.
 inline TechniqueRow gpuParticlesRow()
 {
     return {

@@ -21,26 +21,26 @@ protected:
     static constexpr float kBackground = 0.25f; ///< exposed value of the host's picture
 
     ViewApiTest();
-    ~ViewApiTest() override; ///< makes the test fail if the driver reported a message
+    ~ViewApiTest() override; ///< fails the test if the driver reported a message
 
     FxFrameDef frame() const;
-    void fillPicture();           ///< with kBackground
+    void fillPicture();           ///< fills the host's picture with kBackground
     std::vector<float> picture(); ///< RGBA, row by row
     FxViewStatistics statistics() const;
     void update(int frames);
 
     std::unique_ptr<render::GlContext> gl_;
-    std::unique_ptr<render::GlDevice> host_; ///< function table of the host's own OpenGL calls
+    std::unique_ptr<render::GlDevice> host_; ///< function table for OpenGL calls of the host
     std::unique_ptr<render::GlMessages> messages_;
     render::GlTexture color_;
-    render::GlTexture depth_; ///< holds the far plane
+    render::GlTexture depth_; ///< depth texture with the depth of the far plane
     HostAllocator memory_;
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
     FxView* view_ = nullptr;
 };
 
-/// Passes of the last frame, in the order in which they ran.
+/// Names of the passes of the last frame, in the order of execution.
 std::vector<std::string> passNamesOf(FxView* view);
 
 } // namespace fx::test

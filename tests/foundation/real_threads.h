@@ -1,5 +1,5 @@
 /// @file real_threads.h
-/// Threads for tests of many workers, also on machines with few processors.
+/// Allows tests with many worker threads on machines with few processors.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -8,8 +8,8 @@
 
 namespace fx::test {
 
-/// During its lifetime, TBB loops run on up to `most` threads, as requested. Without it TBB uses at most as
-/// many threads as the machine has processors: 16 workers on two processors would be 2 threads.
+/// During the lifetime of this object, TBB loops may run on up to `most` threads. Without this object, TBB
+/// uses at most as many threads as the machine has processors.
 class RealThreads
 {
 public:

@@ -1,10 +1,10 @@
 /// @file calls_player.h
-/// Plays bytes as a recording of calls of the C API: three contexts with scenes, instances, snapshots and
-/// views, whose callbacks make further calls of the recording.
+/// Interprets bytes as a recording of calls of the C API, and executes the calls. There are three contexts
+/// with scenes, instances, snapshots and views. Their callbacks also execute calls of the recording.
 ///
-/// Each call takes 32 bytes. Two of them choose the function, the others its objects and arguments, valid and
-/// invalid ones; zeros select typical values. Arguments with a documented unbounded cost (steps of one
-/// update, cells of a mesh) are kept small.
+/// Each call takes 32 bytes. Two bytes choose the function. The other 30 bytes choose its objects and
+/// arguments, which may be invalid. Zeros select typical values. Arguments with a documented unbounded cost,
+/// such as the steps of one update or the cells of a mesh, are limited to small values.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -16,7 +16,7 @@
 
 namespace fx::fuzz {
 
-/// Render targets of views, created once for all inputs. Empty without GL.
+/// OpenGL functions of the host, and render targets of views. The targets are created once for all inputs.
 struct GlHost
 {
     FxGlLoader loader{};
@@ -24,22 +24,22 @@ struct GlHost
     int32_t size = 0;              ///< [pixel]
 };
 
-/// The host's own OpenGL; without FX_FUZZ_WITH_GL there is none.
+/// The OpenGL host. Without FX_FUZZ_WITH_GL, all members are 0.
 const GlHost& glHost();
 
 struct PlayedScene
 {
     FxScene* scene = nullptr;
-    std::vector<FxInstanceId> instances; ///< stale ones too
-    std::vector<FxSnapshotId> snapshots; ///< released ones too
+    std::vector<FxInstanceId> instances; ///< instances, including destroyed instances
+    std::vector<FxSnapshotId> snapshots; ///< snapshots, including released snapshots
 };
 
 struct PlayedContext
 {
-    FuzzHost host; ///< outlives the context
+    FuzzHost host; ///< host, which must outlive the context
     FxContext* context = nullptr;
     bool hasGl = false;
-    std::vector<FxPresetId> presets; ///< unloaded ones too
+    std::vector<FxPresetId> presets; ///< presets, including unloaded presets
     std::array<PlayedScene, 2> scenes;
     std::array<FxView*, 2> views{};
 };
@@ -51,7 +51,7 @@ public:
     CallsPlayer(const CallsPlayer&) = delete;
     CallsPlayer& operator=(const CallsPlayer&) = delete;
 
-    /// Makes all calls, then destroys the remaining objects and checks that no memory is still allocated.
+    /// Executes all calls, then destroys the remaining objects. Checks that no memory is still allocated.
     void play();
 
 private:
@@ -65,7 +65,7 @@ private:
     void forget(const void* memory, size_t size);
     void destroyAll(PlayedContext& played);
 
-    /// Selects a context; the first one is selected most often.
+    /// Selects a context. The first context is selected most often.
     PlayedContext& anyContext() { return contexts_[input_.one(4) ? 1 + input_.below(2) : 0]; }
     PlayedScene& sceneOf(PlayedContext& played) { return played.scenes[input_.one(4) ? 1 : 0]; }
     FxView*& viewOf(PlayedContext& played) { return played.views[input_.one(4) ? 1 : 0]; }
@@ -76,8 +76,8 @@ private:
     FxSnapshotId anySnapshot(const PlayedScene& played);
     double number(double most);
     float floatNumber(double most) { return float(number(most)); }
-    uint32_t structSize(size_t size); ///< mostly the right one
-    /// A struct that a call fills.
+    uint32_t structSize(size_t size); ///< value for the member structSize, in most cases `size`
+    /// Creates a struct that a call fills.
     template <class Struct>
     Struct sized()
     {
@@ -120,11 +120,11 @@ private:
     void setCalibration();
     FxViewSettings anySettings();
 
-    InputReader recording_; ///< calls to come
-    InputReader input_;     ///< arguments of this call
+    InputReader recording_; ///< remaining calls
+    InputReader input_;     ///< arguments of the present call
     std::array<PlayedContext, 3> contexts_;
     int depth_ = 0;          ///< depth of nested calls within callbacks
-    uint32_t calls_ = 0;     ///< made so far
+    uint32_t calls_ = 0;     ///< number of executed calls
     uint32_t intruders_ = 0; ///< number of callbacks that may still make a call
 };
 

@@ -1,6 +1,6 @@
 /// @file fuzz_host.h
-/// A host of the C API: counted memory, a parallel loop that cuts its range, and small presets. Its callbacks
-/// can call back into the API.
+/// A host of the C API with counted memory, a parallel loop that divides its range, and small presets. The
+/// callbacks of the host can call the API.
 #pragma once
 
 #include "fxsdk/fxsdk.h"
@@ -12,7 +12,7 @@
 
 namespace fx::fuzz {
 
-/// Presets that cost little and cover the solvers: media, sprites, events, trails, fragments, gas, GPU
+/// Presets of low cost that use all solvers: media, sprites, events, trails, fragments, gas and GPU
 /// particles.
 std::span<const std::string_view> smallPresets();
 
@@ -22,18 +22,18 @@ FxResult checked(FxResult result);
 class FuzzHost
 {
 public:
-    /// Called by each callback of the host before its own work; may be empty.
+    /// Function that each callback of the host calls first; may be empty.
     std::function<void()> intrude;
-    /// Called before memory is released.
+    /// Function that is called before memory is released.
     std::function<void(const void* memory, size_t size)> releasing;
-    bool reversesLoops = false;      ///< whether the parts of a loop run from the last to the first
-    uint32_t failAfter = UINT32_MAX; ///< number of allocations that succeed before all later ones fail
+    bool reversesLoops = false;      ///< true: the parts of a loop run from the last part to the first part
+    uint32_t failAfter = UINT32_MAX; ///< number of allocations that succeed; all later allocations fail
 
     FuzzHost() = default;
     FuzzHost(const FuzzHost&) = delete;
     FuzzHost& operator=(const FuzzHost&) = delete;
 
-    /// A definition with all hooks of this host except GL. The host must outlive the context.
+    /// A definition with all callbacks of this host except GL. The host must outlive the context.
     FxContextDef contextDef();
     /// number of blocks of memory that have been allocated and not released
     size_t blocks() const { return blocks_.size(); }
@@ -47,7 +47,7 @@ private:
     static void close(void* user, const void* data, size_t size);
     void callBack() const;
 
-    std::map<void*, std::array<size_t, 2>> blocks_; ///< size and alignment
+    std::map<void*, std::array<size_t, 2>> blocks_; ///< size and alignment [byte] of each block
     size_t openAssets_ = 0;
 };
 

@@ -1,8 +1,8 @@
 /// @file fuzz_target.h
-/// One fuzz target: a function that takes any bytes, and the seeds that it starts from.
+/// Interface of a fuzz target: a function that accepts any bytes, and the initial inputs (seeds).
 ///
-/// With libFuzzer (option FXSDK_BUILD_FUZZERS, Clang) a target searches for inputs that break it. With any
-/// other compiler it is a program that replays its seeds and the files of its corpus; see
+/// With libFuzzer (option FXSDK_BUILD_FUZZERS, Clang), the program searches for inputs that cause failures.
+/// With any other compiler, the program replays the seeds and the files of the corpus. See
 /// tests/fuzz/README.md.
 #pragma once
 
@@ -18,13 +18,14 @@
 
 namespace fx::fuzz {
 
-/// Runs one input. Defined by each target. Aborts if a documented property is violated.
+/// Runs one input, and aborts if a documented property is violated. Each target defines this function.
 void runInput(std::span<const uint8_t> input);
 
-/// Inputs that reach deep into the code. Defined by each target; the same in every run.
+/// Valid inputs that execute much of the code. The inputs are equal in every run. Each target defines this
+/// function.
 std::vector<std::string> seeds();
 
-/// Ends the process with the message `promise` when `holds` is false, so that libFuzzer keeps the input.
+/// Ends the process with the message `promise` if `holds` is false. libFuzzer then stores the input.
 void require(bool holds, const char* promise, std::string_view detail = {});
 
 inline std::string_view textOf(std::span<const uint8_t> input)
@@ -32,7 +33,7 @@ inline std::string_view textOf(std::span<const uint8_t> input)
     return {reinterpret_cast<const char*>(input.data()), input.size()};
 }
 
-/// Reads numbers from the front of an input. Past the end every number is 0.
+/// Reads numbers from the front of an input. After the end of the input, every number is 0.
 class InputReader
 {
 public:
@@ -54,10 +55,9 @@ public:
     }
     uint8_t byte() { return value<uint8_t>(); }
     uint32_t below(uint32_t count) { return byte() % count; } ///< @param count 1..256
-    /// true for one in `in` values of the next byte, never for 0
+    /// True for one of `in` values of the next byte. For in > 1, the byte 0 gives false.
     bool one(uint32_t in) { return below(in) == in - 1; }
-    /// Splits off the next `count` bytes as an input of their own. However many of them are read, the bytes
-    /// that follow are not shifted.
+    /// Returns a reader of the next `count` bytes, and skips these bytes in this reader.
     InputReader part(size_t count)
     {
         const InputReader result(left_.first(std::min(count, left_.size())));

@@ -1,5 +1,5 @@
 /// @file png_repair.h
-/// Makes the check sums of PNG chunks right, so that damaged chunks reach the decoder.
+/// Corrects the checksums of PNG chunks, so that the decoder processes damaged chunks.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace fx::fuzz {
 
-/// CRC of ISO 3309, as PNG uses it.
+/// CRC of ISO 3309, the checksum of PNG.
 inline uint32_t crcOf(const uint8_t* bytes, size_t count)
 {
     uint32_t crc = 0xFFFFFFFFu;
@@ -20,7 +20,7 @@ inline uint32_t crcOf(const uint8_t* bytes, size_t count)
     return ~crc;
 }
 
-/// Writes the CRC of every whole chunk of the PNG file `bytes`.
+/// Writes the CRC of every complete chunk of the PNG file `bytes`.
 inline void repairPng(std::vector<uint8_t>& bytes)
 {
     constexpr size_t kSignature = 8, kHead = 8, kCrc = 4; // [byte]

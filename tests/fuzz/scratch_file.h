@@ -1,5 +1,5 @@
 /// @file scratch_file.h
-/// A file in memory with a path, for readers that take no bytes.
+/// A file in memory with a path, for readers that require a path.
 #pragma once
 
 #include "tests/fuzz/fuzz_target.h"

@@ -23,7 +23,7 @@ inline constexpr float kAspect = float(kWidth) / float(kHeight);
 /// [m/s] largest speed of particles of steppedText() at their first contact
 inline constexpr double kFastest = 9.0;
 
-/// A camera above the emitter of steppedText(), which sees all of its particles.
+/// A camera above the emitter of steppedText(). All particles of the emitter are visible.
 inline const render::CameraPose kAbove{{1.5, 8.0, 9.0}, {0.3, 0.0, 0.6}};
 
 struct CameraCase
@@ -85,10 +85,10 @@ inline glm::dvec3 placeOf(const Rows& rows, size_t i)
             rows.columns[column::PositionZ][i]};
 }
 
-/// [m] Error bound of depth-contact for the position of a particle, `seconds` after the first of its
-/// contacts, each of which at least halves its speed. The error of the first contact is a shift of 3 e, which
-/// a bounce at most doubles, plus the distance flown in a direction that is wrong by twice the angular error
-/// of the normal. All contacts together have less than four times this error.
+/// [m] Error bound of formula depth-contact for the position of a particle, `seconds` [s] after its first
+/// contact. Every contact at least halves the speed. The error of the first contact has two parts: a shift of
+/// 3 e, which a bounce at most doubles, and an error of the direction. The direction is wrong by twice the
+/// angular error of the normal. The sum of all contacts has less than four times this error.
 inline double boundOf(const render::CameraView& camera, double distance, double seconds)
 {
     const DepthResolution at = resolutionAt(camera, kHeight, distance);
@@ -106,8 +106,8 @@ protected:
         depthCamera_ = camera;
         states_ = makeStates();
     }
-    /// [m] Largest difference of positions. outLiving counts the compared particles, outLonely those that are
-    /// alive on one side only.
+    /// [m] Largest difference of positions. `outLiving` is the number of compared particles, `outLonely` the
+    /// number of particles that are alive only on CPU or only on GPU.
     double worstOf(const Rows& cpu, const Rows& gpu, size_t& outLiving, size_t& outLonely)
     {
         double worst = 0.0;
@@ -123,8 +123,8 @@ protected:
         }
         return worst;
     }
-    /// [m] Tolerance for positions of equal motion on CPU and GPU: 0 for llvmpipe, which rounds as the CPU
-    /// does, otherwise 1e-4.
+    /// [m] Tolerance for positions of equal motion on CPU and GPU. It is 0 for llvmpipe, which rounds like
+    /// the CPU, and 1e-4 for other drivers.
     double sameWithin() const
     {
         return device_->limits().renderer.find("llvmpipe") != std::string::npos ? 0.0 : 1e-4;
@@ -152,7 +152,7 @@ protected:
     }
     static constexpr const char* kFewThatLast =
         R"("lifetime": 4, "maxParticles": 500, "emission": {"rate": 100, "duration": 0.5})";
-    /// Members of a preset without obstacles whose motion is nevertheless integrated in steps.
+    /// Members of a preset without obstacles and with motion that is integrated in steps.
     static constexpr const char* kFree = R"("collisions": [{"shape": "hook"}])";
 };
 

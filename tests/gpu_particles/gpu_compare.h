@@ -1,5 +1,5 @@
 /// @file gpu_compare.h
-/// Compares rows that the GPU has computed with those of the CPU.
+/// Compares rows that the GPU has computed with the rows of the CPU.
 #pragma once
 
 #include "gpu_fixture.h"
@@ -25,7 +25,7 @@ inline float farthest(const Rows& rows)
 }
 
 /// Expects that the bounds `seen` of particles are inside of `possible`. For GPU emitters, `possible`
-/// contains all possible particles, because the CPU does not have the real ones.
+/// contains all possible particles, because the CPU does not compute the particles.
 inline void expectInside(const base::Bounds& seen, const base::Bounds& possible)
 {
     if (seen.empty())

@@ -1,5 +1,5 @@
 /// @file gpu_fixture.h
-/// The same effect on the CPU and on the GPU, and a view for the computation.
+/// Computes the same effect on the CPU and on the GPU.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -35,7 +35,7 @@ public:
     void seekTo(double seconds);
     const base::FrameSnapshot& publish();
     const base::FrameSnapshot& publishedLast() const { return *snapshot_; }
-    /// The snapshot before the last one.
+    /// The second-last snapshot.
     const base::FrameSnapshot* older() const { return older_.get(); }
     sim::World& world() { return world_; }
     sim::Slot slot() const { return slot_; }
@@ -52,10 +52,10 @@ private:
     std::unique_ptr<base::FrameSnapshot> snapshot_, older_;
 };
 
-/// Rows of particles of one group, column by column; color as four numbers.
+/// Rows of particles of one group, stored as columns. The color has four numbers.
 struct Rows
 {
-    /// columns, indexed by base::particle_column; empty if the group lacks a column
+    /// columns, indexed by base::particle_column; a column is empty if the group does not have it
     std::vector<std::vector<float>> columns;
     std::vector<glm::vec4> color;
     size_t count() const { return columns[0].size(); }
@@ -78,7 +78,7 @@ protected:
     {
         return std::make_unique<render::GpuStates>(*device_, std::pmr::get_default_resource());
     }
-    /// The picture in the middle between two steps.
+    /// The picture at the middle time between two steps.
     Picture draw(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
     base::Status drawInto(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
 
@@ -91,8 +91,9 @@ protected:
     std::unique_ptr<render::GlBackend> backend_;
     std::unique_ptr<render::GpuEmitters> emitters_;
     std::unique_ptr<render::GpuStates> states_;
-    uint32_t steps_ = 0; ///< number of steps that the last call of computed() took
-    /// Camera of the depth texture passed to setDepth(), for computed() and draw(); empty: no depth.
+    uint32_t steps_ = 0; ///< number of steps that the last call of computed() executed
+    /// Camera of the depth texture passed to setDepth(). computed() and draw() use it. Empty: no depth
+    /// texture.
     std::optional<render::CameraView> depthCamera_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace fx::test {
 
-/// Text of a preset with one emitter. The text `members` adds members to the emitter or replaces them.
+/// Text of a preset with one emitter. The text `members` adds or replaces members of the emitter.
 inline std::string
 steppedText(const std::string& members, const char* compute,
             const char* births = R"("lifetime": {"min": 0.4, "max": 1.6}, "maxParticles": 1200,

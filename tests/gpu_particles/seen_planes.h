@@ -1,5 +1,5 @@
 /// @file seen_planes.h
-/// Depth textures of planes, as a rasterizer writes them, and their resolution.
+/// Creates depth textures of planes with the values that a rasterizer writes, and computes their resolution.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -17,13 +17,13 @@
 
 namespace fx::test {
 
-/// A plane of the world points p with dot(normal, p) = offset. It is visible from the side to which the
-/// normal points.
+/// A plane of the world points p with dot(normal, p) = offset. The plane is visible from the side to which
+/// the normal points.
 struct SeenPlane
 {
-    glm::dvec3 normal; ///< unit
+    glm::dvec3 normal; ///< unit vector
     double offset;     ///< [m]
-    /// Whether the plane exists at a position; empty: everywhere.
+    /// Returns true if the plane exists at a position; empty: the plane exists everywhere.
     std::function<bool(const glm::dvec3& place)> isThere = {};
 };
 
@@ -33,8 +33,8 @@ struct PixelRay
     glm::dvec3 from, way;
 };
 
-/// Ray of a position in the picture. It is computed from the camera's matrices only, independent of the
-/// tested code.
+/// Ray of a position in the picture. The ray is computed only from the matrices of the camera, independently
+/// of the tested code.
 inline PixelRay rayOf(const render::CameraView& camera, int width, int height, double x, double y)
 {
     const glm::dmat4 back = glm::inverse(glm::dmat4(camera.projection) * glm::dmat4(camera.view));
@@ -86,8 +86,9 @@ inline std::vector<float> depthOf(const render::CameraView& camera, int width, i
 struct DepthResolution
 {
     double texture; ///< [m] distance of two neighboring depth values, including the rounding of float
-    double error;   ///< [m] the same for 24 bits, e of depth-contact
-    double pixel;   ///< [m] f
+    double error;   ///< [m] distance of two neighboring depth values with 24 bits, symbol e of formula
+                    ///< depth-contact
+    double pixel;   ///< [m] symbol f of formula depth-contact
 };
 
 inline DepthResolution resolutionAt(const render::CameraView& camera, int height, double distance)

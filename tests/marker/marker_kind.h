@@ -1,6 +1,6 @@
 /// @file marker_kind.h
-/// Kind of snapshot data for markers: the position of each marker, and the appearance that all have in
-/// common. Simulation and rendering share this file.
+/// Kind of snapshot data for markers: the position of each marker, and the common appearance of all markers.
+/// Simulation and rendering share this file.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"

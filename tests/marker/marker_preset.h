@@ -1,5 +1,5 @@
 /// @file marker_preset.h
-/// The preset half of the technique: the member "markers".
+/// The preset member "markers" of the technique.
 #pragma once
 
 #include "fxsdk/presets/technique.h"
@@ -9,7 +9,7 @@ namespace fx::test {
 
 std::string_view markerSchema();
 void buildMarker(const preset::PresetValue& element, sim::EffectDef& effect);
-/// Warns of markers that are black.
+/// Adds a warning for each black marker.
 void lintMarkers(const preset::PresetValue& root, const sim::EffectDef& effect);
 
 inline constexpr const base::KindDesc* kMarkerKinds[] = {&kMarkerKind};

@@ -1,5 +1,5 @@
 /// @file marker_solver.h
-/// The simulation of markers: each rises at a constant speed.
+/// The simulation of markers. Each marker rises at a constant speed.
 #pragma once
 
 #include "simulation/solver/solver.h"
@@ -14,10 +14,10 @@ namespace fx::test {
 struct MarkerDef final : sim::SolverDef
 {
     std::string name;
-    glm::vec3 position{0.0f};  ///< [m] at the start
+    glm::vec3 position{0.0f};  ///< [m] position at the start
     glm::vec3 luminance{1.0f}; ///< [cd/m2]
-    float side = 1.0f;         ///< [m] of the square
-    float rise = 0.0f;         ///< [m/s] along +Y
+    float side = 1.0f;         ///< [m] side of the square
+    float rise = 0.0f;         ///< [m/s] speed along +Y
 
     std::unique_ptr<sim::Solver> create(const base::SnapshotSchema& schema, const sim::Quality& quality,
                                         std::pmr::memory_resource* memory) const override;

@@ -1,6 +1,7 @@
 /// @file marker_technique.h
 /// The drawing half of a technique that is not part of the library: squares of one color that face the view.
-/// A view draws it because the test adds it to the list of techniques; the library does not refer to it.
+/// The test adds the technique to the list of techniques of a view. The library does not refer to the
+/// technique.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"

@@ -1,6 +1,5 @@
 /// @file member_probe.h
-/// Checks for each member of a schema that the reader reads it, and that the documented default is the real
-/// one.
+/// Checks that the reader reads each member of a schema, and that the documented defaults are correct.
 #pragma once
 
 #include "fxsdk/presets/preset_loader.h"
@@ -20,7 +19,8 @@ using Json = nlohmann::json;
 using Fields = std::vector<double>;
 using FieldsOf = std::function<Fields(const sim::SolverDef&)>;
 
-/// Loads a preset whose array `member` has the one element `element`, and returns the values of its solver.
+/// Loads a preset whose array `member` has only the element `element`. Returns the values of the solver of
+/// this element.
 inline Fields load(const std::string& member, const Json& element, const FieldsOf& fieldsOf)
 {
     const Json document{{"version", 1}, {member, Json::array({element})}};
@@ -51,8 +51,8 @@ inline Json otherValue(const Json& member)
     return other;
 }
 
-/// Tests each plain member of the schema `object`: the reader must read it, and its default must be the
-/// documented one.
+/// Tests each plain member of the schema `object`. The reader must read the member, and its default must be
+/// the documented default.
 inline void probeMembers(const std::string& presetMember, const Json& object, const Json& element,
                          const std::string& where, const FieldsOf& fieldsOf)
 {

@@ -1,5 +1,5 @@
 /// @file temp_folder.h
-/// A folder for one test, which is removed afterwards.
+/// A folder for one test, which is removed after the test.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 
 namespace fx::test {
 
-/// A charge of 16 MJ of TNT, about four kilograms, high above any ground.
+/// A charge of 16 MJ of TNT (about 4 kg), high above the ground.
 inline std::unique_ptr<sim::GasDef> fireball(uint32_t particles = 200)
 {
     auto def = std::make_unique<sim::GasDef>();
@@ -57,7 +57,7 @@ struct CloudShape
     }
 
     glm::dvec3 center{0.0};
-    glm::dvec3 momentum{0.0}; ///< over the particle mass
+    glm::dvec3 momentum{0.0}; ///< momentum divided by the mass of a particle
     double meanSpeed = 0;
     double temperature = 0;
     double radius = 0;

@@ -1,5 +1,5 @@
 /// @file stage.h
-/// A small world for tests: one schema, one memory, one task runner, and steps of 1/60 s.
+/// A small world for tests, with one schema, one memory resource, one task runner and steps of 1/60 s.
 #pragma once
 
 #include "foundation/memory/host_memory.h"
@@ -86,7 +86,7 @@ private:
     base::Ticks now_ = 0;
 };
 
-/// An emitter that gives birth to `count` particles at local time 0 and lets them fly for a long time.
+/// An emitter of `count` particles with a long lifetime, all born at local time 0.
 inline std::unique_ptr<sim::EmitterDef> burstEmitter(uint32_t count)
 {
     auto def = std::make_unique<sim::EmitterDef>();

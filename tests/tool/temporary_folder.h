@@ -1,5 +1,5 @@
 /// @file temporary_folder.h
-/// A separate folder for one test, which is removed afterwards.
+/// A separate folder for one test, which is removed after the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    /// Number of files and folders in the temporary folder, including hidden ones.
+    /// Number of files and folders in the temporary folder, including hidden files and folders.
     size_t entries() const
     {
         using Iterator = std::filesystem::directory_iterator;

@@ -9,9 +9,9 @@
 
 namespace fx::cli {
 
-/// Each setting is a substance with an optical diameter. The errors are those of the mean light of pictures
-/// from the sun's side, from the side and from behind, relative to the path tracer. AccuracySample::work
-/// contains the mean light.
+/// Each setting is a substance with an optical diameter. The errors are errors of the mean light of pictures,
+/// relative to the path tracer. The pictures are taken from the sun's side, from the side and from behind.
+/// AccuracySample::work contains the mean light.
 /// @param isSmall true: a few substances in small pictures
 std::unique_ptr<AccuracyTechnique> makeLightClouds(bool isSmall);
 

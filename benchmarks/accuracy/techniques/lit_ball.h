@@ -1,5 +1,5 @@
 /// @file lit_ball.h
-/// A homogeneous ball in parallel light: distribution of the light that leaves it.
+/// A homogeneous ball in parallel light: distribution of the light that leaves the ball.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_technique.h"
@@ -8,9 +8,9 @@
 
 namespace fx::cli {
 
-/// Each setting is a substance with an optical diameter. The errors are the standard errors of the shares of
-/// light that leave through the half facing the sun and through the opposite half. AccuracySample::work
-/// contains the shares.
+/// Each setting is a substance with an optical diameter. The errors are the standard errors of two fractions
+/// of the light. One fraction leaves through the half facing the sun, the other fraction through the opposite
+/// half. AccuracySample::work contains both fractions.
 std::unique_ptr<AccuracyTechnique> makeLitBallAccuracy();
 
 } // namespace fx::cli

@@ -24,7 +24,7 @@ constexpr int kCityPresets = 12;
 
 struct CityPlace
 {
-    double x, z; ///< [m]
+    double x, z; ///< [m] position
     uint32_t number;
 };
 
@@ -36,8 +36,8 @@ std::vector<CityPlace> cityPlaces(uint32_t count);
 ///          turbulence
 std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
 
-/// Compares hashes, memory and pictures of the city with those of a city without culling.
-/// @return exit code: 0, or 1 if any of them differs
+/// Compares hashes, memory and pictures of the city with a city without culling.
+/// @return exit code: 0, or 1 if a hash, the memory or a picture differs
 int checkCity(const BenchCityOptions& options);
 
 /// Measures times, replays and memory while the camera rotates by `options.turn` per frame. @return exit code

@@ -1,8 +1,9 @@
 /// @file flight_pop.h
 /// Visibility of changes of the level of detail (popping) in a flight. The picture changes with the camera
-/// anyway. Therefore each frame is drawn twice from the same camera, with the levels of the previous frame
-/// and with its own. The difference of both is the pop. Changes are measured in blocks of 8 x 8 pixels, in
-/// display values x / (1 + x), so that smoke has weight beside a flame.
+/// anyway. Therefore each frame is drawn twice from the same camera: first with the levels of detail of the
+/// previous frame, then with those of this frame. The difference of both pictures is the pop. Changes are
+/// measured in blocks of 8 x 8 pixels, in display values x / (1 + x), so that smoke has weight beside a
+/// flame.
 #pragma once
 
 #include <cstdint>

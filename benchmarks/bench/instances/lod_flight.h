@@ -19,7 +19,7 @@ constexpr double kLodEyeHeight = 40.0; ///< [m]
 /// changes by more than kMaxLodPop times the largest change of the flight itself. Blocks are used because
 /// single pixels at the edge of a thick flame change with motion of a hundredth of a pixel.
 constexpr double kLodPopP99 = 0.04; ///< [1] 99th percentile of pops, in display values
-constexpr double kMaxLodPop = 0.6;  ///< [1]
+constexpr double kMaxLodPop = 0.6;  ///< [1] factor on the largest change of the flight
 
 /// A case of the measurement.
 struct LodCase
@@ -51,10 +51,12 @@ struct LodFlightRules
     uint32_t frames; ///< 0: no flight
 };
 
-/// Draws each frame of a flight twice from the same camera: with the levels and impostors of the previous
-/// frame, and with its own. The difference is the visible effect of changing them.
-/// @param ioWithout changes of the picture from frame to frame in the flight without levels of detail. That
-///          flight comes first: it gets an empty list and fills it.
+/// Draws each frame of a flight twice from the same camera: first with the levels and impostors of the
+/// previous frame, then with those of this frame. The difference of both pictures is the visible effect of
+/// the changes of levels and impostors.
+/// @param ioWithout changes of the picture from frame to frame in the flight without levels of detail. The
+///          first call must draw the flight without levels of detail. It gets an empty list, and fills the
+///          list.
 base::Status fly(BenchScene& scene, const LodFlightRules& rules, const LodCase& what,
                  std::vector<std::vector<float>>& ioWithout, LodFlight& outFlight);
 

@@ -20,7 +20,8 @@ public:
     explicit BenchStage(uint32_t threads);
 
     void add(std::shared_ptr<const sim::EffectDef> effect, uint64_t seed);
-    /// Publishes emitters that prefer the GPU as input of the GPU. Called before the first step.
+    /// Publishes emitters that prefer the GPU as input of the GPU. The function must be called before the
+    /// first step.
     void computeOnGpu() { world_.setGpuParticles(true); }
     /// The newest snapshot; the caller releases it.
     base::SnapshotPair last() { return ring_.acquire(); }
@@ -34,7 +35,7 @@ public:
     /// [s] times of hashing, excluded from times()
     const std::vector<double>& hashTimes() const { return hashTimes_; }
     uint64_t hash() const { return hash_; }
-    uint64_t particles() const; ///< alive now
+    uint64_t particles() const; ///< number of living particles
     uint64_t allocations() const { return memory_.allocationCount(); }
     base::TaskRunner& tasks() { return *tasks_; }
     const sim::StepCounters& counters() const { return counters_; }
@@ -59,7 +60,7 @@ private:
 /// threads of `tasks`. Small sizes stay in a cache; sizes above 256 MiB are measured with 256 MiB.
 double copyGigabytes(base::TaskRunner& tasks, double bytes);
 
-/// Quantile: the value below which the share `part` of `times` lies.
+/// Quantile: the value below which the fraction `part` of `times` lies.
 double quantile(std::vector<double> times, double part);
 
 } // namespace fx::cli

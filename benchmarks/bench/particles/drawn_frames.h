@@ -1,5 +1,6 @@
 /// @file drawn_frames.h
-/// Plays frames of a scene with a view and times their parts. Shared by all measurements that draw particles.
+/// Plays frames of a scene with a view and times their parts. All measurements that draw particles use this
+/// code.
 #pragma once
 
 #include "benchmarks/scenes/bench_scene.h"
@@ -12,7 +13,7 @@ namespace fx::cli {
 /// How frames are played and timed.
 struct FramePlan
 {
-    double (*now)() = nullptr; ///< [s] one of clocks.h
+    double (*now)() = nullptr; ///< [s] clock, one of the functions of clocks.h
     uint32_t warmSteps = 0;    ///< updates without drawing, before the first frame
     uint32_t warmFrames = 0;   ///< frames drawn without timing, to fill pools
     uint32_t frames = 0;       ///< frames drawn and timed
@@ -26,7 +27,7 @@ struct FramePlan
 struct FrameTimes
 {
     std::vector<double> update;        ///< [s] update of the scene
-    std::vector<double> upload;        ///< [s] time of the first drawing minus that of the second, at least 0
+    std::vector<double> upload;        ///< [s] time of the first drawing minus time of the second
     std::vector<double> submit;        ///< [s] time of the second drawing
     std::vector<double> finish;        ///< [s] from the end of the first drawing until the GPU has finished
     std::vector<double> calls;         ///< [s] sum of the update and the first drawing

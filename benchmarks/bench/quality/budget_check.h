@@ -6,17 +6,17 @@
 
 namespace fx::cli {
 
-constexpr double kBudgetOver = 0.05;     ///< [1] largest share of frames over budget for the controller
-constexpr double kBudgetSwitches = 0.03; ///< [1] largest share of frames that change a setting
+constexpr double kBudgetOver = 0.05;     ///< [1] largest fraction of frames over budget with the controller
+constexpr double kBudgetSwitches = 0.03; ///< [1] largest fraction of frames that change a setting
 
 /// Result of one method of choosing quality.
 struct BudgetShares
 {
-    double over = 0;     ///< [1] share of frames over budget
-    double switches = 0; ///< [1]
+    double over = 0;     ///< [1] fraction of frames over budget
+    double switches = 0; ///< [1] fraction of frames that change a setting
 };
-/// Fault of a run as text; empty if the controller keeps both bounds, and neither fixed quality nor the naive
-/// controller keeps them.
+/// Fault of a run as text; empty without a fault. The controller must keep both bounds. Fixed quality and the
+/// naive controller must violate a bound.
 std::string findBudgetFault(const BudgetShares& controller, const BudgetShares& fixed,
                             const BudgetShares& naive);
 

@@ -39,7 +39,8 @@ inline std::vector<float> dazzled(const std::vector<float>& values, int width,
     return red;
 }
 
-/// Naive implementation: sums in T, one share for all pixels, no safeguards.
+/// Naive implementation: sums in T. The overflow fills the same fraction of the range up to white in every
+/// pixel. Values are not checked.
 template <class T>
 std::vector<T> plain(const std::vector<float>& values)
 {

@@ -120,7 +120,7 @@ double differingNumbers(const render::RayLight<T>& a, const render::RayLight<T>&
 }
 
 /// Naive implementation: sums of float polynomial coefficients about the ray's origin. The coefficients of a
-/// blob are added where the blob begins and subtracted where it ends. Red channel only.
+/// blob are added where the blob begins and subtracted where it ends. Computes the red channel only.
 /// @param origin [m] distance that is added to all positions
 double incrementalLight(const SweepBlobs& blobs, double origin);
 

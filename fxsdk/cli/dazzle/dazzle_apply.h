@@ -27,7 +27,7 @@ struct DazzleOutcome
 /// give less glare for more light
 base::Status readSensor(const std::string& text, render::DazzleSettings& ioSettings);
 
-/// Changes only the channels R, G and B, or Y of a gray picture.
+/// Adds the glare to a picture. Only the channels R, G and B change, or Y in a gray picture.
 /// @return InvalidArgument when the picture has none of these channels
 base::Result<DazzleOutcome> applyDazzle(DazzleImage& ioImage, DazzleAlgorithm algorithm,
                                         const render::DazzleSettings& settings);

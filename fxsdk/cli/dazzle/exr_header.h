@@ -13,8 +13,8 @@ namespace fx::cli {
 
 constexpr uint64_t kMaxHeaderBytes = uint64_t(4) << 20; ///< [byte] limit for the headers of all parts
 
-/// Checks that every attribute ends within the file and has the length that its type requires. Ok for a
-/// file that is not an OpenEXR file: the library reports that error.
+/// Checks that every attribute ends within the file and has the length that its type requires. Ok for a file
+/// that is not an OpenEXR file, because the OpenEXR library reports that error.
 /// @param beginning the first kMaxHeaderBytes of the file, or the whole file if it is shorter
 /// @param fileBytes [byte] size of the whole file
 /// @return Parse naming the attribute; TooLarge for headers longer than kMaxHeaderBytes

@@ -1,5 +1,5 @@
 /// @file ball_source.h
-/// The balls of medium of a file at moments of its scene.
+/// Computes the media of a scene file at given times as a list of balls (spheres of medium).
 #pragma once
 
 #include "foundation/result/status.h"
@@ -17,34 +17,34 @@ namespace fx::cli {
 struct MomentBalls
 {
     std::vector<render::VoxelBall> balls;
-    uint32_t nonFinite = 0; ///< left out because a number was not finite
+    uint32_t nonFinite = 0; ///< number of balls omitted because a value was not finite
 };
 
-/// One run from the start of the scene.
+/// A simulation of the scene from its start.
 class BallSource
 {
 public:
     virtual ~BallSource() = default;
-    /// @param tick must not decrease from call to call
+    /// Simulates up to a time and returns the balls. @param tick time; must not decrease from call to call
     virtual base::Result<MomentBalls> at(base::Ticks tick) = 0;
 };
 
-/// A file that can be run any number of times.
+/// A file that can be simulated any number of times.
 class BallFile
 {
 public:
     virtual ~BallFile() = default;
     virtual base::Result<std::unique_ptr<BallSource>> start(const EffectSceneOptions& options) const = 0;
-    /// [s] at which the preset's preview shows it, if it says so.
+    /// [s] time of the preset's preview; empty if the preset does not state the time.
     virtual std::optional<double> previewTime() const { return std::nullopt; }
-    /// Of the first instance; none: a list of blobs.
+    /// Seed of the first instance; empty for a list of blobs.
     virtual std::optional<uint64_t> seed() const { return std::nullopt; }
-    /// Of the file.
+    /// Warnings about the file.
     virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// @param input *.scene.json, *.fx.json, library:NAME or *.blobs.csv
-/// @return errors name file and place
+/// Opens a file. @param input *.scene.json, *.fx.json, library:NAME or *.blobs.csv
+/// @return an error whose message names the file and the position in it
 base::Result<std::unique_ptr<BallFile>> openBallFile(const std::string& input);
 
 } // namespace fx::cli

@@ -17,17 +17,18 @@ class App;
 
 namespace fx::cli {
 
-/// As written on the command line.
+/// Arguments as they are written on the command line.
 struct ExportArguments
 {
     std::string input;
     std::string output;
-    std::string frames; ///< "A:B", empty for the default
+    std::string frames; ///< range "A:B" of frames; empty: the default
     std::string quality = "high";
     double framesPerSecond = 30.0;
-    std::optional<double> time;      ///< [s] none: the preset's preview's, or half a second
-    std::optional<double> voxelSize; ///< [m] none: as `voxels` allows
-    std::optional<uint64_t> voxels;  ///< at most, of a frame
+    std::optional<double> time;      ///< [s] time of a single file; empty: the time of the preset's preview,
+                                     ///< or 0.5 s
+    std::optional<double> voxelSize; ///< [m] side of a voxel; empty: the smallest side that `voxels` allows
+    std::optional<uint64_t> voxels;  ///< maximum number of voxels of a frame; empty: the default
     std::optional<uint64_t> seed;
     bool half = false;
     bool points = false;
@@ -36,17 +37,17 @@ struct ExportArguments
 
 void addExportOptions(CLI::App& command, ExportArguments& arguments);
 
-/// What is exported, when, and where it goes.
+/// Checked arguments: the frames to export and their files.
 struct ExportPlan
 {
     using Frame = NumberedFrame;
     NumberedFile output;
     std::vector<Frame> frames;
-    bool hasDefaultTime = false; ///< of one file; no option names a time
+    bool hasDefaultTime = false; ///< true if a single file shows the default time
     uint64_t maxVoxels = 0;
 };
 
-/// @return InvalidArgument with the remedy
+/// Converts and checks the arguments. @return InvalidArgument with the remedy
 base::Result<ExportPlan> planExport(const ExportArguments& arguments);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file volume_writer.h
-/// Balls of medium at one moment to one OpenVDB file.
+/// Writes the balls of medium of one moment to an OpenVDB file.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -15,24 +15,24 @@ namespace fx::cli {
 
 struct VolumeOptions
 {
-    double voxelSize = 0.0; ///< [m]
-    uint64_t maxVoxels = 0; ///< in blocks
+    double voxelSize = 0.0; ///< [m] side of a voxel
+    uint64_t maxVoxels = 0; ///< maximum number of voxels; each block counts with all of its voxels
     bool half = false;
     bool points = false;
 };
 
 struct VolumeReport
 {
-    uint64_t voxels = 0;         ///< with medium
-    uint64_t bytes = 0;          ///< of the file
-    double crossSection = 0.0;   ///< [m2] of the balls
+    uint64_t voxels = 0;         ///< number of voxels with medium
+    uint64_t bytes = 0;          ///< [byte] size of the file
+    double crossSection = 0.0;   ///< [m2] sum of the extinction cross sections of the balls
     double densityVolume = 0.0;  ///< [m2] sum of density times volume over the voxels
-    double largestDensity = 0.0; ///< [1/m]
+    double largestDensity = 0.0; ///< [1/m] largest density of a voxel
 };
 
-/// Writes a file whole or not at all.
-/// @param progress is called with blocks done and their number
-/// @return TooLarge with the voxel size that would fit, Interrupted, Io, OutOfMemory
+/// Writes a file atomically.
+/// @param progress called with the number of finished blocks and the number of all blocks
+/// @return TooLarge (the message states a voxel size that fits), Interrupted, Io, OutOfMemory
 base::Result<VolumeReport> writeVolume(std::span<const render::VoxelBall> balls, const VolumeOptions& options,
                                        const render::VdbMetadata& metadata, const std::filesystem::path& file,
                                        base::TaskRunner& tasks,

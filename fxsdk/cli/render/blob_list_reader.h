@@ -2,9 +2,10 @@
 /// Lists of blobs (`*.blobs.csv`) for experiments with renderers.
 ///
 /// The first line is `x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb`, optionally followed by `,g`.
-/// Every other line has the same number of values. The extinction of a blob is tau_area W(r; radius) with
-/// the quartic kernel W. The blob emits (1 - albedo) e per unit of optical depth. It scatters by the
-/// Henyey-Greenstein phase function of mean cosine g, which is 0 without the column.
+/// All further lines have the same number of values. The extinction of a blob is tau_area W(r; radius) with
+/// the quartic kernel W. The blob emits (1 - albedo) e per unit of optical depth, with e = (er, eg, eb). The
+/// blob scatters by the Henyey-Greenstein phase function with the mean cosine g. Without the column `g`, g is
+/// 0.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -25,7 +26,7 @@ constexpr uint64_t kBlobListBytes = uint64_t(1) << 30;
 ///         -0.99..0.99, all below 1e12)
 base::Result<std::vector<render::MediumBlob>> readBlobList(std::string_view text, const std::string& name);
 
-/// Reads the list from a file. @return also NotFound, Io, TooLarge
+/// Reads the list from a file. @return the codes of readBlobList(), NotFound, Io, TooLarge
 base::Result<std::vector<render::MediumBlob>> loadBlobList(const std::string& path);
 
 } // namespace fx::cli

@@ -1,7 +1,7 @@
 /// @file blob_list_renderer.h
 /// Draws a list of blobs by OpenGL over an empty background, in the same way as a view draws a snapshot.
 ///
-/// Threads: only the thread that created it, which is its GL thread.
+/// Threads: only the thread that created the object, which is its GL thread.
 #pragma once
 
 #include "fxsdk/cli/render/snapshot_renderer.h"
@@ -27,7 +27,7 @@ public:
     SnapshotRenderer& pictures();
 
     /// Draws a picture of the blobs.
-    /// @param time [s] time of the picture; the blobs do not depend on it
+    /// @param time [s] time of the picture; the blobs do not depend on the time
     base::Status render(const render::ReferenceCamera& camera, double time);
 
 private:

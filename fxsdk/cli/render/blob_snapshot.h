@@ -10,10 +10,11 @@
 
 namespace fx::cli {
 
-/// Inverse of render::mediumOf(). Creates one group for each combination of instance, anisotropy and layer,
-/// without procedural detail. Positions are relative to the center of all blobs. Numbers become floats.
+/// Does the inverse of render::mediumOf(). Creates one group for each combination of instance, anisotropy and
+/// layer, without procedural detail. Positions are relative to the center of all blobs. Numbers are rounded
+/// to floats.
 /// @param schema has the kind "blob" and must outlive the snapshot
-/// @param sequence must exceed that of every snapshot that the same view has drawn
+/// @param sequence must exceed the sequence of every snapshot that the same view has drawn
 base::FrameSnapshot snapshotOfBlobs(std::span<const render::MediumBlob> blobs,
                                     const base::SnapshotSchema& schema, uint64_t sequence);
 

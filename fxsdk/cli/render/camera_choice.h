@@ -9,7 +9,7 @@
 
 namespace fx::cli {
 
-/// The camera chosen by --view or --camera, or none of them.
+/// The camera of --view or --camera; none without these options.
 class CameraChoice
 {
 public:
@@ -29,10 +29,10 @@ private:
     std::optional<scene_file::CameraPath> path_;
 };
 
-/// Replaces the camera of a scene by that of --view or --camera, if one is given. The near plane of the scene
-/// stays with --view.
-/// @return InvalidArgument for a malformed --view, or the error of the file of --camera; `io` is unchanged
-/// then
+/// Replaces the camera of a scene by that of --view or --camera, if one of the options is given. With --view,
+/// the near plane of the scene does not change.
+/// @return InvalidArgument for a malformed --view, or the error of the file of --camera. On failure `io` does
+/// not change.
 base::Status replaceCamera(const ReferenceArguments& arguments, scene_file::CameraPath& io);
 
 } // namespace fx::cli

@@ -1,7 +1,7 @@
 /// @file frame_renderer.h
 /// Renders moments of a scene without a window: first the opaque stage, then the effects over it.
 ///
-/// Threads: only the thread that created it, which is its GL thread.
+/// Threads: only the thread that created the object, which is its GL thread.
 #pragma once
 
 #include "foundation/result/status.h"

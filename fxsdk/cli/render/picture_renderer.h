@@ -1,5 +1,5 @@
 /// @file picture_renderer.h
-/// Common interface of the CPU renderers for fx render: tiles, a journal, channels of an EXR file.
+/// Common interface of the CPU renderers of fx render.
 #pragma once
 
 #include "fxsdk/cli/render/reference_options.h"
@@ -16,7 +16,7 @@
 
 namespace fx::cli {
 
-/// Renders one picture at a time. The functions are those of ReferenceRenderer and PathRenderer.
+/// Renders one picture at a time. The functions correspond to those of ReferenceRenderer and PathRenderer.
 class PictureRenderer
 {
 public:

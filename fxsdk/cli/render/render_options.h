@@ -29,14 +29,15 @@ struct RenderArguments
     std::string frames; ///< range "A:B" of frames; empty: the default
     std::string quality = "high";
     std::string form;        ///< form of billboards; empty: the form that the quality implies
-    std::string composition; ///< composition of media; empty: that of the scene
-    std::string slabs;       ///< number of slabs; empty: that of the scene
-    std::string voxels;      ///< number of voxels; empty: that of the scene
+    std::string composition; ///< composition of media; empty: as in the scene
+    std::string slabs;       ///< number of slabs; empty: as in the scene
+    std::string voxels;      ///< number of voxels; empty: as in the scene
     std::string renderer = "gl";
     std::string statistics; ///< path of the statistics file; empty: none
     std::string times;      ///< times "A,B,..." [s] to render instead of frames; empty: none
     std::string compute; ///< processor of particles, "cpu", "gpu" or "auto"; empty: as each emitter specifies
-    /// path of a scene file whose lights, sky and exposure are used; empty: those of the input
+    /// path of a scene file whose lights, sky and exposure are used; empty: the lights, sky and exposure of
+    /// the input
     std::string lights;
     double framesPerSecond = 30.0;
     std::optional<double> time; ///< [s] time to render; empty: the time of the preset's preview, or 0.5 s
@@ -44,10 +45,10 @@ struct RenderArguments
     std::optional<float> exposureEv100;
     std::string layerScale = "1";
     float lodBias = 0.0f;
-    float impostorPixels = 0.0f; ///< [pixel]
-    uint32_t fragmentBudget = 0; ///< 0: none
+    float impostorPixels = 0.0f; ///< [pixel] FxViewSettings::lodImpostorPixels
+    uint32_t fragmentBudget = 0; ///< FxViewSettings::fragmentBudget; 0: no limit
     std::string outputs;         ///< list of outputs, such as "id,motion,depth"; empty: none
-    /// "off", or the number of planes of the sun's light slices; empty: that of the settings
+    /// "off", or the number of planes of the sun's light slices; empty: as in the settings
     std::string lightSlices;
     int lightRefresh = 1; ///< [frame] interval between updates of light slices
     bool noDazzle = false;
@@ -58,7 +59,7 @@ struct RenderArguments
     ReferenceArguments reference;
 };
 
-/// Plan of the rendering that the arguments give after checking.
+/// Checked and converted arguments.
 struct RenderPlan
 {
     using Frame = NumberedFrame;
@@ -80,8 +81,8 @@ struct RenderPlan
 
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);
 
-/// Converts arguments to a plan and checks what CLI11 cannot check. @return InvalidArgument, which is a usage
-/// error
+/// Converts arguments to a plan, and checks conditions that CLI11 cannot check. @return InvalidArgument,
+/// which is a usage error
 base::Result<RenderPlan> planRender(const RenderArguments& arguments);
 
 /// Prints a summary of the rendering, unless JSON is printed.

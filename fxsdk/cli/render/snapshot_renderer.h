@@ -1,7 +1,8 @@
 /// @file snapshot_renderer.h
-/// Draws snapshots by OpenGL over an empty background, in the same way as a view draws those of a scene.
+/// Draws snapshots by OpenGL over an empty background, in the same way as a view draws the snapshots of a
+/// scene.
 ///
-/// Threads: only the thread that created it, which is its GL thread.
+/// Threads: only the thread that created the object, which is its GL thread.
 #pragma once
 
 #include "fxsdk/cli/render/frame_renderer.h"
@@ -28,7 +29,7 @@ public:
     /// @param time [s] time of the picture, for passes with a history
     base::Status render(const SceneMoment& moment, const render::ReferenceCamera& camera, double time);
     /// Copies the pictures from the GPU. All but `color` require settings.layerOutputs. The picture of
-    /// instances contains the ids of the snapshots if those are below 2^24.
+    /// instances contains the ids of the snapshots if the ids are below 2^24.
     FrameLayers read();
 
     const render::FrameStatistics& statistics() const;

@@ -7,7 +7,8 @@
 
 namespace fx::cli {
 
-/// Converts the result of a call and its error message to a status. Equal codes have equal numbers.
+/// Converts the result of a call and its error message to a status. FxResult and base::Code have the same
+/// numbers.
 inline base::Status toStatus(FxResult result)
 {
     if (result == FX_OK)

@@ -10,11 +10,11 @@
 
 namespace fx::cli {
 
-/// Reason why the GPU cannot compute all particles of a scene; empty when it can.
+/// Reason why the GPU cannot compute all particles of a scene; empty when the GPU can compute all particles.
 std::string gpuObstacleOf(const scene_file::SceneFile& scene);
 
-/// An asset hook of a context that replaces the members "compute" of presets. It must outlive the context.
-/// Threads: those that call loading functions of the context.
+/// An asset hook of a context that replaces the members "compute" of presets. The object must outlive the
+/// context. Threads: all threads that call loading functions of the context.
 class ComputeOverride
 {
 public:

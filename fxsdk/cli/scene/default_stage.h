@@ -1,6 +1,6 @@
 /// @file default_stage.h
-/// Default scene for a preset without a scene file: plain ground, afternoon light, and a camera that sees
-/// the effect.
+/// Default scene for a preset without a scene file: ground, afternoon light, and a camera that sees the
+/// effect.
 #pragma once
 
 #include "foundation/result/status.h"

@@ -17,11 +17,11 @@ namespace fx::cli {
 class EffectFraming
 {
 public:
-    /// Begins the next moment. Spheres added after this call belong to it.
+    /// Begins the next moment. Spheres added after this call belong to the new moment.
     void nextMoment() { moments_.emplace_back(); }
     /// Adds all media of the snapshot.
     void add(const base::FrameSnapshot& snapshot);
-    /// Adds sprites and meshes. @param places center and radius [m] of each
+    /// Adds sprites and meshes. @param places center and radius [m] of each sprite or mesh
     void add(const std::vector<glm::vec4>& places);
     bool isEmpty() const;
 

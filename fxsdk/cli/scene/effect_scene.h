@@ -1,7 +1,7 @@
 /// @file effect_scene.h
 /// Runs the effects of a scene file through the C API, as a host does.
 ///
-/// Threads: only the thread that created it.
+/// Threads: only the thread that created the object.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -47,7 +47,7 @@ public:
     EffectScene(const EffectScene&) = delete;
     EffectScene& operator=(const EffectScene&) = delete;
 
-    /// Steps until a view shows exactly the time `tick`, which must not precede that of the last call. A
+    /// Takes steps until a view shows exactly the time `tick`. `tick` must not decrease from call to call. A
     /// view interpolates between the last two steps, so the clock is one step ahead of the picture.
     /// @return Interrupted when the user asked to stop
     base::Status showMoment(base::Ticks tick);

@@ -1,11 +1,11 @@
 /// @file field_cache.h
-/// Caches distance fields in files beside their meshes, so that a scene starts without computing them.
+/// Caches distance fields in files beside their meshes, so that a scene starts without computing the fields.
 ///
 /// A file holds the field of one mesh, with one position and scale and one cell size, in the byte order of
-/// the machine. A file is verified before use: it contains a hash of the mesh, which also determines the
-/// size of the file, and a hash of its values. An invalid file is ignored and replaced. If it cannot be
-/// replaced, as in a read-only folder, the field is computed each time, without a message. Threads: any.
-/// When several programs write one file at once, each replaces the whole file atomically.
+/// the machine. A file is verified before use by two hashes that the file contains: a hash of the mesh and a
+/// hash of the values. An invalid file is ignored and replaced. If the file cannot be replaced, as in a
+/// read-only folder, the field is computed each time, without a message. Threads: any. When several programs
+/// write one file at once, each replaces the whole file atomically.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -21,7 +21,7 @@ namespace fx::cli {
 std::filesystem::path fieldFileOf(const std::filesystem::path& meshFile, const sim::TriangleMesh& mesh,
                                   float cellSize);
 
-/// Reads the field of a mesh from `file`. If that fails, builds it and writes the file. Throws
+/// Reads the field of a mesh from `file`. If reading fails, builds the field and writes the file. Throws
 /// std::bad_alloc.
 /// @param file see fieldFileOf(); empty: the field is built and not written
 /// @return the error of sim::DistanceField::build()

@@ -1,8 +1,8 @@
 /// @file instance_director.h
 /// Moves, triggers and changes instances before each step, as the scene file describes.
 ///
-/// The state after a step depends only on the number of the step, not on the frames or seeks that lead to
-/// it. Threads: the scene thread.
+/// The state after a step depends only on the number of the step, not on the frames or seeks before. Threads:
+/// the scene thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -17,13 +17,13 @@ namespace fx::cli {
 class InstanceDirector
 {
 public:
-    /// Adds an instance. Instances without a play are not changed.
+    /// Adds an instance. An instance is not changed if its SceneInstance::play contains no changes.
     void add(const scene_file::SceneInstance& instance, FxInstanceId id);
 
-    /// Plays the events of the next step and moves the instances. Called before each step of the scene. An
-    /// event takes place in the step whose beginning is nearest to its time. If the instance has not started
-    /// by then, the event takes place in the second step of the instance. At the end of the step, the
-    /// placement of the instance is that of its keys at that time.
+    /// Plays the events of the next step and moves the instances. The function must be called before each
+    /// step of the scene. An event takes place in the step whose beginning is nearest to its time. If the
+    /// instance has not started by then, the event takes place in the second step of the instance. At the end
+    /// of the step, the instance has the placement that its keys give for that time.
     /// @param from, to begin and end of the step
     base::Status beforeStep(FxScene* scene, base::Ticks from, base::Ticks to);
 

@@ -12,8 +12,8 @@
 
 namespace fx::cli {
 
-/// A temporary name in the folder of `target` that no other process uses. It keeps the suffix, because
-/// programs recognize the format by it.
+/// A temporary name in the folder of `target` that no other process uses. The name keeps the suffix of
+/// `target`, by which programs recognize the format.
 std::filesystem::path temporaryNameFor(const std::filesystem::path& target);
 
 /// A file that appears under its name only at commit(). Without commit() the temporary file is removed. A
@@ -30,8 +30,8 @@ public:
     base::Status open();
     base::Status write(std::string_view bytes);
     /// Renames the temporary file to its final name.
-    /// @param durable true: first waits until the bytes are on the disk, so that after a crash of the machine
-    ///          either the old or the new file exists; false: after a crash the file may be incomplete
+    /// @param durable true: waits until the bytes are on the disk; after a crash of the machine, either the
+    ///          old or the new file exists. false: after a crash the file may be incomplete
     base::Status commit(bool durable = true);
 
 private:

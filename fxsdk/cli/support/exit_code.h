@@ -14,7 +14,7 @@ enum ExitCode : int
     kInterrupted = 130, ///< the user interrupted the command (128 + SIGINT)
 };
 
-/// 0 for success, 130 when interrupted, otherwise 1.
+/// Exit code of a status: 0 for success, 130 for an interruption, 1 for all other errors.
 inline int exitCodeOf(const base::Status& status)
 {
     if (status.ok())

@@ -26,7 +26,7 @@ public:
 
     /// Starts ffmpeg.
     /// @param width, height [pixel] size of every frame; odd sizes are padded by a pixel, because the codec
-    ///          requires even ones
+    ///          requires even sizes
     /// @param framesPerSecond > 0
     /// @return NotFound when ffmpeg is not installed (the message explains how to install it), Io
     base::Status start(const std::filesystem::path& target, int width, int height, double framesPerSecond);

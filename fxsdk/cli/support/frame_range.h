@@ -13,9 +13,9 @@
 
 namespace fx::cli {
 
-constexpr double kMaxSceneTime = 3600.0; // [s] that commands go to
+constexpr double kMaxSceneTime = 3600.0; // [s] largest scene time of commands
 
-/// Two whole numbers around `separator`, nothing else.
+/// Parses two whole numbers with `separator` between them; empty for any other text.
 std::optional<std::pair<long, long>> parsePair(const std::string& text, char separator);
 
 /// First and last frame.
@@ -25,7 +25,7 @@ struct FrameRange
     int64_t last = 0;
 };
 
-/// @param text FIRST:LAST; empty: the first two seconds
+/// Parses a range of frames. @param text FIRST:LAST; empty: the first two seconds
 /// @return InvalidArgument naming the allowed form, and the limits: a million frames within kMaxSceneTime
 base::Result<FrameRange> parseFrameRange(const std::string& text, double framesPerSecond);
 
@@ -45,8 +45,8 @@ struct FrameArguments
 };
 
 /// Lists the moments of an output. A single file has one moment, at --time or at `defaultTime`.
-/// @param defaultTime [s]
-/// @param sequenceForm, stillForm outputs that --frames and --time need, for messages
+/// @param defaultTime [s] time of a single file without --time
+/// @param sequenceForm, stillForm names of the outputs that --frames and --time require, for messages
 /// @return InvalidArgument for --frames with a single file, --time with a sequence, or a malformed range
 base::Result<std::vector<NumberedFrame>> listFrames(const FrameArguments& arguments, bool isSingleFile,
                                                     double defaultTime, const std::string& sequenceForm,

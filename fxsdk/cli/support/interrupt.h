@@ -1,7 +1,7 @@
 /// @file interrupt.h
 /// Handles Ctrl-C (SIGINT) and SIGTERM. A signal sets a flag; long work checks the flag between steps and
-/// frames and then cleans up. If the flag is not checked in time, or if a second signal arrives, the
-/// program is terminated at once with the same exit code. Before that, registered temporary files are
+/// frames and then cleans up. If the flag is not checked in time, or if a second signal arrives, the program
+/// is terminated at once with the same exit code. Before the termination, registered temporary files are
 /// removed and registered child processes are killed.
 ///
 /// Threads: installInterruptHandler() once from main; all other functions from any thread.
@@ -28,8 +28,9 @@ bool interruptRequested();
 /// The status of an interruption.
 base::Status interruptedStatus();
 
-/// Registers a file or a process for its own lifetime: if the program is terminated, the file is removed or
-/// the process killed. At most 32 are registered at a time; further ones are ignored.
+/// Registers a file or a process during the lifetime of this object. If the program is terminated, the file
+/// is removed or the process is killed. At most 32 objects are registered at a time; further objects have no
+/// effect.
 class EndsWithProgram
 {
 public:

@@ -9,7 +9,7 @@
 
 namespace fx::cli {
 
-/// Adds "version" and "machine".
+/// Adds the members "version" and "machine".
 nlohmann::json withMachine(nlohmann::json object, const Machine& machine);
 
 /// Prints `object` and a line break. Bytes that are not UTF-8 are replaced.

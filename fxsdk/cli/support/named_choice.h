@@ -13,7 +13,7 @@
 
 namespace fx::cli {
 
-/// Accepts one of `names`. The message for any other value lists the names and suggests the nearest.
+/// Accepts one of `names`. The message for any other value lists the names and suggests the nearest name.
 inline CLI::Validator oneOf(std::vector<std::string> names)
 {
     const std::string list = "{" + CLI::detail::join(names, ",") + "}";

@@ -17,7 +17,7 @@ enum class OutputKind
     Mp4,
 };
 
-/// One file, or one for each frame.
+/// One file, or one file for each frame.
 struct NumberedFile
 {
     std::filesystem::path path;

@@ -8,7 +8,7 @@
 
 namespace fx::cli {
 
-/// The bar's text: "frame 12/60 [#####     ] 20 % 8 s left". A pure function, so that it can be tested.
+/// The bar's text: "frame 12/60 [##### ] 20 % 8 s left". The function has no side effects.
 /// @param done parts finished, 0..total
 /// @param elapsedSeconds [s] since the start; the remaining time assumes that all parts take equally long
 std::string progressText(const std::string& what, uint64_t done, uint64_t total, double elapsedSeconds);

@@ -5,17 +5,19 @@
 /// Without cameras (fxScene_SetFocus) every instance is in sight. With cameras, an instance whose bounds no
 /// camera sees is hidden: it is not stepped, not shown, and costs nothing. When it comes into sight again,
 /// it catches up as its preset's member "offscreen" specifies:
-///   analytic       The present state is computed directly. It has the bits of an effect that was never
-///                  hidden.
-///   replay         The missing steps are taken, at most FxSceneDef::catchUpSteps per update. The result
-///                  has the bits of an effect that was never hidden. An absence longer than
-///                  FxSceneDef::maxCatchUpTicks is not replayed; its time is skipped and counted.
-///   coarse         While hidden, the effect takes one step for four steps of the scene. The bits differ.
-///   skip           The missing time is left out. Particles age or die, but do not move.
+///   analytic       The present state is computed directly. The state is bit-identical to that of an effect
+///                  that was never hidden.
+///   replay         The missing steps are taken. FxSceneDef::catchUpSteps limits the work per update. The
+///                  state is bit-identical to that of an effect that was never hidden. An absence longer
+///                  than FxSceneDef::maxCatchUpTicks is not replayed; its time is skipped and counted.
+///   coarse         While hidden, the effect takes one step for four steps of the scene. The state differs
+///                  from that of an effect that was never hidden.
+///   skip           The missing time is skipped. During the skipped time particles age or die, but do not
+///                  move.
 ///   authoritative  The effect is never hidden.
-/// Without the member, gases are authoritative. Other effects are analytic if all their solvers can jump to
-/// any time, and replayed otherwise. An effect of unknown extent is never hidden because of its position;
-/// the preset's member "bound" states the extent.
+/// Without the member "offscreen", gases are authoritative. Other effects are analytic if all their solvers
+/// can jump to any time, and replayed otherwise. An effect of unknown extent is never hidden because of its
+/// position; the preset's member "bound" states the extent.
 ///
 /// Threads: [scene thread] for all functions. Ownership: the library copies all arguments.
 #ifndef FXSDK_FX_ACTIVATION_H
@@ -27,7 +29,7 @@
 extern "C" {
 #endif
 
-/// One camera. Fill with fxDefaultFocus(), then set it as in FxFrameDef.
+/// One camera. Fill with fxDefaultFocus(), then set the matrices as in FxFrameDef.
 typedef struct FxFocus
 {
     /// Set by fxDefaultFocus(); do not touch.
@@ -36,7 +38,7 @@ typedef struct FxFocus
     /// [pixel] height of the picture, 1..65536; default 1080.
     float height;
 
-    /// [m] world position that the matrices are relative to, each within +-1e9.
+    /// [m] world position that the matrices are relative to, each component within +-1e9.
     double origin[3];
 
     /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid; default
@@ -50,8 +52,9 @@ typedef struct FxFocus
     /// [m] largest distance from the eye at which instances are seen; 0 (default): no limit.
     double maxDistance;
 
-    /// [m] 0..1e6, the frustum is widened by this distance on all sides; default 2. This keeps effects that
-    /// cast light or shadow into the frustum, and allows for cameras that turn quickly.
+    /// [m] 0..1e6, the frustum is widened by this distance on all sides; default 2. Effects near the frustum
+    /// can cast light or shadow into it and therefore stay active. The margin also allows for fast rotations
+    /// of the camera.
     float margin;
 
     /// [pixel] 0..65536, instances with a smaller radius on the picture are hidden; default 0.
@@ -83,7 +86,7 @@ typedef struct FxActivationHints
     /// [m] 0..1e9, largest distance at which the instance is seen; 0 (default): no limit.
     float maxDistance;
 
-    /// 1: the instance is occluded and treated as out of sight; default 0.
+    /// 1: the instance is occluded and is treated as out of sight; default 0.
     uint32_t occluded;
 } FxActivationHints;
 
@@ -103,7 +106,7 @@ typedef struct FxBudget
     /// Set by fxDefaultBudget(); do not touch.
     uint32_t structSize;
 
-    /// Maximum number of simultaneously alive particles; 0 (default): no limit.
+    /// Maximum number of living particles; 0 (default): no limit.
     uint32_t particles;
 
     /// [ms] 0..1e6, estimated time of a step; 0 (default): no limit.
@@ -133,9 +136,9 @@ typedef enum FxActivityReason
     FX_REASON_TOO_FAR = 3,       ///< farther away than the maximum distance of the instance or of the camera
     FX_REASON_TOO_SMALL = 4,     ///< smaller than FxFocus::minPixels
     FX_REASON_OCCLUDED = 5,      ///< FxActivationHints::occluded is set
-    FX_REASON_BUDGET = 6,        ///< a budget is exceeded and others are more significant
+    FX_REASON_BUDGET = 6,        ///< a budget is exceeded and other instances are more significant
     FX_REASON_CATCHING_UP = 7,   ///< its past is being simulated
-    FX_REASON_NOTHING_MOVES = 8, ///< it has no particles, and no births before a known time
+    FX_REASON_NOTHING_MOVES = 8, ///< it has no particles, and no birth is due yet
     FX_REASON_ENDED = 9,         ///< it has finished
     FX_REASON_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxActivityReason;
@@ -146,7 +149,7 @@ enum
     FX_CATCH_UP_ANALYTIC = 0,     ///< jumps to the present
     FX_CATCH_UP_REPLAY = 1,       ///< takes the missing steps
     FX_CATCH_UP_COARSE = 2,       ///< is stepped coarsely
-    FX_CATCH_UP_SKIP = 3,         ///< leaves the time out
+    FX_CATCH_UP_SKIP = 3,         ///< skips the missing time
     FX_CATCH_UP_AUTHORITATIVE = 4 ///< is never hidden
 };
 
@@ -158,9 +161,9 @@ typedef struct FxInstanceActivity
     uint32_t reason;     ///< FxActivityReason
     uint32_t policy;     ///< FX_CATCH_UP_...
     uint32_t particles;  ///< number of particles of the instance
-    float significance;  ///< [pixel] radius on the picture of the best camera, multiplied by the priority
+    float significance;  ///< [pixel] largest radius on the picture over all cameras, times the priority
     float milliseconds;  ///< [ms] estimated time of a step
-    float reach;         ///< [m] largest distance of particles from its position; infinite when unknown
+    float reach;         ///< [m] largest distance of particles from the instance; infinite when unknown
     int64_t lagTicks;    ///< [tick] time that is not simulated yet
 } FxInstanceActivity;
 
@@ -174,16 +177,16 @@ typedef struct FxFrameStats
     uint32_t active;       ///< number of instances that are stepped and shown
     uint32_t finished;     ///< number of instances that have ended and are not yet destroyed
     uint32_t waking;       ///< number of instances that catch up
-    uint32_t resting;      ///< number of instances without particles, and without births before a known time
+    uint32_t resting;      ///< number of instances without particles in which no birth is due yet
     uint32_t hidden;       ///< number of instances that are out of sight, or in sight and beyond the budget
     uint32_t beyondBudget; ///< number of instances that are in sight, but hidden by the budget
     uint32_t wentOut;      ///< number of instances that became hidden
     uint32_t cameBack;     ///< number of instances that have reached the present again
-    /// number of bounds tested against cameras: of instances, or of groups of hidden instances
+    /// number of bounds tested against cameras; bounds belong to instances or to groups of hidden instances
     uint32_t judged;
     uint32_t simulations;          ///< number of existing simulations
     uint32_t particles;            ///< number of living particles of active instances
-    uint64_t particleSteps;        ///< number of particles advanced, without those of catching up
+    uint64_t particleSteps;        ///< number of particles advanced, except while catching up
     uint64_t subSteps;             ///< number of sub-steps of gases
     uint64_t neighborPairs;        ///< number of pairs of gas particles that interacted
     uint64_t born;                 ///< number of particles born
@@ -200,7 +203,8 @@ typedef struct FxFrameStats
 
 /// Sets the cameras of a scene, from the next update on. Cameras only decide which instances are in sight.
 /// [scene thread]
-/// @param foci  `count` cameras one after the other; may be null when count is 0: everything is in sight
+/// @param foci  `count` cameras one after the other; may be null when count is 0; then every instance is in
+///         sight
 /// @param count 0..64
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member), FX_ERROR_VERSION (structSize),
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure changes nothing.
@@ -218,14 +222,14 @@ FX_API FxResult fxScene_SetActivationHints(FxScene* scene, FxInstanceId instance
 FX_API FxResult fxScene_SetBudget(FxScene* scene, const FxBudget* budget);
 
 /// Reads state, reason and cost of an instance. [scene thread]
-/// @param ioActivity structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioActivity structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_STALE_ID,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetInstanceActivity(FxScene* scene, FxInstanceId instance,
                                             FxInstanceActivity* ioActivity);
 
 /// Reads the counters of the last update. [scene thread]
-/// @param ioStats structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioStats structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetFrameStats(FxScene* scene, FxFrameStats* ioStats);

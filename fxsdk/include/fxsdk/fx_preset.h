@@ -2,7 +2,8 @@
 /// A preset is the description of an effect (*.fx.json). It can be instantiated any number of times.
 ///
 /// Threads: presets may be loaded and unloaded from any thread; loads of one context are serialized.
-/// Ownership: the context owns its presets. Instances keep the data of their preset when it is unloaded.
+/// Ownership: the context owns its presets. Instances keep the data of their preset when the preset is
+/// unloaded.
 #ifndef FXSDK_FX_PRESET_H
 #define FXSDK_FX_PRESET_H
 
@@ -24,10 +25,10 @@ typedef struct FxPresetInfo
     /// [tick] lifetime of the effect; 0: the effect ends when its last particle has died.
     int64_t durationTicks;
 
-    /// Maximum number of simultaneously alive particles of one instance.
+    /// Maximum number of living particles of one instance.
     uint64_t capacity;
 
-    /// UTF-8, zero-terminated; longer names are cut.
+    /// Name of the preset, UTF-8, zero-terminated; longer names are cut.
     char name[64];
 
     // The members below are estimates for one instance at medium quality.
@@ -52,18 +53,18 @@ typedef struct FxPresetInfo
 FX_API FxResult fxLoadPresetFile(FxContext* context, const char* path, FxPresetId* outPreset);
 
 /// Loads a preset from a text in memory. [any]
-/// @param text        UTF-8, need not be zero-terminated; not kept
-/// @param length      [byte] of text, 1..4 MiB
+/// @param text        UTF-8, need not be zero-terminated; read during the call only
+/// @param length      [byte] length of the text, 1 byte to 4 MiB
 /// @param displayName used as the file's name in messages; may be null
 /// @param outPreset   receives the id; untouched on failure
-/// @return as fxLoadPresetFile
+/// @return the codes of fxLoadPresetFile()
 FX_API FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, const char* displayName,
                                  FxPresetId* outPreset);
 
 /// Loads a preset of the built-in library. [any]
 /// @param name      such as "explosion" or "library:explosion"
 /// @param outPreset receives the id; untouched on failure
-/// @return as fxLoadPresetFile; FX_ERROR_NOT_FOUND when the library has no such preset
+/// @return the codes of fxLoadPresetFile(); FX_ERROR_NOT_FOUND when the library has no such preset
 FX_API FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* outPreset);
 
 /// Unloads a preset. Its id is stale afterwards; existing instances continue. [any]
@@ -71,7 +72,7 @@ FX_API FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPres
 FX_API FxResult fxUnloadPreset(FxContext* context, FxPresetId preset);
 
 /// Reads properties of a preset. [any]
-/// @param ioInfo structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioInfo structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize),
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* ioInfo);

@@ -7,8 +7,8 @@
 /// freeing.
 ///
 /// Time: a scene advances in fixed steps. fxScene_Update() adds the frame's time and takes as many whole
-/// steps as fit; the remainder is added to the next call, and views interpolate. Hence any frame rate gives
-/// the same particles. Before its start and after its end an instance costs only the memory of its
+/// steps as fit. The remainder is added to the next call. Views interpolate between steps. Hence any frame
+/// rate gives the same particles. Before its start and after its end an instance costs only the memory of its
 /// definition.
 #ifndef FXSDK_FX_SCENE_H
 #define FXSDK_FX_SCENE_H
@@ -34,7 +34,7 @@ typedef enum FxQuality
     FX_QUALITY_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never valid
 } FxQuality;
 
-/// How a scene starts. Fill with fxDefaultSceneDef(), then change what you need.
+/// Definition of a new scene. Fill with fxDefaultSceneDef(), then change members.
 typedef struct FxSceneDef
 {
     /// Set by fxDefaultSceneDef(); do not touch.
@@ -46,15 +46,15 @@ typedef struct FxSceneDef
     /// [tick] length of a step, 1/1000 s to 1 s; default 1/60 s.
     int64_t stepTicks;
 
-    /// [tick] longest time that one update simulates, at least stepTicks and at most 60 s; time beyond it is
-    /// dropped and counted; default 1/15 s.
+    /// [tick] longest time that one update simulates, at least stepTicks and at most 60 s; default 1/15 s.
+    /// Longer times are shortened to maxFrameTicks, and the dropped time is counted.
     int64_t maxFrameTicks;
 
-    /// [m/s2] world, each within +-1000; default 0, -9.80665, 0.
+    /// [m/s2] world, each component within +-1000; default 0, -9.80665, 0.
     float gravity[3];
 
-    /// 1 (default): the ground of a preset is the plane y = 0 of its local space, which rotates with the
-    /// instance; 0: no preset has a ground.
+    /// 1 (default): the ground of a preset is the plane y = 0 of the local space of the instance. 0: no
+    /// preset has a ground.
     uint32_t hasGround;
 
     /// FxQuality of instances without a quality of their own; default FX_QUALITY_DEFAULT.
@@ -68,14 +68,15 @@ typedef struct FxSceneDef
     /// See fx_activation.h.
     uint32_t disableCulling;
 
-    /// 1: the state never depends on cameras. Only instances that can be caught up bit for bit are hidden,
-    /// and absences of any length are replayed. Default 0.
+    /// 1: the state never depends on cameras. An instance is hidden only if its missing steps can be computed
+    /// bit for bit. Absences of any length are replayed. Default 0.
     uint32_t lockStep;
 
     /// [tick] 0..3600 s, time out of sight after which an instance's memory is released; default 5 s.
     int64_t releaseAfterTicks;
 
-    /// [tick] 0..3600 s, longest absence that is replayed; longer ones are skipped and counted; default 30 s.
+    /// [tick] 0..3600 s, longest absence that is replayed; longer absences are skipped and counted; default
+    /// 30 s.
     int64_t maxCatchUpTicks;
 
     /// Maximum number of particle steps that one update spends on replays, >= 1; default 200,000.
@@ -120,10 +121,10 @@ typedef struct FxInstanceParameters
     /// [1] 0..1000, multiplies future birth rates and injected energies; default 1.
     float intensity;
 
-    /// [m/s] world, each within +-1000, added to the wind of the preset; default 0.
+    /// [m/s] world, each component within +-1000, added to the wind of the preset; default 0.
     float wind[3];
 
-    /// 0: no births, existing particles continue; 1 (default): as in the preset.
+    /// 0: no births, existing particles continue; 1 (default): births as in the preset.
     uint32_t emitting;
 } FxInstanceParameters;
 
@@ -134,7 +135,7 @@ static inline FxInstanceParameters fxDefaultInstanceParameters(void)
     return parameters;
 }
 
-/// How an instance starts. Fill with fxDefaultInstanceDef(), then change what you need.
+/// Definition of a new instance. Fill with fxDefaultInstanceDef(), then set the preset and change members.
 typedef struct FxInstanceDef
 {
     /// Set by fxDefaultInstanceDef(); do not touch.
@@ -143,10 +144,10 @@ typedef struct FxInstanceDef
     /// [1] factor for all lengths, 1e-3..1e3; default 1.
     float scale;
 
-    /// Required.
+    /// Preset of the instance; required.
     FxPresetId preset;
 
-    /// [m] world position of the effect's origin, each within +-1e9; default 0.
+    /// [m] world position of the effect's origin, each component within +-1e9; default 0.
     double position[3];
 
     /// Unit quaternion x, y, z, w (length within 1e-3 of 1); default identity.
@@ -172,7 +173,7 @@ typedef struct FxInstanceDef
     /// 1: the instance is destroyed when the effect has ended; default 0.
     uint32_t destroyWhenFinished;
 
-    /// FxQuality, constant; default FX_QUALITY_DEFAULT: that of the scene.
+    /// FxQuality, constant; default FX_QUALITY_DEFAULT: the quality of the scene.
     uint32_t quality;
 
     /// Reserved; must be 0.
@@ -198,7 +199,7 @@ typedef enum FxInstanceState
     FX_INSTANCE_ACTIVE = 1,   ///< is stepped and shown
     FX_INSTANCE_FINISHED = 2, ///< has ended; has no particles and costs no time
     FX_INSTANCE_WAKING = 3,   ///< in sight again and catching up; not shown yet
-    FX_INSTANCE_RESTING = 4,  ///< has no particles, and no births before a known time; costs no time
+    FX_INSTANCE_RESTING = 4,  ///< has no particles, and no birth is due yet; costs no time
     FX_INSTANCE_HIDDEN = 5,   ///< out of sight, see fx_activation.h; costs no time
     FX_INSTANCE_STATE_FORCE_32 =
         0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
@@ -255,7 +256,7 @@ typedef struct FxSceneStatistics
     /// [tick] end of the last step, <= nowTick.
     int64_t simulatedTick;
 
-    /// [tick] time dropped since the scene was created because it exceeded maxFrameTicks.
+    /// [tick] time dropped since the scene was created, because updates exceeded maxFrameTicks.
     int64_t droppedTicks;
 
     /// Number of allocations from the context's allocator during the last fxScene_Update.
@@ -268,7 +269,7 @@ typedef struct FxSceneStatistics
     /// Number of sub-steps of gases.
     uint64_t subSteps;
 
-    /// Number of existing simulations; smaller than that of instances when instances share simulations.
+    /// Number of existing simulations; smaller than `instances` when instances share simulations.
     uint32_t simulations;
 
     /// Reserved; 0.
@@ -277,7 +278,7 @@ typedef struct FxSceneStatistics
     /// Number of instances that are in sight again and catch up.
     uint32_t instancesWaking;
 
-    /// Number of instances without particles, and without births before a known time.
+    /// Number of instances without particles in which no birth is due yet.
     uint32_t instancesResting;
 
     /// Number of instances that are out of sight.
@@ -303,8 +304,8 @@ FX_API FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene
 
 /// Destroys a scene with its instances. Null is allowed and does nothing. [scene thread]
 /// @return FX_OK, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_INVALID_ARGUMENT (a view still shows
-///         the scene or a snapshot of it is held: destroy or release that first). Nothing is destroyed on
-///         failure.
+///         the scene or a snapshot of it is held: destroy the view or release the snapshot first). Nothing is
+///         destroyed on failure.
 FX_API FxResult fxDestroyScene(FxScene* scene);
 
 /// Makes the calling thread the scene thread. No call on this scene may be in progress on another thread.
@@ -313,24 +314,26 @@ FX_API FxResult fxDestroyScene(FxScene* scene);
 FX_API FxResult fxScene_AdoptThread(FxScene* scene);
 
 /// Adds an instance. It starts when the scene clock reaches def->startTick, or with the next step when that
-/// time is past. An instance that starts with the next step allocates its memory in this call, a later one at
-/// its start. Instances of one preset share one simulation when they have equal start, seed, quality,
-/// intensity and emission, and equal gravity and wind in local space. Emitters with "space": "world" also
-/// need equal placements. A shared simulation is stepped once and shown at each instance's own placement.
-/// When an instance is changed, it gets a simulation of its own. [scene thread]
+/// time is past. An instance that starts with the next step allocates its memory in this call. An instance
+/// that starts later allocates its memory at its start. Instances of one preset share one simulation when
+/// they have equal start, seed, quality, intensity and emission, and equal gravity and wind in local space.
+/// Emitters with "space": "world" also need equal placements. A shared simulation is stepped once and shown
+/// at each instance's own placement. When an instance is changed, it gets a simulation of its own. [scene
+/// thread]
 /// @param outInstance receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT (not finite or out of range),
 ///         FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_OUT_OF_MEMORY,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure leaves the scene as it was.
 FX_API FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInstanceId* outInstance);
 
-/// Removes an instance with its particles. Its id is stale at once; the next published step does not contain
-/// it. [scene thread]
+/// Removes an instance with its particles. The id is stale at once. The next published step does not contain
+/// the instance. [scene thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance);
 
 /// Tests whether an id names an instance of this scene. [scene thread]
-/// @return 1 when it does; 0 when it is stale or foreign, the scene is null, or the thread is wrong
+/// @return 1 if the id names an instance of this scene; 0 if it does not, if the scene is null, or if the
+///         thread is wrong
 FX_API uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance);
 
 /// Reads the state of an instance and its number of particles. [scene thread]
@@ -340,14 +343,15 @@ FX_API uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance);
 FX_API FxResult fxScene_GetInstanceState(FxScene* scene, FxInstanceId instance, FxInstanceState* outState,
                                          uint32_t* outParticles);
 
-/// Moves an instance with all its particles, visible from the next step on. Particles of emitters with
-/// "space": "world" keep their position; births are distributed evenly along a straight line over the steps
-/// of the next fxScene_Update() that takes any. [scene thread]
-/// @param position [m] world, each within +-1e9
+/// Moves an instance, visible from the next step on. Its particles move with the instance, except particles
+/// of emitters with "space": "world". These emitters move on a straight line from the old to the new
+/// placement, during the steps of the next fxScene_Update() that takes a step. Births are distributed evenly
+/// along this line. [scene thread]
+/// @param position [m] world, each component within +-1e9
 /// @param rotation unit quaternion x, y, z, w (length within 1e-3 of 1; it is normalized)
 /// @param scale    [1] 1e-3..1e3
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
-///         FX_ERROR_OUT_OF_MEMORY (an instance that leaves a shared simulation needs its own)
+///         FX_ERROR_OUT_OF_MEMORY (an instance that leaves a shared simulation needs a simulation of its own)
 FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, const double position[3],
                                      const float rotation[4], float scale);
 
@@ -358,25 +362,25 @@ FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, cons
 FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
                                       const FxInstanceParameters* parameters);
 
-/// Plays an instance at another speed from now on. Local time is counted in integer ticks, at a rate that is
-/// a multiple of 1/65536 of the scene's, so that equal calls give equal bits. An integer speed takes the same
-/// steps as speed 1, several of them with each step of the scene; at 0 the instance stands still. Negative
-/// speeds are not allowed: to play backwards, use speed 0 and fxScene_SeekInstance() before each frame.
-/// [scene thread]
+/// Plays an instance at another speed from now on. Local time is counted in integer ticks, and the speed is
+/// rounded to a multiple of 1/65536. Equal calls therefore give equal bits. At an integer speed n, the
+/// instance takes the steps of speed 1, n of them for each step of the scene. At speed 0 the instance stands
+/// still. Negative speeds are not allowed: to play backwards, use speed 0 and fxScene_SeekInstance() before
+/// each frame. [scene thread]
 /// @param speed [1] 0..16, rounded to a multiple of 1/65536. An instance that has ended does not change
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (not finite or out of range), FX_ERROR_STALE_ID,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (as fxScene_SetTransform)
 FX_API FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, float speed);
 
-/// Moves an instance to another local time, forwards or backwards. The result is that of playing it from its
-/// beginning under its present wind, intensity and placement, bit for bit when the time is a whole number of
-/// scene steps. Emitters whose motion has a closed form jump; all other solvers take the steps again. This
-/// call takes as many as FxSceneDef::workBudget allows; the next updates take the rest, and the instance is
-/// FX_INSTANCE_WAKING meanwhile. Events of fxScene_TriggerEvent() are not replayed. Views and snapshots show
-/// the result after the next fxScene_Update(), also after one of 0 s: an editor that stands still seeks,
-/// updates by 0 and renders. Until time advances, the whole scene is then shown at its last step. To play
-/// backwards, seek to an earlier time before each frame; where motion has no closed form, each seek takes all
-/// steps from the beginning. [scene thread]
+/// Moves an instance to another local time, forwards or backwards. The result is that of playing the instance
+/// from its beginning with its present wind, intensity and placement. The result is bit-identical when the
+/// time is a whole number of scene steps. Emitters whose motion has a closed form jump to the time; all other
+/// solvers repeat the steps. This call takes as many steps as FxSceneDef::workBudget allows. The next updates
+/// take the remaining steps; until then the instance is FX_INSTANCE_WAKING. Events of fxScene_TriggerEvent()
+/// are not replayed. Views and snapshots show the result after the next fxScene_Update(), even if that update
+/// adds 0 s. An editor with a paused clock seeks, updates by 0 s and renders. Until time advances, the whole
+/// scene is then shown at its last step. To play backwards, seek to an earlier time before each frame; where
+/// motion has no closed form, each seek takes all steps from the beginning. [scene thread]
 /// @param seconds [s] 0..86400 since its beginning, rounded to a tick
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (out of range, not started, ended), FX_ERROR_STALE_ID,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as
@@ -385,8 +389,8 @@ FX_API FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, doub
 
 /// Triggers the births that a preset defines for an event of the host: a member of an emitter's "events" with
 /// "on": "host" and this name. The births happen at the beginning of the next step, at the position of that
-/// emitter. In a hidden instance they happen when the instance is simulated again. Each call counts: equal
-/// calls give equal bits. [scene thread]
+/// emitter. In a hidden instance the births happen when the instance is simulated again. Equal calls give
+/// equal bits. [scene thread]
 /// @param name  name of the event in the preset, at most 128 bytes
 /// @param count [1] number of events, 0..65536; 0 does nothing. An instance that has ended does not change
 /// @return FX_OK, FX_ERROR_NOT_FOUND (the preset has no such event), FX_ERROR_INVALID_ARGUMENT (null, out of
@@ -394,32 +398,33 @@ FX_API FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, doub
 ///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxScene_TriggerEvent(FxScene* scene, FxInstanceId instance, const char* name, uint32_t count);
 
-/// Adds time and takes the steps that are due, then publishes the last two of them for views and hosts.
+/// Adds time and takes the steps that are due, then publishes the last two steps for views and hosts.
 /// Allocates nothing once the scene is warm, except when an instance starts or returns into sight. [scene
 /// thread]
 ///
 /// An update spends at most FxSceneDef::workBudget, exceeded by at most one piece of work: some thousand
-/// particles, or one sub-step of a gas. Publishing is counted and divided as well. Work is counted, not
-/// timed, so that equal calls stop at the same point on every machine. The next update continues a step that
-/// is not complete and published. Until then views show the last published step, and scene time lags by
-/// FxSceneStatistics::timeDebtTicks. Debt beyond maxCatchUpTicks is dropped and counted as droppedTicks. All
-/// steps give the same bits as without a budget. An instance whose prewarm or seek exceeds the budget is
-/// FX_INSTANCE_WAKING meanwhile; the other instances continue. While a step is incomplete, transforms,
-/// parameters, speeds, triggers, seeks and new instances take effect with the next step, and destroyed
-/// instances do not appear in later steps. fxScene_SaveState, fxScene_GetSimulationHash,
-/// fxScene_SetCollisionMesh and fxScene_SetContactHook complete the step first, however long that takes;
-/// fxScene_GetStateHash covers the last published step.
+/// particles, or one sub-step of a gas. Publishing a step also counts as work, and may be divided among
+/// updates. Work is counted, not timed, so that equal calls stop at the same point on every machine. The next
+/// update continues a step that is not complete and published. Until then views show the last published step,
+/// and scene time lags by FxSceneStatistics::timeDebtTicks. Debt beyond maxCatchUpTicks is dropped and
+/// counted as droppedTicks. All steps give the same bits as without a budget. An instance whose prewarm or
+/// seek exceeds the budget is FX_INSTANCE_WAKING until the work is done. Other instances continue. While a
+/// step is incomplete, transforms, parameters, speeds, triggers, seeks and new instances take effect with the
+/// next step. Destroyed instances do not appear in later steps. Four functions complete the step first,
+/// without a limit of time: fxScene_SaveState, fxScene_GetSimulationHash, fxScene_SetCollisionMesh and
+/// fxScene_SetContactHook. fxScene_GetStateHash covers the last published step.
 /// @param dtSeconds [s] >= 0; 0 takes no step and publishes the results of fxScene_SeekInstance(); a time
-///             above maxFrameTicks is shortened to it and counted
+///             above maxFrameTicks is shortened to maxFrameTicks, and the dropped time is counted
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (negative or not finite: counted, nothing advances),
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (time has advanced; instances
 ///         without memory are missing from the picture until an allocation succeeds), FX_ERROR_HOST_ANSWER
-///         (time has advanced, but the contact callback returned invalid values: a share outside of 0..1, a
-///         normal that is zero or not finite. The message has their number; such paths count as free)
+///         (time has advanced, but the contact callback returned invalid values: `outShare` outside of 0..1,
+///         or a normal that is zero or not finite. The message states the number of invalid values. Paths
+///         with invalid values count as paths without contact)
 FX_API FxResult fxScene_Update(FxScene* scene, double dtSeconds);
 
 /// Reads the counters of the scene. [scene thread]
-/// @param ioStatistics structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioStatistics structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStatistics);
@@ -427,7 +432,7 @@ FX_API FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStati
 /// Lists the instances of a scene. [scene thread]
 /// @param outInstances receives the ids, in the same order after equal calls; null to get only the number
 /// @param capacity     number of ids that fit into outInstances
-/// @param outCount     instances of the scene; untouched on failure
+/// @param outCount     number of instances of the scene; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (nothing is written), FX_ERROR_WRONG_THREAD,
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetInstances(FxScene* scene, FxInstanceId* outInstances, uint32_t capacity,

@@ -1,11 +1,12 @@
 /// @file fx_snapshot.h
-/// Snapshots give the particles of a scene to hosts that draw or analyze them, with or without GL.
+/// Snapshots give the particles of a scene to hosts that draw or analyze the particles, with or without GL.
 ///
-/// A snapshot holds the last two steps of a scene as lists of groups; a group is the output of one solver of
-/// one instance: columns of numbers, an id per element that identifies it in both steps, and a placement:
-/// world = position + rotation * (scale * local). Threads: everything here may be called from any thread,
-/// also while the scene thread updates the scene. Ownership: pointers into a snapshot stay valid until it is
-/// released. At most 16 snapshots of a scene are held at once.
+/// A snapshot holds the last two steps of a scene as lists of groups. A group is the output of one solver of
+/// one instance: columns of numbers, an id per element, and a placement. An element has the same id in both
+/// steps. The placement maps local to world coordinates: world = position + rotation * (scale * local).
+/// Threads: everything here may be called from any thread, also while the scene thread updates the scene.
+/// Ownership: pointers into a snapshot stay valid until the snapshot is released. At most 16 snapshots of a
+/// scene are held at once.
 #ifndef FXSDK_FX_SNAPSHOT_H
 #define FXSDK_FX_SNAPSHOT_H
 
@@ -19,7 +20,7 @@ extern "C" {
 typedef enum FxSnapshotStep
 {
     FX_SNAPSHOT_NEWER = 0,                 ///< the last step
-    FX_SNAPSHOT_OLDER = 1,                 ///< the step before it
+    FX_SNAPSHOT_OLDER = 1,                 ///< the step before the last step
     FX_SNAPSHOT_STEP_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never valid
 } FxSnapshotStep;
 
@@ -53,15 +54,15 @@ typedef struct FxSnapshotGroup
 {
     uint32_t structSize;   ///< set by the caller
     uint32_t count;        ///< number of elements
-    const char* kind;      ///< such as "blob"; constant string
+    const char* kind;      ///< name of the kind, such as "blob"; constant string
     FxInstanceId instance; ///< instance of the particles; may have been destroyed since
     uint32_t solver;       ///< index of the solver in its preset
     float scale;           ///< [1] scale of the placement, > 0
     double position[3];    ///< [m] world position of the placement
     float rotation[4];     ///< rotation of the placement, unit quaternion x, y, z, w
-    float boundsMin[3]; ///< [m] local bounds that contain every element with its radius; min > max when empty
-    float boundsMax[3]; ///< [m] local
-    const uint64_t* ids;    ///< `count` ids, ascending; null when the kind has none (see docs/conventions.md)
+    float boundsMin[3];    ///< [m] lower corner of the local bounds of all elements with their radii
+    float boundsMax[3];  ///< [m] upper corner of the local bounds; below boundsMin when there are no elements
+    const uint64_t* ids; ///< `count` ascending ids; null if the kind has no ids (docs/conventions.md)
     const float* constants; ///< `constantCount` values shared by all elements, see docs/conventions.md
     uint32_t constantCount; ///< number of constants of the kind
     uint32_t columnCount;   ///< number of columns of the kind
@@ -76,7 +77,7 @@ typedef struct FxSnapshotColumn
     /// Number of elements.
     uint32_t count;
 
-    /// Name, such as "radius"; constant string.
+    /// Name of the column, such as "radius"; constant string.
     const char* name;
 
     /// SI unit such as "m", "1" for none; constant string.
@@ -92,7 +93,7 @@ typedef struct FxSnapshotColumn
 /// Acquires a snapshot of the newest two steps of a scene. Release it soon: a held snapshot occupies memory.
 /// [any]
 /// @param outSnapshot receives the id; untouched on failure
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (16 are held)
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (16 snapshots are held)
 FX_API FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot);
 
 /// Releases a snapshot; its id is stale and its pointers are invalid afterwards. [any]
@@ -100,20 +101,20 @@ FX_API FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapsho
 FX_API FxResult fxScene_ReleaseSnapshot(FxScene* scene, FxSnapshotId snapshot);
 
 /// Reads the contents of a snapshot. [any]
-/// @param ioInfo structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioInfo structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize)
 FX_API FxResult fxScene_GetSnapshotInfo(FxScene* scene, FxSnapshotId snapshot, FxSnapshotInfo* ioInfo);
 
 /// Describes one group of a snapshot. [any]
-/// @param index   0..groups of that step - 1
-/// @param ioGroup structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param index   0..number of groups of the step - 1
+/// @param ioGroup structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (step or index out of range), FX_ERROR_STALE_ID, FX_ERROR_VERSION
 FX_API FxResult fxScene_GetSnapshotGroup(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step,
                                          uint32_t index, FxSnapshotGroup* ioGroup);
 
 /// Describes one column of a group, by position. [any]
 /// @param column   0..columnCount - 1
-/// @param ioColumn structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioColumn structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (step, group or column out of range), FX_ERROR_STALE_ID,
 ///         FX_ERROR_VERSION
 FX_API FxResult fxScene_GetSnapshotColumn(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step,
@@ -121,7 +122,7 @@ FX_API FxResult fxScene_GetSnapshotColumn(FxScene* scene, FxSnapshotId snapshot,
 
 /// Describes one column of a group, by name. [any]
 /// @param name such as "x", "y", "z" [m], "radius" [m], "temperature" [K]
-/// @return as fxScene_GetSnapshotColumn; FX_ERROR_NOT_FOUND when the kind has no such column
+/// @return the codes of fxScene_GetSnapshotColumn(); FX_ERROR_NOT_FOUND when the kind has no such column
 FX_API FxResult fxScene_FindSnapshotColumn(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step,
                                            uint32_t group, const char* name, FxSnapshotColumn* ioColumn);
 

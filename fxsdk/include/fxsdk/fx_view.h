@@ -2,12 +2,12 @@
 /// A view draws a scene into an image of the host's OpenGL 4.5 context. Include this to render effects.
 ///
 /// Threads: everything here is [GL thread], the thread that created the context, unless a function says
-/// otherwise. It may overlap with fxScene_Update on the scene thread. Ownership: the caller owns every
+/// otherwise. Calls may overlap with fxScene_Update() on the scene thread. Ownership: the caller owns every
 /// FxView*; a view owns its textures and the history of its exposure and glare. The host owns its textures
 /// and framebuffers.
 ///
-/// GL state: with saveState = 1 fxView_Render() restores all GL state; with 0 it may leave the states changed
-/// that fxGetTouchedGlState() names. Transform feedback and conditional rendering must not be active.
+/// GL state: with saveState = 1 fxView_Render() restores all GL state; with saveState = 0 it may change the
+/// states that fxGetTouchedGlState() lists. Transform feedback and conditional rendering must not be active.
 /// FxFrameDef states the host's clip control; the view does not change it. Formats of targets:
 /// docs/howto/host-targets.md.
 #ifndef FXSDK_FX_VIEW_H
@@ -33,10 +33,11 @@ enum
 {
     /// Draw over colorTexture.
     FX_TARGET_TEXTURE = 0,
-    /// Write into the color attachment that is draw buffer 0 of `framebuffer`: the first one unless
-    /// glDrawBuffer chose another; 0 is the window. Other attachments do not change. With a colorTexture the
-    /// picture is read from it and written completely. Without it the media are blended over the framebuffer.
-    /// A framebuffer cannot be read, so there is no heat shimmer, no glare and no tone mapping.
+    /// Write into draw buffer 0 of `framebuffer`: the first color attachment unless glDrawBuffer chose
+    /// another. Framebuffer 0 is the window. Other attachments do not change. With a colorTexture, the
+    /// picture is read from the texture and written completely. Without a colorTexture, the media are blended
+    /// over the framebuffer. A framebuffer cannot be read, so there is no heat shimmer, no glare and no tone
+    /// mapping.
     FX_TARGET_FRAMEBUFFER = 1
 };
 
@@ -55,22 +56,25 @@ enum
     /// approximate.
     FX_COMPOSITION_SORTED = 0,
 
-    /// Particles are summed in slabs along the ray of each pixel. The result does not depend on their order.
+    /// Particles are summed in slabs along the ray of each pixel. The result does not depend on the order of
+    /// particles.
     FX_COMPOSITION_SLABS = 1,
 
-    /// Particles are summed in voxels, which are ray-marched. The result does not depend on their order.
+    /// Particles are summed in voxels, which are ray-marched. The result does not depend on the order of
+    /// particles.
     FX_COMPOSITION_VOLUME = 2,
 
-    /// The composition that the presets of the scene's instances name by their member `composition`, until
-    /// the instances end: FX_COMPOSITION_VOLUME if one does, otherwise FX_COMPOSITION_SLABS if one does,
-    /// otherwise FX_COMPOSITION_SORTED. It applies to all media of the frame.
+    /// The composition that the presets of the scene's instances request by their member `composition`, until
+    /// the instances end. The composition applies to all media of the frame: FX_COMPOSITION_VOLUME if a
+    /// preset requests it, otherwise FX_COMPOSITION_SLABS if a preset requests it, otherwise
+    /// FX_COMPOSITION_SORTED.
     FX_COMPOSITION_AUTOMATIC = 3
 };
 
-/// Bits of FxViewSettings::outputs. Each adds a picture of reference data, see docs/howto/outputs.md.
+/// Bits of FxViewSettings::outputs. Each bit adds a picture of reference data, see docs/howto/outputs.md.
 enum
 {
-    FX_OUTPUT_INSTANCE_ID = 1,   ///< instance with the largest share of the pixel
+    FX_OUTPUT_INSTANCE_ID = 1,   ///< instance that contributes most to the pixel
     FX_OUTPUT_MOTION = 2,        ///< screen-space motion of visible particles since the last frame
     FX_OUTPUT_FIRST_DEPTH = 4,   ///< distance at which the optical depth reaches 0.01
     FX_OUTPUT_MEAN_DEPTH = 8,    ///< mean distance of visible particles
@@ -80,13 +84,14 @@ enum
 /// Values of FxViewSettings::budgetClock.
 enum
 {
-    FX_BUDGET_CLOCK_GPU = 0, ///< GPU time by timestamps, available some frames later; without waiting
-    /// Time on the calling thread from the call to the end of all GL work. Waits for the GPU (glFinish) up to
-    /// six times a frame: for tools, software renderers and drivers without timestamps.
+    FX_BUDGET_CLOCK_GPU = 0, ///< GPU time by timestamps, available some frames later; causes no wait
+    /// Time on the calling thread from the call to the end of all GL work. This clock waits for the GPU
+    /// (glFinish) up to six times a frame. The clock is meant for tools, software renderers and drivers
+    /// without timestamps.
     FX_BUDGET_CLOCK_CPU = 1
 };
 
-/// Settings of a view, for all frames. Fill with fxDefaultViewSettings(), then change what you need.
+/// Settings of a view, for all frames. Fill with fxDefaultViewSettings(), then change members.
 typedef struct FxViewSettings
 {
     /// Set by fxDefaultViewSettings(); do not touch.
@@ -104,7 +109,7 @@ typedef struct FxViewSettings
     /// [cd/m2] 0..1e6, luminance of the sky, equal in all directions; default 0.
     float skyLuminance[3];
 
-    /// [1] 0..1, share of light that the ground reflects; default 0.2.
+    /// [1] 0..1, fraction of light that the ground reflects; default 0.2.
     float groundAlbedo;
 
     /// [1] 0..10, heat shimmer; 0 leaves the picture untouched, bit for bit; default 1.
@@ -138,7 +143,7 @@ typedef struct FxViewSettings
     /// FX_BILLBOARD_...; default FX_BILLBOARD_KERNEL.
     uint32_t billboardForm;
 
-    /// 1 (default): restore every GL state that is changed; 0: the host restores it.
+    /// 1 (default): fxView_Render() restores every GL state that it changes; 0: the host restores GL state.
     uint32_t saveState;
 
     /// 1 (default): procedural detail on particles; 0: bare kernels.
@@ -147,7 +152,7 @@ typedef struct FxViewSettings
     /// 1: write display-referred values; 0 (default): scene-linear.
     uint32_t toneMap;
 
-    /// 1: keep fire, smoke, dust, depth and optical depth as textures; default 0.
+    /// 1: provide fire, smoke, dust, depth and optical depth as textures; default 0.
     uint32_t layerOutputs;
 
     /// 1: count fragments and read statistics back, which costs a pass and a wait for the GPU; default 0.
@@ -168,34 +173,36 @@ typedef struct FxViewSettings
     /// FX_BUDGET_CLOCK_...; default FX_BUDGET_CLOCK_GPU.
     uint32_t budgetClock;
 
-    /// [1] 0..256, level of detail: an effect keeps one particle or ribbon segment for each lodBias pixels of
-    /// its projected disk, and at least twelve in all. The kept ones are adjusted continuously so that light
-    /// and coverage stay the same. The difference is hardly visible at 1, and visible at 16; 0 (default): all
-    /// particles are drawn. Particles that are computed on the GPU are always drawn. The simulation does not
-    /// depend on it.
+    /// [1] 0..256, level of detail: an effect draws one particle or ribbon segment for each lodBias pixels of
+    /// its projected disk, and at least twelve in all. The drawn elements are adjusted continuously, which
+    /// preserves light and coverage. The difference is hardly visible at 1 and visible at 16. 0 (default):
+    /// all particles are drawn. Particles that are computed on the GPU are always drawn. The simulation does
+    /// not depend on it.
     float lodBias;
 
     /// [pixel] 0..13, an effect whose bounding sphere has a smaller radius on the picture is drawn as an
     /// impostor. The impostor is re-rendered ten times a second while the effect changes, and when the view
     /// direction changes; successive pictures are cross-faded. Impostors are not used with layerOutputs,
-    /// outputs or orthographic projections. 0 (default): none.
+    /// outputs or orthographic projections. 0 (default): no impostors.
     float lodImpostorPixels;
 
-    /// 1: draws the bounding boxes of visibility culling over the picture, as of the last update: green
-    /// active, yellow catching up, blue resting, gray not started, red hidden (out of view, too far or too
-    /// small), orange occluded, magenta beyond the budget. A box of unknown extent is 1 m wide. For
-    /// debugging: each update then visits all instances. Default 0.
+    /// 1: draws the bounding boxes of visibility culling, as of the last update, over the picture. The color
+    /// states the activity of an instance: green active, yellow catching up, blue resting, gray not started,
+    /// red hidden (out of view, too far or too small), orange occluded, magenta beyond the budget. A box of
+    /// unknown extent is 1 m wide. The overlay is meant for debugging: with it, each update visits all
+    /// instances. Default 0.
     uint32_t activationOverlay;
 
-    /// 1 (default): light slices, planes of optical depth across each light, by which media cast shadows on
-    /// themselves, on each other and on the host's surfaces (fx_view_lights.h); 0: media cast no shadows.
+    /// 1 (default): media cast shadows on themselves, on each other and on the host's surfaces
+    /// (fx_view_lights.h); 0: media cast no shadows. The shadows are computed by light slices. A light slice
+    /// stores the optical depth on a plane across the direction of a light.
     uint32_t lightSlices;
 
     /// 2..128, number of planes of the sun's light slices; point lights have half as many; default 32.
     uint32_t lightSlicePlanes;
 
-    /// [texel] 8..512, a multiple of 8, side length of a plane of the sun; planes of point lights have half;
-    /// default 128.
+    /// [texel] 8..512, a multiple of 8, side length of a plane of the sun; planes of point lights have half
+    /// this side length; default 128.
     uint32_t lightSliceTexels;
 
     /// 0..4, number of point lights that cast shadows through media: the lights that illuminate the media
@@ -205,10 +212,10 @@ typedef struct FxViewSettings
     /// 1..4, number of samples of the sun's light along a view ray through one particle; default 2.
     uint32_t lightSamples;
 
-    /// Scattering in media. 0: single scattering; 1 (default): multiple scattering by a closed form; 2:
-    /// multiple scattering by an illumination network in media that FX_COMPOSITION_VOLUME draws, by the
-    /// closed form elsewhere; 3: the value that the presets of the scene's instances request by their member
-    /// "scattering": the greatest of these values, or 1 if no preset requests one.
+    /// Scattering in media. 0: single scattering; 1 (default): multiple scattering by a closed form; 2: like
+    /// 1, but by an illumination network in media that FX_COMPOSITION_VOLUME draws; 3: the greatest value
+    /// that the presets of the scene's instances request by their member "scattering", or 1 if no preset
+    /// requests a value.
     uint32_t multipleScattering;
 
     /// FX_COMPOSITION_...; default FX_COMPOSITION_SORTED.
@@ -222,19 +229,20 @@ typedef struct FxViewSettings
     uint32_t voxels;
 
     /// 1..16, number of frames between updates of light slices for moving media; default 1. Shadows of media
-    /// lag by up to one frame less than this number, and the passes that fill the planes are not executed in
-    /// between. When a light moves, its slices are updated at once. When media come to rest, the slices are
+    /// lag by at most this number minus one frames. Between updates, the passes that fill the planes are not
+    /// executed. When a light moves, its slices are updated at once. When media come to rest, the slices are
     /// updated in the next frame.
     uint32_t lightRefreshFrames;
 
-    /// Bits FX_OUTPUT_...: pictures that fxView_GetOutputTextures() gives, at the size of the picture, the
-    /// same for all compositions. Effects are then drawn one by one and never as impostors. Default 0: none
-    /// of their passes, programs and textures exist. The first frame with outputs compiles their programs,
-    /// unless fxContext_WarmUp() was called while a view had these settings.
+    /// Bits FX_OUTPUT_...: select the pictures that fxView_GetOutputTextures() returns. These pictures have
+    /// the size of the frame and are the same for all compositions. With outputs, effects are drawn one by
+    /// one and never as impostors. Default 0: no passes, programs and textures for outputs exist. The first
+    /// frame with outputs compiles their programs, unless fxContext_WarmUp() was called while a view had
+    /// these settings.
     uint32_t outputs;
 } FxViewSettings;
 
-/// Daylight exposure, no lights, all effects enabled.
+/// Default settings: daylight exposure, no lights, all effects enabled.
 static inline FxViewSettings fxDefaultViewSettings(void)
 {
     FxViewSettings settings = FX_ZEROED;
@@ -276,11 +284,11 @@ typedef struct FxFrameDef
     /// Set by fxDefaultFrameDef(); do not touch.
     uint32_t structSize;
 
-    /// 1: camera cut, glare adapts from this frame; default 0.
+    /// 1: camera cut; the adaptation of glare starts anew with this frame; default 0.
     uint32_t resetHistory;
 
-    /// [m] world position that the matrices are relative to, each within +-1e9; default 0. With an origin
-    /// near the camera, single precision suffices far from the origin of the world.
+    /// [m] world position that the matrices are relative to, each component within +-1e9; default 0. With an
+    /// origin near the camera, single precision suffices far from the origin of the world.
     double origin[3];
 
     /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid (columns
@@ -289,7 +297,8 @@ typedef struct FxFrameDef
 
     /// Matrix from eye to clip coordinates, column-major, right-handed; perspective (elements 11 and 15 are
     /// -1 and 0) or orthographic (0 and 1). An infinite far plane, off-center projections, jitter and
-    /// mirroring are allowed; near maps as in depthConvention. Required: the default, identity, is refused.
+    /// mirroring are allowed; depthConvention states to which value near maps. Required: the default,
+    /// identity, is refused.
     float projection[16];
 
     /// FX_DEPTH_...; default FX_DEPTH_STANDARD.
@@ -323,23 +332,23 @@ typedef struct FxFrameDef
     /// [pixel] height of the frame, 1..16384 and within the target.
     int32_t height;
 
-    /// 1: the frame is not typical, because the host loads, seeks or catches up: quality does not change, and
-    /// the time of the frame is not used for the cost model; default 0.
+    /// 1: the frame is not typical, because the host loads, seeks or catches up; default 0. Quality does not
+    /// change, and the cost model ignores the time of the frame.
     uint32_t holdQuality;
 
-    /// [s] 0..1e6 since the last frame of this view, used only for adaptation; default 1/60.
+    /// [s] 0..1e6, time since the last frame of this view, used only for adaptation; default 1/60.
     double deltaTime;
 
-    /// GL name of a GL_TEXTURE_2D with depth, the host's shadow map of the sun, by which opaque surfaces cast
-    /// shadows on media; 0 (default): the sun reaches all media.
+    /// GL name of a GL_TEXTURE_2D with depth: the host's shadow map of the sun. By this map, opaque surfaces
+    /// cast shadows on media. 0 (default): the sun reaches all media.
     uint32_t sunShadowTexture;
 
     /// FX_DEPTH_... of sunShadowTexture; default FX_DEPTH_STANDARD.
     uint32_t sunShadowConvention;
 
     /// Matrix from world coordinates minus `origin` to texture coordinates and stored depth of
-    /// sunShadowTexture, each 0..1, column-major, affine. It includes the bias against self-shadowing.
-    /// Default identity.
+    /// sunShadowTexture, each 0..1, column-major, affine. The matrix includes the bias against
+    /// self-shadowing. Default identity.
     float sunShadowMatrix[16];
 
     /// [m] 0..100, radius of the soft edge of the sun's shadow on media; default 0.1.
@@ -368,17 +377,17 @@ typedef struct FxLayerTextures
     /// Set by the caller.
     uint32_t structSize;
 
-    /// RGBA32F. RGB: light of fire that reaches the eye [cd/m2 times exposure], premultiplied; A: its share
-    /// of the opacity.
+    /// RGBA32F. RGB: light of fire that reaches the eye [cd/m2 times exposure], premultiplied; A: the part of
+    /// the opacity that fire contributes.
     uint32_t fire;
 
-    /// RGBA32F, the same for smoke.
+    /// RGBA32F, light and opacity of smoke, as in `fire`.
     uint32_t smoke;
 
-    /// RGBA32F, the same for dust.
+    /// RGBA32F, light and opacity of dust, as in `fire`.
     uint32_t dust;
 
-    /// R32F [m] transmittance-weighted distance of the media; +inf where there is none.
+    /// R32F [m] transmittance-weighted distance of the media; +inf where there are no media.
     uint32_t depth;
 
     /// R32F [1] optical depth through all media.
@@ -391,28 +400,29 @@ typedef struct FxLayerTextures
     uint32_t reserved;
 } FxLayerTextures;
 
-/// Outputs of the last frame: GL names; 0 if settings.outputs does not include them, or nothing was drawn.
-/// Fill structSize with sizeof before the call. The textures belong to the view and are valid until its next
-/// fxView_Render(). Texels are arranged as in the target. Distances are measured from the eye along the ray
-/// through the center of the pixel. Meshes and other opaque particles are included, surfaces of the host are
-/// not.
+/// Outputs of the last frame: GL names; 0 if settings.outputs does not include the output, or if no effect
+/// was drawn. Fill structSize with sizeof before the call. The textures belong to the view and are valid
+/// until its next fxView_Render(). Texels are arranged as in the target. Distances are measured from the eye
+/// along the ray through the center of the pixel. Meshes and other opaque particles are included, surfaces of
+/// the host are not.
 typedef struct FxOutputTextures
 {
     /// Set by the caller.
     uint32_t structSize;
 
-    /// RG32UI, FxInstanceId::bits of the instance with the largest share of the pixel: low 32 bits in red,
-    /// high in green; 0 where an opacity of 0.01 is not reached.
+    /// RG32UI, FxInstanceId::bits of the instance that contributes most to the pixel: low 32 bits in red,
+    /// high 32 bits in green; 0 where the opacity is below 0.01.
     uint32_t instanceId;
 
-    /// RG32F [pixel] displacement since the last frame, the mean over all particles seen in the pixel, to the
-    /// right and up in texel coordinates; 0 where there is no instance.
+    /// RG32F [pixel] mean displacement, since the last frame, of all particles seen in the pixel: red to the
+    /// right, green upwards; 0 where there is no instance.
     uint32_t motion;
 
-    /// R32F [m] distance at which the optical depth reaches 0.01; +inf where it does not.
+    /// R32F [m] distance at which the optical depth reaches 0.01; +inf where the optical depth stays below
+    /// 0.01.
     uint32_t firstDepth;
 
-    /// R32F [m] mean distance of the particles seen in the pixel; +inf where there are none.
+    /// R32F [m] mean distance of the particles seen in the pixel; +inf where there are no particles.
     uint32_t meanDepth;
 
     /// R32F [1] optical depth of all media up to the first opaque surface.
@@ -441,25 +451,25 @@ FX_API FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 /// ended. Active queries of the host count the draws of the view, and pending errors of glGetError are lost.
 /// [GL thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member, the value and the remedy; also for
-///         targets that would be read or written wrongly), FX_ERROR_VERSION, FX_ERROR_GL_FAILED,
+///         targets that the view cannot read or write correctly), FX_ERROR_VERSION, FX_ERROR_GL_FAILED,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. On failure the picture and the
 ///         GL state do not change.
 FX_API FxResult fxView_Render(FxView* view, const FxFrameDef* frame);
 
 /// Reads the counters of the last frame. [GL thread]
-/// @param ioStatistics structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioStatistics structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetStatistics(FxView* view, FxViewStatistics* ioStatistics);
 
 /// Reads the layer textures of the last frame. [GL thread]
-/// @param ioTextures structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioTextures structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetLayerTextures(FxView* view, FxLayerTextures* ioTextures);
 
 /// Reads the outputs of the last frame. [GL thread]
-/// @param ioTextures structSize must be set; the rest is overwritten on success and untouched on failure
+/// @param ioTextures structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
 /// FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetOutputTextures(FxView* view, FxOutputTextures* ioTextures);
@@ -476,8 +486,7 @@ FX_API FxResult fxView_GetPassCount(FxView* view, uint32_t* outCount);
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetPassName(FxView* view, uint32_t index, char* buffer, size_t capacity);
 
-/// Names a GL state that fxView_Render() may leave changed when saveState is 0. The list is the table of
-/// states that are restored when saveState is 1. [any]
+/// Names a GL state that fxView_Render() may leave changed when saveState is 0. [any]
 /// @param index 0, 1, 2, ...
 /// @return a constant string, or null when index is past the end
 FX_API const char* fxGetTouchedGlState(uint32_t index);

@@ -1,7 +1,7 @@
 /// @file fx_view_statistics.h
-/// Counters of a view, read by fxView_GetStatistics(). fx_view.h includes this.
+/// Counters of a view, read by fxView_GetStatistics(). fx_view.h includes this header.
 ///
-/// Threads: plain data. Ownership: the caller owns the struct.
+/// Ownership: the caller owns the struct.
 #ifndef FXSDK_FX_VIEW_STATISTICS_H
 #define FXSDK_FX_VIEW_STATISTICS_H
 
@@ -41,16 +41,17 @@ typedef struct FxViewStatistics
     /// Number of calls into GL during the frame.
     uint64_t glCalls;
 
-    /// [byte] of GPU memory that the view holds.
+    /// [byte] size of the GPU memory that the view holds.
     uint64_t textureBytes;
 
-    /// Number of pixels, at layerScale, with at least one particle; with countOverdraw.
+    /// Number of pixels, at layerScale, with at least one particle. Counted only with countOverdraw.
     uint64_t coveredPixels;
 
-    /// Number of fragments of all particles, at layerScale; with countOverdraw.
+    /// Number of fragments of all particles, at layerScale. Counted only with countOverdraw.
     uint64_t shadedFragments;
 
-    /// [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue; with countOverdraw.
+    /// [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue. Counted only with
+    /// countOverdraw.
     double overflow[3];
 
     /// Number of allocations from the context's allocator during the frame.
@@ -60,30 +61,31 @@ typedef struct FxViewStatistics
     /// fragmentBudget.
     uint64_t estimatedFragments;
 
-    /// [1] layerScale in use: that of the settings, or less to keep fragmentBudget.
+    /// [1] layerScale in use: the value of the settings, or a smaller value to meet fragmentBudget.
     float layerScale;
 
-    /// 1: camera, settings and scene equal those of the last frame, whose gathered, sorted and uploaded data
-    /// are reused; 0: they differ.
+    /// 1: the gathered, sorted and uploaded data of the last frame are reused, because camera, settings and
+    /// scene are equal; 0: the data are not reused.
     uint32_t keptLists;
 
-    /// [byte] of particles, written to the GPU for the frame.
+    /// [byte] size of the particle data uploaded to the GPU for the frame.
     uint64_t uploadedBytes;
 
     /// Number of particles sorted by distance or age for the frame.
     uint64_t sortedParticles;
 
-    /// [byte] of the textures and buffers of the frame's passes without sharing of memory.
+    /// [byte] memory that the textures and buffers of the frame's passes would need without sharing of
+    /// memory.
     uint64_t unsharedBytes;
 
-    /// [byte] of the same textures and buffers when resources of disjoint lifetimes share memory.
+    /// [byte] memory of the frame's textures and buffers when resources of disjoint lifetimes share memory.
     uint64_t sharedBytes;
 
-    /// Number of particles of media that lodBias left out.
+    /// Number of particles of media that are not drawn because of lodBias.
     uint32_t blobsThinned;
 
-    /// Number of groups of particles of media for each share that lodBias keeps: all; at least half; at least
-    /// an eighth; less.
+    /// Number of groups of particles of media by the fraction of particles that lodBias keeps. The four
+    /// elements count groups of which all, at least half, at least an eighth, or fewer particles are drawn.
     uint32_t lodGroups[4];
 
     /// Number of effects drawn as impostors.
@@ -92,37 +94,39 @@ typedef struct FxViewStatistics
     /// Number of impostors re-rendered for the frame.
     uint32_t impostorsTaken;
 
-    /// Number of particles computed on the GPU for the frame. Each emitter counts with its capacity.
+    /// Number of particles computed on the GPU for the frame. An emitter counts with its capacity.
     uint32_t gpuParticles;
 
-    /// Number of sprites, meshes and pieces of ribbons that lodBias left out.
+    /// Number of sprites, meshes and pieces of ribbons that are not drawn because of lodBias.
     uint64_t particlesThinned;
 
-    /// [byte] of sprites, meshes and ribbons that were not uploaded again because they had not changed,
-    /// counted when other particles of the step were uploaded.
+    /// [byte] size of the data of sprites, meshes and ribbons that were not uploaded again because they had
+    /// not changed. Counted only in frames that upload other particles of the step.
     uint64_t keptRowBytes;
 
-    /// [byte] of sprites, meshes and ribbons that were not uploaded because another instance of the same
-    /// simulation has uploaded them.
+    /// [byte] size of the data of sprites, meshes and ribbons that were not uploaded because another instance
+    /// of the same simulation has uploaded them.
     uint64_t sharedRowBytes;
 
-    /// Number of drawn sprites, without those that lodBias left out. Each emitter on the GPU counts with its
-    /// capacity, because its number of living particles is not read back.
+    /// Number of drawn sprites. An emitter on the GPU counts with its capacity, because the number of its
+    /// living particles is not read back.
     uint64_t sprites;
 
-    /// Number of drawn meshes, counted as sprites.
+    /// Number of drawn meshes. An emitter on the GPU counts with its capacity.
     uint64_t meshes;
 
-    /// Number of drawn pieces of ribbons between two points, counted as sprites.
+    /// Number of drawn pieces of ribbons. A piece connects two points. An emitter on the GPU counts with its
+    /// capacity.
     uint64_t ribbonPieces;
 
     /// Length of all particle lists of FX_COMPOSITION_SLABS: one list for each tile of 16 x 16 pixels at
-    /// layerScale. A particle of media counts once for each tile that it covers. Only with countOverdraw.
+    /// layerScale. A particle of media counts once for each tile that it covers. Counted only with
+    /// countOverdraw.
     uint64_t listedBlobs;
 
     /// Number of particles of media that are missing from the lists of listedBlobs because the lists were
-    /// full. The listed particles are weighted so that the mean density of the picture stays the same; its
-    /// detail is lower.
+    /// full. The listed particles are weighted so that the mean density of the picture stays the same. The
+    /// picture has less detail.
     uint64_t spilledBlobs;
 
     /// Number of fragments of sprites, meshes, ribbons and impostors that were omitted because the lists were

@@ -1,10 +1,10 @@
 /// @file fxsdk.h
 /// The whole C API of fxsdk: participating media and particle effects for OpenGL hosts.
 ///
-/// The first effect: create a context (fx_context.h), load a preset (fx_preset.h), create a scene and an
-/// instance in it (fx_scene.h), create a view (fx_view.h); then, each frame, update the scene and render the
-/// view. examples/00_hello/main.c does it in 25 lines. Threads, ownership, units and errors: see fx_base.h,
-/// which states them once for all headers.
+/// The first effect: create a context (fx_context.h), load a preset (fx_preset.h), create a scene with an
+/// instance (fx_scene.h), create a view (fx_view.h). In each frame, update the scene and render the view. See
+/// examples/00_hello/main.c. fx_base.h states the rules of threads, ownership, units and errors for all
+/// headers.
 #ifndef FXSDK_FXSDK_H
 #define FXSDK_FXSDK_H
 

@@ -12,18 +12,18 @@ namespace fx::preset {
 /// Maximum number of births within any interval of `seconds`, without births by events.
 double ownBirths(const sim::Emission& emission, double seconds);
 
-/// Expected number of events of a rule in the life of a particle; a collision counts once.
+/// Expected number of events of a rule during the life of a particle. Collisions count as one event.
 double timesOf(const sim::EventRule& rule, const base::Range& lifetime);
 
-/// Expected births in the emitters of one preset, including births by events. Births of an emitter within a
-/// lifetime are computed once for each different lifetime and cached, so the work is proportional to the
-/// number of rules times the number of different lifetimes. Events form no cycle.
+/// Expected births in the emitters of one preset, including births by events. Births of an emitter are
+/// computed once for each different lifetime and cached. The work is therefore proportional to the number of
+/// rules times the number of different lifetimes. Events form no cycle.
 class BirthCount
 {
 public:
     explicit BirthCount(const std::vector<const sim::EmitterDef*>& emitters);
 
-    /// Expected number of simultaneously alive particles of emitter number `index`, with unlimited capacity.
+    /// Expected number of living particles of emitter number `index`, with unlimited capacity.
     double alive(size_t index) { return wanted(lifeOf(index), index); }
 
 private:
@@ -38,7 +38,7 @@ private:
     /// Births of emitter number `index` within a time span of lifetime number `life`, with unlimited
     /// capacity.
     double wanted(size_t life, size_t index);
-    /// As wanted(), but limited by the capacity of the emitter.
+    /// The births of wanted(), limited by the capacity of the emitter.
     double within(size_t life, size_t index);
     double causedBy(size_t cause, const sim::EventRule& rule, size_t life);
 

@@ -13,19 +13,19 @@
 
 namespace fx::preset {
 
-/// Reads shape, position, size and so on into EmitterDef::shape and related members, or into
-/// EmitterDef::births for other shapes.
+/// Reads shape, position, size and related members of `element`. Simple shapes are stored in
+/// EmitterDef::shape and related members, all other shapes in EmitterDef::births.
 void readEmitterShape(const PresetValue& element, sim::EmitterDef& emitter);
 /// Reads rate, bursts and related members.
 void readEmitterEmission(const PresetValue& emission, sim::Emission& out);
 /// Reads forces and collisions. Modules are in the order gusts, drag, vortices, attractors, fields, surfaces,
 /// obstacles.
 void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter);
-/// appearance
+/// Reads the member "appearance".
 void readEmitterAppearance(const PresetValue& appearance, sim::EmitterAppearance& out);
-/// trail
+/// Reads the member "trail".
 void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out);
-/// light
+/// Reads the member "light".
 void readEmitterLight(const PresetValue& element, sim::LightDef& out);
 
 /// Reads the events of all emitters of the preset `root` and sorts the solvers so that causes precede their
@@ -43,11 +43,11 @@ void lintAppearance(const PresetValue& element, const sim::EmitterDef& emitter);
 void lintCapacity(const PresetValue& root, const sim::EffectDef& effect);
 
 /// Warns that collisions with the depth texture of a view (shape "depth") have no effect when the CPU
-/// computes the emitter. The warning states why the CPU computes it.
+/// computes the emitter. The warning states why the CPU computes the emitter.
 /// @param root the preset; the first solvers of `effect` are its emitters, linked by their events
 void warnOfDepthOnCpu(const PresetValue& root, const sim::EffectDef& effect);
 
-// Read an asset that the member names. They return null after adding a finding.
+// Read an asset that the member names. Return null and add a finding on failure.
 std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const char* member,
                                                uint32_t channels);
 /// Reads the distance field of the mesh `file` with cells of size `cellSize`.

@@ -22,7 +22,7 @@ void linkEmitters(const PresetValue& root, sim::EffectDef& effect);
 /// Warns of members without effect and of capacities that are too small.
 void lintEmitters(const PresetValue& root, const sim::EffectDef& effect);
 
-/// Estimates births, including those caused by events.
+/// Estimates births, including births caused by events.
 void estimateEmitters(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
 
 inline constexpr const base::KindDesc* kEmitterKinds[] = {&base::kBlobKind,     &base::kMaterialKind,

@@ -1,5 +1,5 @@
 /// @file slab_media.h
-/// Per-tile lists of the balls and cards (flat particles) of a view, for passes that sum them along rays.
+/// Lists the balls and cards (flat particles) of each screen tile, for passes that sum media along rays.
 #pragma once
 
 #include "rendering/compositions/slabs/slab_passes.h"
@@ -7,19 +7,19 @@
 
 namespace fx::render {
 
-/// Removes streams from a gathered frame, and adds passes that list their elements per tile. The memory is
-/// kept from frame to frame.
+/// Takes the streams of a gathered frame, and adds passes that list the elements of the streams per tile.
+/// The memory is kept from frame to frame.
 class SlabMedia
 {
 public:
     explicit SlabMedia(const TechniqueSetup& setup);
 
-    /// Removes all streams from `io` and stores them.
+    /// Moves all streams from `io` to this object.
     void gather(const GatherInputs& in, GatheredFrame& io);
     /// Stores references to all streams; the streams also stay in `from`.
     void see(const GatherInputs& in, const GatheredFrame& from);
-    /// Replaces the balls of the stored streams by those of `balls`; null: no balls. `balls` must stay valid,
-    /// and its buffers must exist when list() is called.
+    /// Replaces the source of balls. `balls` must stay valid, and its buffers must exist when list() is
+    /// called. With null, no balls are drawn.
     void replaceBalls(const MediaSource* balls) { ballSource_ = balls; }
     bool isEmpty() const { return !ballSource_ && cards_.empty(); }
 
@@ -45,10 +45,10 @@ public:
     {
         uint32_t maxOfTile;         ///< see SlabTilePass::Inputs
         ResourceId fieldTiles = {}; ///< see SlabTilePass::Inputs
-        bool marks = false;         ///< true: cards also get the data that outputs need
+        bool marks = false;         ///< true: cards also store the data for ViewSettings::outputs
         BallDetails details = {};
     };
-    /// Adds the passes that list balls and cards. A frame calls it once or twice.
+    /// Adds the passes that list balls and cards. Called once or twice per frame.
     [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, const ListUse& use);
 
     void forget() { tiles_ = heads_ = {}; }
@@ -59,13 +59,13 @@ private:
 
     GlDevice& device_;
     const MediaSource* ballSource_ = nullptr; ///< source of all balls; null without balls
-    std::pmr::vector<DrawBatch> cards_;       ///< batches of other sources
+    std::pmr::vector<DrawBatch> cards_;       ///< batches of all sources without balls
     std::pmr::vector<TileRect> rects_;
-    uint64_t cardFragments_ = 0; ///< estimated number of fragments of cards in the whole picture
+    uint64_t cardFragments_ = 0; ///< estimated number of fragments of all cards
     int width_ = 0;              ///< [pixel] width of the picture
-    bool counts_ = false;        ///< true: listed and spilled entries are counted
+    bool counts_ = false;        ///< true: listed and dropped entries are counted
     ResourceId tiles_, heads_;   ///< counters of the last frame, for reading back to the CPU; may be invalid
-    uint64_t capacity_ = 0;      ///< number of fragments of cards for which the last frame had memory
+    uint64_t capacity_ = 0;      ///< largest number of card fragments in the last frame's lists
 };
 
 } // namespace fx::render

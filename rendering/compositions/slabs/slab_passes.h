@@ -8,39 +8,39 @@
 
 namespace fx::render {
 
-/// The detail that is drawn.
+/// Kind of detail (procedural noise) that is drawn.
 enum class SlabDetail : uint8_t
 {
     None,
     OfBalls,  ///< noise of single balls
-    OfFields, ///< both the noise of single balls and the detail of fields
+    OfFields, ///< noise of single balls, and detail of fields of balls
 };
 
 constexpr size_t kSlabPrograms = 2 * 3 * 2;
-/// The program that sums media in slabs.
+/// Returns the program that sums media in slabs.
 /// @param slabs 6 or 16
 const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers);
 const ProgramDesc& slabProgramAt(size_t index);
 
 inline constexpr ProgramDesc kSlabCardsProgram{"slab cards", nullptr, nullptr, "slabs/slab_cards.comp.glsl",
                                                nullptr};
-/// The program of SlabBallPass.
-/// @param detail true: with the detail of fields
+/// Returns the program of SlabBallPass.
+/// @param detail true: the program evaluates the detail of fields
 const ProgramDesc& slabBallsProgram(bool detail);
 inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
                                                nullptr};
 
-/// Largest number of entries in all lists of a frame; 4 bytes each.
+/// Largest total number of entries in the lists of balls of a frame. An entry has 4 bytes.
 constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23;
-/// Largest number of fragments of cards in a frame; 32 bytes each.
+/// Largest number of fragments of cards in a frame. A fragment has 32 bytes.
 constexpr uint64_t kMaxCards = uint64_t(1) << 21;
 
 /// Collects the fragments of cards in one linked list per texel. The result does not depend on the drawing
 /// order.
 ///
-/// reads the buffers of the sources
+/// reads   the buffers of the sources
 ///         distance  [m] along the ray to opaque geometry
-/// writes cards lists, and flags of tiles with cards
+/// writes  lists of card fragments, and flags of tiles with cards
 class SlabCardPass
 {
 public:
@@ -50,12 +50,13 @@ public:
         std::span<const DrawBatch> batches;
         const MediaPass::Inputs* media; ///< inputs of the composition
         uint64_t capacity;  ///< largest number of fragments; further fragments are dropped and counted
-        bool marks = false; ///< true: also collect the data that outputs need
+        bool marks = false; ///< true: also collect the data for ViewSettings::outputs
     };
     [[nodiscard]] static CardLists addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// Detail of the fields to which balls belong. Both lists must stay valid until the graph has executed.
+/// Detail of the fields to which balls belong. The data of both spans must stay valid until the graph has
+/// executed.
 struct BallDetails
 {
     std::span<const BlobMaterial> materials{}; ///< one material per ball; empty: no field has detail
@@ -63,7 +64,7 @@ struct BallDetails
     ResourceId lumpTile{}; ///< texture of LumpTileTexture
 };
 
-/// Uploads the details of fields as texels, and the data of each ball for the detail of its field.
+/// Uploads the parameters of the detail of fields as texels, and the noise coordinates of each ball.
 ///
 /// writes  texels     RGBA32F of kFieldColumns, layout of shaders/field/field_detail.glsl
 ///         materials  buffer of BlobMaterial
@@ -89,18 +90,18 @@ public:
                                           const SlabDetailPass::Outputs& detail, const ViewBlock& view);
 };
 
-/// Largest number of loop iterations that a program executes in one invocation. Mesa's software renderers end
-/// all loops after 65,535 iterations.
+/// Largest number of iterations of a loop in a program. Mesa's software renderers end all loops after 65,535
+/// iterations.
 constexpr uint32_t kMaxLoopTurns = 60000;
 
-/// Lists the balls of each tile of 16 x 16 texels, in the order of balls, and the tiles that are not empty.
-/// If a tile has more than `maxOfTile` balls, it lists those with the lowest ranks. Each listed ball then
-/// represents (balls of the tile) / (listed balls) balls.
+/// Lists the balls of each tile of 16 x 16 texels, in the order of balls. Also lists the tiles that are not
+/// empty. If a tile has more than `maxOfTile` balls, only the balls with the lowest ranks are listed. Each
+/// listed ball then represents (balls of the tile) / (listed balls) balls.
 ///
-/// reads   rects  which tiles each ball may cover
-///         cards, fieldTiles
-/// writes  tiles  arguments of a draw of one square per tile, counters, and the range of each tile in `lists`
-///         lists  R32UI numbers of balls
+/// reads   rects  tiles that each ball may cover
+///         cards, fieldTiles  tiles with cards, and tiles with fields
+/// writes  tiles  draw arguments (one square per tile), counters, and the range of each tile in `lists`
+///         lists  R32UI indices of balls
 class SlabTilePass
 {
 public:
@@ -111,7 +112,7 @@ public:
         uint64_t entries;   ///< total number of tiles in all `rects`
         int width, height;  ///< [texel]
         uint32_t maxOfTile; ///< largest number of balls in the list of a tile, >= 2
-        float flip;         ///< sign of the window's y axis relative to the y axis of clip space, 1 or -1
+        float flip;         ///< 1: window y and clip-space y have equal directions; -1: opposite directions
         CardLists cards;
         ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock; tiles with fields count as not empty
     };
@@ -135,8 +136,8 @@ static_assert(sizeof(SlabTileCounts) == 32);
 ///
 /// reads   the results of SlabBallPass, SlabTilePass and SlabCardPass
 ///         distance  [m] along the ray to opaque geometry
-/// writes  media     as written by MediaPass, drawn over `under`
-/// Tiles without balls and cards cost nothing. Keeps no state.
+/// writes  media     targets of MediaPass, drawn over `under`
+/// No work is done for tiles without balls and cards. The pass keeps no state between frames.
 class SlabPass
 {
 public:

@@ -36,7 +36,7 @@ private:
     /// Materials of the balls in this frame; empty if details_ is empty.
     std::span<const BlobMaterial> materials_;
     LumpTileTexture lumpTile_; ///< created when detail is drawn for the first time
-    ResourceId lumps_;         ///< resource id of lumpTile_ in the graph of this frame
+    ResourceId lumps_;         ///< resource id of lumpTile_ in this frame's graph
     uint32_t unused_ = 0;      ///< number of successive frames without detail
     int slabs_ = 16;
 };

@@ -1,5 +1,5 @@
 /// @file volume_glow.h
-/// State of a view for the propagation of emitted light in its fields: the grids on the GPU.
+/// GPU resources of a view for grids, in which the light that media emit is propagated through fields.
 #pragma once
 
 #include "rendering/field/field_glow_pass.h"
@@ -13,18 +13,19 @@
 
 namespace fx::render {
 
-/// Creates its GPU resources when a field emits light for the first time. Threads: [GL thread].
+/// Owns the textures and buffers of the grids. They are created when a field emits light for the first time.
+/// Threads: [GL thread].
 class VolumeGlow
 {
 public:
     explicit VolumeGlow(GlDevice& device) : device_(device) {}
 
-    /// Makes room for `grids`. @return OutOfMemory
+    /// Allocates textures and buffers for `grids`. @return OutOfMemory
     base::Status makeRoom(std::span<const FieldGlowBlock> grids);
     /// Imports the resources of a frame. Without grids the resource ids are invalid.
     void importAll(FrameGraph& graph, std::span<const FieldGlowBlock> grids);
-    /// Uploads the grids and adds the passes. @param in inputs of the passes; this function sets the grids
-    /// and textures of the glow
+    /// Uploads the grids and adds the passes. @param in inputs of the passes; this function sets the members
+    /// `grids`, `gridCount` and `glow`
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::span<const FieldGlowBlock> grids);
 
     /// Light of this frame; invalid if no field emits light.

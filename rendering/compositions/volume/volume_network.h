@@ -1,5 +1,6 @@
 /// @file volume_network.h
-/// State of a view whose fields have illumination networks: the grids and their light on the GPU.
+/// State of a view whose fields have illumination networks: the grids of the networks, and their light on
+/// the GPU.
 #pragma once
 
 #include "rendering/field/field_glow_pass.h"
@@ -15,9 +16,9 @@
 
 namespace fx::render {
 
-/// The light of the last frame is the start of the next one. Each frame runs kSweeps iterations ("sweeps")
-/// while media or lights change, and until kSettledSweeps have run after the last change. GPU resources are
-/// created when the settings of a view first request networks. Threads: [GL thread].
+/// The iteration of a frame starts from the light of the previous frame. Each frame runs kSweeps iterations
+/// ("sweeps") until kSettledSweeps sweeps have run after the last change of media or lights. GPU resources
+/// are created when the settings of a view first request networks. Threads: [GL thread].
 class VolumeNetwork
 {
 public:
@@ -30,8 +31,8 @@ public:
     base::Status makeRoom(std::span<const FieldGlowBlock> grids, int cells, const glm::dvec3& eye);
     void importAll(FrameGraph& graph);
     /// Uploads the grids and adds the passes.
-    /// @param in inputs of the passes; this function sets the grids and textures
-    /// @param isKept true: media and lights are those of the last frame
+    /// @param in inputs of the passes; this function sets the members for grids and their textures
+    /// @param isKept true: media and lights have not changed since the last frame
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const LightBindings& lights, bool isKept);
 
     bool isEmpty() const { return grids_.empty(); }

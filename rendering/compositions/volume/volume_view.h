@@ -22,8 +22,9 @@
 
 namespace fx::render {
 
-/// Sums balls in voxel fields. Cards, and balls that are too small for voxels, are summed in slabs along the
-/// same rays. Without fields the result is that of the composition `slabs`.
+/// Sums balls in voxel fields, and marches rays through the fields. Cards (flat particles), and balls that
+/// are too small for voxels, are summed in slabs along these rays. Without fields, the result is equal to
+/// the result of the composition `slabs`.
 class VolumeView final : public CompositionView
 {
 public:
@@ -54,10 +55,11 @@ private:
         Balls,
         Texels,
         Tiles,
-        Materials,  ///< empty if no field has detail; the same holds for Blobs
-        Blobs,      ///< balls of the frame, used for lights because PassFrame::blobs is set later
+        Materials, ///< empty if no field has detail
+        /// Balls, for fields that are filled before PassFrame::blobs is set; empty if no field has detail.
+        Blobs,
         Stacks,     ///< SliceStackBlocks of the lights
-        NearBricks, ///< empty if no ball is near the eye; the same holds for NearParts
+        NearBricks, ///< empty if no ball is near the eye
         NearParts,
         Lists
     };
@@ -92,25 +94,26 @@ private:
     uint64_t corrected_ = 0;
     std::span<const BlobMaterial> materials_; ///< materials of the balls in this frame
     VolumeGlow glow_;
-    VolumeNetwork network_; ///< used instead of glow_ if the settings request it
+    VolumeNetwork network_; ///< replaces glow_ if the settings request illumination networks
     int networkCells_ = 0; ///< number of cells along a side of a network's grid in this frame; 0: no networks
-    std::span<const BlobInstance> blobs_; ///< balls of this frame; empty if none has detail
+    std::span<const BlobInstance> blobs_; ///< balls of this frame; empty if no ball has detail
     bool layers_ = false;                 ///< true: the frame has layer outputs
     glm::dvec3 eye_{0.0};                 ///< [m] world position of the eye of the frame
-    /// Graph whose passes have filled the textures with fields that are not lit yet.
+    /// Graph whose passes fill the textures with fields before the fields are lit.
     const FrameGraph* filledFor_ = nullptr;
-    GlTexture texelTexture_, table_; ///< texels of FieldTexels, and the table of bricks
+    GlTexture texelTexture_, table_; ///< textures of FieldTexels and of the table of bricks
     LumpTileTexture lumpTile_;       ///< created when detail is drawn for the first time
     SlabMedia loose_;                ///< cards, and the balls of `looseSource_`
     BlobSource looseSource_;         ///< balls that are too small for voxels, and balls near the eye
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
     int slabs_ = 16; ///< least number of slabs for balls and cards outside of fields
-    /// Imported as persistent resources, so that the next frame can reuse their content.
+    /// Buffers of the lists. They are imported as persistent resources, so that the next frame can reuse the
+    /// content.
     std::array<GlBuffer, Lists> buffers_;
     std::array<ResourceId, Lists> ids_;                        ///< resource ids in this frame
-    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< textures of fields; also persistent
-    bool isKept_ = false; ///< true: lists and textures are those of the last frame
+    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< textures of fields; persistent resources
+    bool isKept_ = false; ///< true: lists and textures have not changed since the last frame
     uint32_t unused_ = 0; ///< number of successive frames without balls
 };
 

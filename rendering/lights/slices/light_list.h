@@ -1,5 +1,6 @@
 /// @file light_list.h
-/// The lights of one view, which of them have media shadows, and the positions of their planes in the atlas.
+/// The lights of one view, and the positions of their planes in the atlas. Planes store the shadows of media
+/// in a light.
 #pragma once
 
 #include "rendering/frame/view_types.h"
@@ -25,10 +26,11 @@ struct SliceStackBlock
 };
 static_assert(sizeof(SliceStackBlock) == 5 * 16);
 
-/// Size of a texel: optical depth and its slope towards the next plane, 32 bits each.
+/// [byte] Size of a texel: two optical depths of 32 bits, up to the plane and from the plane to the next
+/// plane.
 constexpr uint64_t kSliceTexelBytes = 8;
-constexpr int kSliceTileColumns = 8; ///< number of tiles in a row of the atlas; a tile is a plane of a stack
-/// index of the first entry that describes finer planes of the sun near the eye
+constexpr int kSliceTileColumns = 8; ///< number of tiles in a row of the atlas; a tile contains a plane
+/// index of the first entry for finer planes of the sun near the eye
 constexpr size_t kFinerPlanes = kMaxLightEntries - 2;
 /// number of axes of an icosahedron; both directions of each axis are sampled, with equal weights
 constexpr size_t kSkyAxes = 6;
@@ -49,7 +51,7 @@ enum class LightKind : uint8_t
 struct LightOrigin
 {
     LightKind kind = LightKind::Sun;
-    uint32_t index = 0; ///< index in ViewSettings::hostLights, or in the lights of effects, brightest first
+    uint32_t index = 0; ///< index in ViewSettings::hostLights or in LightListInputs::effects
 };
 
 /// Cost of the planes of a light.
@@ -59,7 +61,7 @@ struct LightCost
     uint32_t stacks = 0; ///< number of stacks; 0: no planes, so that media cast no shadows in this light
     uint32_t planes = 0; ///< number of planes of all stacks
     uint64_t texels = 0; ///< number of texels of all planes
-    uint64_t rays = 0;   ///< number of rays along which media are integrated to fill the planes
+    uint64_t rays = 0;   ///< number of rays of all stacks; media are integrated along each ray
 };
 
 /// Inputs of the light list of a frame.
@@ -69,12 +71,13 @@ struct LightListInputs
     glm::dvec3 eye;                       ///< [m] world
     std::span<const EffectLight> effects; ///< lights of the effects, brightest first
     std::span<const MediumCaster> casters;
-    bool resetsHistory = false; ///< true: planes do not cross-fade from those of the last frame
+    bool resetsHistory = false; ///< true: planes do not cross-fade from the planes of the last frame
 };
 
-/// The lights of a frame, in the order in which they get planes: the sun, then the others by their
-/// illuminance at the casters, then the axes of the sky. If texel side or spacing of planes differ from the
-/// last frame, the new planes fade in. Threads: one at a time. Equal sequences of inputs give equal bits.
+/// The lights of a frame, in the order in which they get planes. The sun comes first, then point lights by
+/// their illuminance at the casters, then the axes of the sky. If texel side or spacing of planes differ
+/// from the last frame, the new planes fade in. Threads: one at a time. Equal sequences of inputs give
+/// bit-identical results.
 class LightList
 {
 public:
@@ -82,9 +85,9 @@ public:
 
     /// Builds the list of the next frame, and advances cross-fades of planes.
     void build(const LightListInputs& in);
-    /// Discards the result of the last build(), and builds the list of the same frame from other inputs.
+    /// Discards the result of the last build(), and builds the list of the frame again from other inputs.
     void rebuild(const LightListInputs& in);
-    /// Sets the shadow map by which opaque surfaces cast shadows on media.
+    /// Sets the shadow map for shadows of opaque surfaces on media.
     /// @param shift [m] eye minus the origin of the map's coordinates
     /// @return true if block() has changed
     bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
@@ -99,8 +102,8 @@ public:
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
-    /// Number of lights that costOf() accepts: the first block().counts.x lights, then one for the sky if the
-    /// sky has planes.
+    /// Number of lights that costOf() accepts: the first block().counts.x lights, and one more light for the
+    /// sky if the sky has planes.
     size_t costCount() const;
     LightCost costOf(size_t light) const;
     /// A number that changes when the positions of the planes in the world change.
@@ -130,7 +133,7 @@ private:
     SliceFades fadesBefore_; ///< cross-fades of the previous frame
     float sunTexel_ = 0.0f;  ///< [m] side of the sun's texels, interpolated during a cross-fade; 0: no planes
     std::pmr::vector<SliceStack> stacks_;
-    std::pmr::vector<size_t> stackLights_; ///< by stack: index of its light
+    std::pmr::vector<size_t> stackLights_; ///< for each stack: index of its light
     std::pmr::vector<SliceStackBlock> stackBlocks_;
     uint64_t placesRevision_ = 0;
     int atlasWidth_ = 0, atlasHeight_ = 0;

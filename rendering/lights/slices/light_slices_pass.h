@@ -12,9 +12,9 @@ extern const ProgramDesc kLightSlicesProgram;
 ///
 /// reads   casters  buffer of two vec4 per caster: center and radius; cross section
 ///         stacks   buffer of SliceStackBlock
-/// writes  atlas    RG32F: optical depth up to the plane, and from this plane to the next
-/// Each texel is written by one invocation, which adds casters in the order of the list. So equal inputs give
-/// equal bits.
+/// writes  atlas    RG32F: optical depth up to the plane, and from the plane to the next plane
+/// Each texel is written by one invocation, which adds casters in the order of the list. Therefore equal
+/// inputs give bit-identical results.
 class LightSlicesPass
 {
 public:

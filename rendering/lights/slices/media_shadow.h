@@ -1,6 +1,6 @@
 /// @file media_shadow.h
-/// Uniforms for the shadow of media on surfaces that the host draws; shaders/shared/media_shadow.glsl samples
-/// light slices with them.
+/// Uniforms for the shadow of media on surfaces that the host draws. shaders/shared/media_shadow.glsl uses
+/// the uniforms to sample light slices.
 #pragma once
 
 #include "rendering/lights/slices/light_list.h"
@@ -10,10 +10,11 @@
 namespace fx::render {
 
 /// Layout of FxMediaShadow in shaders/shared/media_shadow.glsl, where each member is explained. Without
-/// planes all members are 0 and the transmittance is 1.
+/// planes, all members are 0, and the transmittance is 1.
 struct MediaShadowBlock
 {
-    /// Number of levels of the sun, which are finer near the eye. Other lights have one level.
+    /// Number of levels of planes of the sun. Higher levels are finer and nearer to the eye. Other lights
+    /// have one level.
     static constexpr size_t kLevels = 3;
 
     std::array<glm::vec4, kLevels> right{}, up{}, along{}, tiles{};
@@ -21,7 +22,7 @@ struct MediaShadowBlock
 };
 static_assert(sizeof(MediaShadowBlock) == 13 * 16);
 
-/// Uniforms for the shadow of media in a light.
+/// Returns the uniforms for the shadow of media in a light.
 /// @param light index in the list; 0 is the sun
 /// @param eye [m] world position to which the list is relative
 /// @param origin [m] world position to which the sampled positions are relative

@@ -3,7 +3,7 @@
 ///
 /// The first plane of a stack is nearest to the light. Each texel of a plane stores the optical depth of all
 /// media between the light and the texel. For parallel light, planes are flat and perpendicular to the light.
-/// For a point light, they are shells around the point, with an octahedral map of directions.
+/// For a point light, planes are spherical shells around the point, with an octahedral map of directions.
 #pragma once
 
 #include "rendering/frame/view_types.h"
@@ -24,12 +24,12 @@ enum class SliceMapping : uint8_t
     Octahedral, ///< shells around a point
 };
 
-/// least number of planes: one in front of, one within and one behind the media, for any shift by snapping
+/// least number of planes: one in front of the media, one within, and one behind
 constexpr int kMinSlicePlanes = 3;
 constexpr int kMaxSlicePlanes = 128;
 constexpr int kMaxSliceTexels = 512; ///< largest number of texels along a side of a plane
 
-/// Clamps a resolution to the limits, and rounds the number of texels to a multiple of 8.
+/// Returns the resolution, clamped to the limits. The number of texels is rounded to a multiple of 8.
 SliceResolution usableResolution(const SliceResolution& asked);
 
 /// Coordinates in a stack. Texel centers are at x, y = 0.5, 1.5, ...; plane number k is at plane = k.
@@ -39,7 +39,7 @@ struct SlicePlace
     float plane;
 };
 
-/// Planes of one light. Positions are relative to a point (the eye) that is the same for all calls.
+/// Planes of one light. All positions are relative to the eye.
 struct SliceStack
 {
     SliceMapping mapping = SliceMapping::Parallel;
@@ -47,8 +47,9 @@ struct SliceStack
     /// Unit vectors; `along` is the direction in which parallel light travels.
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, along{0, 0, 1};
     glm::vec3 origin{0}; ///< [m] corner of the first plane, or position of the point light
-    /// World position of `origin`. For SliceMapping::Parallel, its coordinates along `right` and `up` are in
-    /// units of `texel`, and that along `along` in units of `spacing`. For Octahedral, they are in meters.
+    /// World position of `origin`. For SliceMapping::Octahedral, the unit is [m]. For
+    /// SliceMapping::Parallel, coordinates along `right` and `up` are in units of `texel`, and the
+    /// coordinate along `along` is in units of `spacing`.
     glm::dvec3 corner{0};
     float texel = 1.0f;   ///< [m] side of a texel of flat planes
     float spacing = 1.0f; ///< [m] distance between two planes
@@ -69,22 +70,23 @@ struct SliceRay
     glm::vec3 direction; ///< unit vector
 };
 
-/// The ray through a point of a texel plane.
+/// Returns the ray through a point of a plane.
 /// @param x, y coordinates of the point, see SlicePlace
 SliceRay sliceRay(const SliceStack& stack, float x, float y);
 
-/// Requested sides of a stack (side of a texel, spacing of planes), and whether they are fixed in the world.
+/// Requested sides of a stack (side of a texel, spacing of planes), and a flag for snapping to the world.
 struct SliceFit
 {
-    /// False: sides and corner are not snapped but follow the casters exactly, to measure the effect of
-    /// snapping.
+    /// True: sides and corner are snapped to a lattice in the world. False: sides and corner follow the
+    /// casters exactly. Only measurements of the effect of snapping use false.
     bool isSnapped = true;
     float texel = 0.0f;   ///< [m] side of a texel; 0: as large as the casters require
     float spacing = 0.0f; ///< [m] spacing of planes; 0: as large as the casters require
 };
 
-/// Fits planes to all casters. Texels and planes are fixed in the world while the casters move: texel side
-/// and spacing are powers of 2^(1/4) m, and the corner is a multiple of them.
+/// Fits planes to all casters. Texels and planes are fixed in the world while the casters move. Texel side
+/// and spacing are powers of 2^(1/4) m. The coordinates of the corner are multiples of texel side and
+/// spacing.
 /// @param towards unit vector to the light  @param eye [m] world position to which casters are relative
 /// @param asked requested resolution, which is clamped to the limits; 0 planes: no stack
 /// @return false if there are no casters or no planes

@@ -23,7 +23,7 @@ namespace fx::render {
 /// Timer group of the passes that fill light slices.
 constexpr std::string_view kLightSliceGroup = "light slices";
 
-/// All programs of lights.
+/// Returns all programs for lights.
 std::span<const ProgramDesc* const> lightPrograms();
 
 class ViewLights
@@ -31,18 +31,17 @@ class ViewLights
 public:
     ViewLights(GlDevice* device, std::pmr::memory_resource* memory);
 
-    /// Builds the list of a frame. Planes are filled again if lights have changed, or if casters have changed
-    /// and SliceSettings::refreshFrames have passed since the last filling.
+    /// Builds the list of a frame. Planes are filled again if lights have changed. If only casters have
+    /// changed, planes are filled again after SliceSettings::refreshFrames frames.
     /// @param casters revision of the world positions of `in.casters`; equal revisions mean equal casters
-    /// @param isUsed false: the frame draws nothing and casts no shadow, so that no GPU memory is allocated
-    /// @return OutOfMemory
     /// @param isUsed false: nothing is drawn and no shadow is cast, so that no GPU memory is allocated
+    /// @return OutOfMemory
     base::Status gather(const LightListInputs& in, uint64_t casters, bool isUsed = true);
 
     /// True if the planes have been filled with the casters of the last gather().
     bool isCurrent() const { return !isBehind_; }
 
-    /// Must be called instead of gather() if the frame has the same lights as the last frame.
+    /// Must be called instead of gather() if the lights have not changed since the last frame.
     void keep() { isKept_ = true; }
 
     /// Sets the host's shadow map of this frame.
@@ -59,9 +58,9 @@ public:
     uint64_t bytes() const; ///< [byte] size of the GPU memory
     const LightList& list() const { return list_; }
     uint32_t atlasTexture() const { return atlas_.name(); } ///< GL name of the atlas of planes; 0: no planes
-    /// True if the planes have the content for the last list.
+    /// True if the planes are filled for the last list.
     bool isFilled() const { return atlas_.name() != 0 && filled_ == wanted_; }
-    /// Media shadow in a light of the last list. Without filled planes, the transmittance is 1.
+    /// Returns the media shadow in a light of the last list. Without filled planes, the transmittance is 1.
     /// @param origin [m] world position to which the sampled positions are relative
     MediaShadowBlock shadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
 
@@ -80,21 +79,21 @@ private:
     LightList list_;
     glm::dvec3 eye_{0.0}; ///< [m] world position to which the list is relative
     std::pmr::vector<CasterBlock> casters_;
-    /// The casters with which the planes were filled; empty if planes are filled in every frame.
+    /// Casters with which the planes were filled. Empty: planes are filled in every frame.
     std::pmr::vector<MediumCaster> held_;
     std::pmr::vector<MediumCaster> shifted_; ///< scratch: held_ relative to the eye of the frame
     glm::dvec3 heldEye_{0.0};                ///< [m] world position to which `held_` is relative
     uint64_t heldRevision_ = 0;
     uint64_t givenRevision_ = 0; ///< revision of the casters of the last gather()
     int age_ = 0;                ///< [frame] number of frames since `held_` was set
-    bool isBehind_ = false;      ///< true: the planes belong to held_, not to the present casters
+    bool isBehind_ = false;      ///< true: the planes are filled from held_, not from the present casters
     GlBuffer lightBuffer_;
     GlTexture atlas_;
-    /// Hash of the inputs of the present content of the planes; 0: the content is invalid.
+    /// Hash of the inputs from which the planes were filled; 0: the planes are invalid.
     uint64_t filled_ = 0;
-    uint64_t wanted_ = 0;    ///< hash of the inputs of the content for this frame
+    uint64_t wanted_ = 0;    ///< hash of the inputs of this frame
     uint32_t sunShadow_ = 0; ///< GL name of the host's shadow map
-    bool isKept_ = false;    ///< true: the list on the GPU is that of the last frame
+    bool isKept_ = false;    ///< true: the list on the GPU has not changed since the last frame
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file blob_medium.h
-/// Reference medium: a sum of balls with the quartic kernel, in double precision. It serves to check results
-/// of GPU passes.
+/// Reference medium: a sum of balls with the quartic kernel, in double precision. Tests compare results of
+/// GPU passes with this medium.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,7 +13,7 @@ namespace fx::render {
 struct RaySpan
 {
     double begin;
-    double end; ///< [m] end of the range; if it is <= begin, the ray misses
+    double end; ///< [m] end of the range; if end <= begin, the ray misses the medium
 };
 
 struct Ray
@@ -38,21 +38,22 @@ class BlobMedium
 public:
     explicit BlobMedium(std::vector<Blob> blobs);
 
-    /// Range of ray parameters outside of which there is no medium on `ray`.
+    /// Returns a range of ray parameters that contains all medium on `ray`.
     RaySpan span(const Ray& ray) const;
     double extinctionAt(const glm::dvec3& position) const; ///< [1/m] >= 0
     /// [cd/m2] Emitted light per optical depth at a point.
     glm::dvec3 sourceAt(const glm::dvec3& position) const;
-    /// [1] >= 0. Optical depth between the ray parameters `begin` and `end` [m]. It is exact: a sum of
-    /// clipped polynomials (formula kernel-optical-depth).
+    /// [1] Optical depth between the ray parameters `begin` and `end` [m], >= 0. The result is exact: a sum
+    /// of clipped polynomials (formula kernel-optical-depth).
     double opticalDepth(const Ray& ray, double begin, double end) const;
 
 private:
     std::vector<Blob> blobs_;
 };
 
-/// [cd/m2] Light that `medium` emits towards the origin of `ray` from the range [begin, end], by `steps`
-/// midpoint steps. This is a simple, slow and independent reference.
+/// [cd/m2] Light that `medium` emits towards the origin of `ray` from the range [begin, end] [m]. The
+/// integral is computed by `steps` midpoint steps. The code is a simple, slow and independent reference
+/// implementation.
 glm::dvec3 marchEmission(const BlobMedium& medium, const Ray& ray, double begin, double end, int steps);
 
 } // namespace fx::render

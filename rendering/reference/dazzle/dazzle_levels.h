@@ -1,7 +1,7 @@
 /// @file dazzle_levels.h
-/// The published glare algorithm for 8-bit pictures, and a corrected version of it.
+/// The published glare algorithm for 8-bit pictures, and a corrected version of the algorithm.
 ///
-/// A channel of a picture is a list of levels: levels 0..255 can be displayed, higher levels overflow.
+/// A channel of a picture is a list of levels. Levels 0..255 can be displayed; higher levels overflow.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,8 @@ namespace fx::render {
 /// @param gain glare per overflow, >= 0; with 1 the whole overflow is distributed
 std::vector<uint8_t> dazzleLevels(std::span<const uint32_t> levels, double gain);
 
-/// The published algorithm with one change: it stops instead of dividing by zero. Used for comparison.
+/// Runs the published algorithm with one change: the function stops instead of dividing by zero. Tests use
+/// the result for comparison.
 std::vector<int64_t> dazzleLevelsAsPrinted(std::span<const uint32_t> levels);
 
 } // namespace fx::render

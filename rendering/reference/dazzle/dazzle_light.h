@@ -9,26 +9,26 @@
 
 namespace fx::render {
 
-/// [quantum] an integer of 128 bits, because the sum of a 16K picture with all values 65504 needs 67 bits per
-/// channel
+/// [quantum] Sum of light in 128 bits. 64 bits do not suffice: for a 16K picture with all values 65504, the
+/// sum of a channel has 67 bits.
 __extension__ typedef unsigned __int128 DazzleCount;
 
-/// One channel value as light above or below white.
+/// One channel value, divided into light above white and headroom below white.
 struct DazzleQuanta
 {
-    uint64_t overflow; ///< [quantum] max(value - white, 0)
-    uint64_t headroom; ///< [quantum] max(white - value, 0)
-    uint64_t all;      ///< [quantum] value
+    uint64_t overflow; ///< [quantum] light above white: max(value - white, 0)
+    uint64_t headroom; ///< [quantum] headroom below white: max(white - value, 0)
+    uint64_t all;      ///< [quantum] the channel value
 };
 
-/// Converts channel values to quanta, like shaders/dazzle/dazzle_shared.glsl.
+/// Converts channel values to quanta, by the method of shaders/dazzle/dazzle_shared.glsl.
 class DazzleCounter
 {
 public:
     explicit DazzleCounter(float white);
 
     /// Clamps a float, given as bits, to 0 .. `white` * kDazzleLargest, and returns the bits of the result.
-    /// NaN becomes 0, +inf becomes 65504 (or the upper limit, if that is smaller). @param ioReplaced counts
+    /// NaN becomes 0; +inf becomes 65504 or the upper limit, whichever is smaller. @param ioReplaced counts
     /// changed values
     uint32_t sanitized(uint32_t bits, uint32_t& ioReplaced) const;
     /// Converts a sanitized value to quanta; fractions of a quantum are dropped.
@@ -44,7 +44,7 @@ private:
     uint32_t infinity_;
 };
 
-/// Sums of one channel. They are integers, so that the order of additions does not matter.
+/// Sums of one channel. The sums are integers, so that the order of additions does not matter.
 struct DazzleSum
 {
     DazzleCount overflow = 0;

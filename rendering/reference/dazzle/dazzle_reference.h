@@ -1,6 +1,6 @@
 /// @file dazzle_reference.h
 /// Computes the glare on the CPU, with 128-bit integers. The result equals that of DazzlePass bit for bit,
-/// for every sensor law. It is the reference of the GPU programs and the implementation without a GPU.
+/// for every sensor law. Tests compare the GPU programs with this implementation.
 #pragma once
 
 #include "rendering/passes/dazzle_pass.h"
@@ -20,8 +20,8 @@ std::vector<float> dazzleReference(std::span<const float> rgba, int width, int h
                                    const DazzleSettings& settings, double deltaTime, bool resetHistory,
                                    DazzleHistory& ioHistory);
 
-/// Glare per overflow by equation (1) of formula sensor-law. It uses only operations that every processor and
-/// GPU rounds equally.
+/// Glare per overflow by equation (1) of formula sensor-law. The function uses only operations that every
+/// processor and every GPU rounds equally.
 /// @param over mean overflow per pixel in units of white, >= 0
 double dazzleGain(double over, const DazzleSettings& settings);
 

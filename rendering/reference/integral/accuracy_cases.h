@@ -1,6 +1,5 @@
 /// @file accuracy_cases.h
-/// Test cases to compare schemes of the ray integral, and their errors. Callers that need times measure
-/// integrate().
+/// Test cases and error measures to compare schemes of the ray integral.
 #pragma once
 
 #include "rendering/reference/integral/integral_scheme.h"
@@ -57,18 +56,17 @@ PacketPicture<T> ballOfBlobs(double opticalDepth, uint32_t width, uint32_t heigh
 std::vector<std::array<double, 3>> referenceLight(const PacketPicture<double>& picture,
                                                   const IntegralSettings& settings);
 
-/// Computes the errors of all channels of those rays whose light exceeds 1e-6 times that of the brightest
-/// ray.
+/// Computes the errors of all color channels. Rays darker than 1e-6 times the brightest ray are omitted.
 template <class T>
 IntegralError integralError(const PacketPicture<T>& picture, const IntegralSettings& settings,
                             const std::vector<std::array<double, 3>>& reference);
 
-/// Error of a test in which all blobs emit 1, so that the exact light is 1 - exp(-tau) for the optical depth
-/// tau.
+/// Errors of a test in which all blobs have the source 1. The exact light is then 1 - exp(-tau), where tau is
+/// the optical depth.
 struct FurnaceError
 {
     double largest = 0.0; ///< largest |I / (1 - exp(-tau)) - 1|, where I is the computed light
-    double excess = 0.0;  ///< largest I / (1 - exp(-tau)) - 1, which is a gain of energy
+    double excess = 0.0;  ///< largest gain of energy, I / (1 - exp(-tau)) - 1
     double atDepth = 0.0; ///< optical depth at which the error is largest
     uint32_t atBlobs = 0; ///< number of blobs for which the error is largest
 };

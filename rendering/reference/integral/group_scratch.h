@@ -59,7 +59,7 @@ struct GroupScratch
     std::vector<uint64_t> candidates; ///< bit i is set if blob i may overlap the present interval
 };
 
-/// The blobs that overlap the present interval, in the order of summation, with terms that several sums use.
+/// The blobs that overlap the present interval, in the order of summation, and terms that several sums use.
 template <class T>
 struct NearbyBlobs
 {
@@ -79,8 +79,8 @@ struct BlobLanes
     const T* weights;
     const uint64_t* candidates;
     uint32_t words;
-    /// Nearby blobs of two intervals, because the light of an interval may be summed after the extinction of
-    /// the next one.
+    /// Nearby blobs of two intervals. Two are stored, because the light of an interval may be summed after
+    /// the extinction of the next interval.
     NearbyBlobs<T> nearby[2];
 };
 
@@ -91,7 +91,7 @@ struct GroupInput
     uint32_t count; ///< number of blobs
     uint32_t stride;
     T largest;   ///< [m] largest radius of all blobs of the caller, including blobs that all rays miss
-    T brightest; ///< [cd/m2] largest source of these blobs in any channel
+    T brightest; ///< [cd/m2] largest source of all blobs of the caller in any channel
     const T* center;
     const T* chord2;
     const T* nearest;
@@ -123,8 +123,7 @@ struct GroupRules
 
     IntegralSettings settings;
     T stopDepth;
-    /// Largest optical depths of a part for kernels of degree 2, 3 and 4: steeper kernels need more nodes for
-    /// the same accuracy.
+    /// Largest optical depths of a part of an interval, for kernels of degree 2, 3 and 4.
     T caps[3];
     GaussRule<T> gauss3 = gaussRule<T>(3), gauss5 = gaussRule<T>(5), gauss8 = gaussRule<T>(8);
     std::vector<T> positive; ///< nodes from -1 to 1, see pieceNodes()

@@ -24,8 +24,9 @@ enum class IntegralMethod : uint8_t
     /// always within the bounds of the exact light
     Positive,
     March, ///< equal steps along the whole ray, each with the density at its midpoint
-           /// Like Paper, except that a bound of the remaining light determines the parts and the end of the
-           /// ray.
+
+    /// Uses the integral of Paper; a bound of the remaining light determines the parts and the end of the
+    /// ray.
     Adaptive
 };
 
@@ -33,7 +34,7 @@ enum class IntegralMethod : uint8_t
 enum class SourceModel : uint8_t
 {
     PerBlob, ///< sum over i of rho_i source_i, so that each blob emits in proportion to its own extinction
-    /// (sum of rho_i) (sum of k_i source_i), as published; k_i is the kernel scaled to 1 at the center
+    /// (sum of rho_i) (sum of k_i source_i), where k_i is the kernel scaled to 1 at the center
     Product
 };
 
@@ -43,11 +44,12 @@ struct IntegralScheme
     /// Paper: parts, 1..64; Simpson: panels, 1..64; Gauss: nodes, 3, 5 or 8; Positive: pieces, 2..64
     uint32_t count = 5;
     /// [1] Gauss: largest optical depth of a part of an interval; infinity: intervals are not divided.
-    /// Kernels of degree 3 and 4 use a quarter and a tenth of it.
+    /// Kernels of degree 3 use a quarter of `cap`, and kernels of degree 4 a tenth.
     double cap = 1.0;
     double step = 0.01;       ///< [m] March: step length
     double tolerance = 0.001; ///< [1] Adaptive: error relative to the largest possible light of the ray
-    double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: it never ends
+    double stopDepth = 30.0; ///< [1] optical depth at which the integration of a ray ends; infinity: rays are
+                             ///< not ended early
 };
 
 /// The scheme gauss-5 with the cap 1.
@@ -56,7 +58,7 @@ IntegralScheme defaultScheme();
 IntegralScheme highScheme();
 
 /// Parses the name of a scheme, such as paper-1, simpson-4, gauss-5, gauss-8, gauss-5-cap-0.5,
-/// gauss-5-cap-inf, positive-8, march-0.01, adaptive-0.001. As published, Paper never ends a ray early. The
+/// gauss-5-cap-inf, positive-8, march-0.01, adaptive-0.001. The scheme `paper` never ends a ray early. The
 /// default cap of gauss-3 is 0.5, of gauss-5 1, of gauss-8 2.
 base::Result<IntegralScheme> parseScheme(std::string_view name);
 std::string schemeName(const IntegralScheme& scheme);

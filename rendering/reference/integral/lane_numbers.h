@@ -1,9 +1,10 @@
 /// @file lane_numbers.h
-/// The arithmetic operations of the integral for scalars; pack-inl.h has them for SIMD vectors.
+/// The arithmetic operations of the integral for scalars. The file pack-inl.h has the same operations for
+/// SIMD vectors.
 ///
 /// The code of the integral (*.inl) consists of templates of a number type V: float, double, __float128, or a
-/// SIMD vector with one ray in each lane. All operations work on each lane separately and are not fused. So
-/// each lane has the same bits as the scalar code.
+/// SIMD vector with one ray in each lane. All operations work on each lane separately and are not fused.
+/// Therefore each lane has the same bits as the scalar code.
 #pragma once
 
 #include <array>
@@ -56,7 +57,7 @@ struct ExpConstants<double>
     static constexpr int kTerms = 13;
 };
 
-/// For arguments below this, expOfMinus() needs no range reduction.
+/// expOfMinus() needs no range reduction for arguments below this constant.
 constexpr float kSmallDepth = 0.34f;
 
 /// Table of 1 / k! for k = 0..13, computed in double and rounded to T.
@@ -156,7 +157,7 @@ inline V root(V a)
 {
     return Real<V>::root(a);
 }
-/// Returns `yes` in lanes with a < b, otherwise `no`.
+/// Returns `yes` in lanes with a < b, and `no` in all other lanes.
 template <class V>
 inline V chooseLess(V a, V b, V yes, V no)
 {
@@ -177,7 +178,7 @@ inline uint64_t bitsLess(V a, V b)
 {
     return a < b ? 1 : 0;
 }
-/// Number of rows that foldRows() handles at once.
+/// Number of vectors that foldRows() reduces at once.
 constexpr uint32_t kFoldedRows = 1;
 template <class V, bool kLowest>
 inline void foldRows(const V* rows, size_t stride, uint32_t count, V* out)

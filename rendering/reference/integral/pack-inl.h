@@ -1,6 +1,6 @@
 /// @file pack-inl.h
-/// The operations of lane_numbers.h for SIMD vectors with one ray in each lane. Included once for each
-/// instruction set.
+/// The operations of lane_numbers.h for SIMD vectors with one ray in each lane. This file is included once
+/// for each instruction set.
 #if defined(FX_INTEGRAL_PACK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_INTEGRAL_PACK_INL
 #undef FX_INTEGRAL_PACK_INL
@@ -95,8 +95,8 @@ HWY_INLINE T highest(Pack<T> a)
     return hn::GetLane(hn::MaxOfLanes(typename Pack<T>::Tag(), a.v));
 }
 #if HWY_TARGET != HWY_SCALAR
-/// Minimum or maximum of each pair of neighboring lanes. The lower half of the result has those of `a`, the
-/// upper half those of `b`.
+/// Minimum or maximum of each pair of neighboring lanes. The lower half of the result has the values of `a`,
+/// the upper half the values of `b`.
 template <bool kLowest, class T>
 HWY_INLINE Pack<T> foldLanes(Pack<T> a, Pack<T> b)
 {
@@ -105,9 +105,9 @@ HWY_INLINE Pack<T> foldLanes(Pack<T> a, Pack<T> b)
     const Pack<T> odd(hn::ConcatOdd(tag, b.v, a.v));
     return kLowest ? minOf(even, odd) : maxOf(even, odd);
 }
-/// Number of rows that foldRows() handles at once. foldRows() computes lowest() or highest() of each of
-/// `count` vectors, which are `stride` numbers apart. It reads up to kFoldedRows - 1 vectors past the last
-/// one, and writes up to one vector past the last result.
+/// Number of vectors that foldRows() reduces at once. foldRows() computes lowest() or highest() of each of
+/// `count` vectors, which are `stride` numbers apart. foldRows() may read kFoldedRows - 1 vectors past the
+/// last input vector, and may write one vector past the last result.
 constexpr uint32_t kFoldedRows = 8;
 template <class V, bool kLowest, class T>
 HWY_INLINE void foldRows(const T* rows, size_t stride, uint32_t count, T* out)

@@ -7,7 +7,7 @@
 
 namespace fx::render::integral {
 
-/// The blobs of a packet that a group of its rays meets. The memory is kept from group to group.
+/// The blobs of a packet that a group of its rays meets. The memory is reused for the next group.
 template <class T>
 struct MetBlobs
 {
@@ -85,7 +85,7 @@ template <class T>
 void integrateRays(const PacketJob<T>& job);
 template <class T>
 uint64_t meetRays(const MeetJob<T>& job);
-/// Implementation without SIMD, for processors that have no SIMD; it uses the code of RayIntegrator.
+/// Implementation for processors without SIMD, with the code of RayIntegrator.
 template <class T>
 void integrateOneByOne(const PacketJob<T>& job);
 

@@ -83,8 +83,8 @@ GaussRule<T> gaussRule(uint32_t n)
     return rule;
 }
 
-/// The pieces + 1 nodes -cos(pi i / pieces) from -1 to 1. They are denser at the ends, where optical depth is
-/// least linear.
+/// The pieces + 1 nodes -cos(pi i / pieces) from -1 to 1. The nodes are denser at the ends, where optical
+/// depth is least linear.
 template <class T>
 std::vector<T> pieceNodes(uint32_t pieces)
 {

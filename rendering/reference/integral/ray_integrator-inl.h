@@ -1,6 +1,6 @@
 /// @file ray_integrator-inl.h
-/// Implementation of RayIntegrator. For number types other than float and double, specialize
-/// integral::Real<T> before including this.
+/// Implementation of RayIntegrator. For number types other than float and double, integral::Real<T> must be
+/// specialized before this file is included.
 #pragma once
 
 #include "foundation/simd/floating_point_scope.h"

@@ -11,7 +11,7 @@
 
 namespace fx::render {
 
-/// Integrates single rays. Memory is kept between rays; each thread needs its own object. T is float or
+/// Integrates single rays. Memory is reused for the next ray. Each thread needs its own object. T is float or
 /// double; tests instantiate ray_integrator-inl.h for __float128.
 template <class T>
 class RayIntegrator

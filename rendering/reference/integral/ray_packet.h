@@ -1,9 +1,9 @@
 /// @file ray_packet.h
-/// Computes the light along 16 neighboring rays at once. With every instruction set, each ray gets the same
-/// bits as from RayIntegrator.
+/// Computes the light along 16 neighboring rays at once. With every instruction set, the results have the
+/// same bits as the results of RayIntegrator.
 ///
-/// Use, for a tile of 4 x 4 pixels: find the blobs that rays of the tile may meet, in the order of their ids.
-/// Then call packet.clear(), meetBlobs() and integrate().
+/// To integrate a tile of 4 x 4 pixels, first find the blobs that rays of the tile may meet, in the order of
+/// their ids. Then call packet.clear(), meetBlobs() and integrate().
 #pragma once
 
 #include "foundation/result/status.h"
@@ -31,13 +31,13 @@ struct BallBlob
     T source[3];  ///< [cd/m2] emission times (1 - albedo)
 };
 
-/// The rays of a packet. Lane i of each array belongs to ray i. Unused lanes must repeat a used one.
+/// The rays of a packet. Lane i of each array belongs to ray i. Unused lanes must repeat a used lane.
 template <class T>
 struct alignas(64) PacketRays
 {
     T origin[3][kPacketRays];    ///< [m]
     T direction[3][kPacketRays]; ///< unit vector
-    T nearest[kPacketRays];      ///< [m] as in RayWindow
+    T nearest[kPacketRays];      ///< [m] beginning of the visible part of the ray, see RayWindow
     T farthest[kPacketRays];
     T background[3][kPacketRays];
 };
@@ -80,14 +80,14 @@ struct alignas(64) PacketLight
 
 /// Appends the balls that at least one ray meets to `packet`, in the order of `candidates`. A candidate is an
 /// index in `balls`, which becomes the id of the blob. Ray parameters are measured from the origins of rays.
-/// Formula: ray-ball-approach.
+/// See formula ray-ball-approach.
 /// @return number of ray-blob hits
 template <class T>
 uint64_t meetBlobs(const PacketRays<T>& rays, std::span<const BallBlob<T>> balls,
                    std::span<const uint32_t> candidates, RayPacket<T>& packet);
 
-/// Integrates packets of rays. The memory is kept between packets; each thread needs its own object. Sets the
-/// floating-point mode during calls.
+/// Integrates packets of rays. Memory is reused for the next packet. Each thread needs its own object. Calls
+/// change the floating-point mode and restore it at the end.
 template <class T>
 class PacketIntegrator
 {
@@ -101,7 +101,8 @@ public:
     /// `rays`; meetBlobs() has already used origin and direction.
     void integrate(const PacketRays<T>& rays, const RayPacket<T>& packet, PacketLight<T>& outLight);
 
-    /// Switches counters of work on or off; off by default. They cost a few percent of time.
+    /// Turns the counters of work on or off; they are off by default. Counting costs a few percent of the
+    /// time.
     void countWork(bool isOn);
     const RayWork& work() const;
     void clearWork();

@@ -12,7 +12,7 @@ namespace fx::render {
 
 /// A blob relative to one ray. Its extinction at parameter t is
 ///     extinction ((chord2 - (t - center)^2) / radius^2)^degree,
-/// which is the kernel (1 - q^2)^degree, where q is the distance from the blob's center in radii.
+/// which is extinction (1 - q^2)^degree, where q is the distance from the blob's center in radii.
 template <class T>
 struct RayBlob
 {
@@ -26,7 +26,7 @@ struct RayBlob
     uint32_t id;             ///< number that differs for all blobs of a ray; defines the order of summation
 };
 
-/// The visible part of a ray, and the background behind it.
+/// The visible part of a ray, and the background behind the ray.
 template <class T>
 struct RayWindow
 {
@@ -38,9 +38,9 @@ struct RayWindow
 enum RayFlag : uint32_t
 {
     kRayInvalid = 1, ///< an input was not finite or had a wrong sign, so that the result is zero
-    /// The ray ended at the scheme's stopDepth (or bound), so that light from behind is omitted.
+    /// The optical depth reached stopDepth of the scheme, so that light from behind is omitted.
     kRayStopped = 2,
-    /// a part exceeded the cap even after division into 64 parts, so that Positive was used for it.
+    /// a part exceeded the cap even after division into 64 parts, so that Positive was used for this part
     kRayFallback = 4,
     /// a blob was omitted, because it is too small relative to the largest blob for the precision
     kRayTooSmall = 8
@@ -55,7 +55,7 @@ struct RayLight
     uint32_t flags;
 };
 
-/// Counters of work, to be reported together with times. They are sums over all rays of all calls.
+/// Counters of work: sums over all rays of all calls.
 struct RayWork
 {
     uint64_t rays = 0;

@@ -1,6 +1,6 @@
 /// @file reference_integral.h
-/// The ray integral by adaptive quadrature of its definition. It is slow. It serves to check the fast code,
-/// with which it shares no polynomials, coefficients or schemes.
+/// The ray integral by adaptive quadrature of its definition. This slow code serves to check the fast code.
+/// Both codes share no polynomials, coefficients or schemes.
 #pragma once
 
 #include "rendering/reference/integral/quadrature.h"

@@ -48,7 +48,7 @@ private:
     struct Chord
     {
         double middle, inverseHalf; ///< [m] center of the chord; [1/m] inverse of half its length
-        double peak;                ///< [1/m] s_i
+        double peak;                ///< [1/m] symbol s_i of the formula
         double weight;              ///< [1] s_i h_i
     };
     /// [1/m] Extinction of a chord's ball at a ray parameter.

@@ -39,16 +39,17 @@ public:
     BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
                    double illuminance = 0.0, const MediumDetails& details = {}, const PixelWidth& pixel = {});
     std::unique_ptr<MediumWalk> walk() const override;
-    /// Null if there is detail, because its optical depth has no closed form.
+    /// Null if there is detail, because the optical depth has then no closed form.
     std::unique_ptr<DepthWalk> depthWalk() const override;
 
-    /// Probability of sampling an emitting ball. It increases with the illuminance by the emitting balls,
-    /// computed without attenuation.
+    /// Probability of sampling an emitting ball. The probability increases with the illuminance by the
+    /// emitting balls, computed without attenuation.
     double emissionChance(const glm::dvec3& position) const override;
     /// True if at least one ball emits enough light for direct sampling.
     bool shines() const { return !shines_.empty(); }
 
-    /// Samples a ball in proportion to its emission without self-absorption, then a direction that hits it.
+    /// Samples a ball in proportion to its emission without self-absorption, then a direction that hits the
+    /// ball.
     glm::dvec3 emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const override;
 
     /// Upper bound of the extinction: the largest value over the cells of a grid. The value of a cell is the
@@ -75,8 +76,8 @@ public:
         const glm::dvec3& source = substances_[place].source;
         return source.x + source.y + source.z;
     }
-    /// [1/sr] Probability density with which emissionDirection() at `position` samples this ball and a
-    /// direction that hits it.
+    /// [1/sr] Probability density with which emissionDirection() at `position` samples the ball and a
+    /// direction that hits the ball.
     double emissionDensity(uint32_t place, const glm::dvec3& position) const;
 
 private:

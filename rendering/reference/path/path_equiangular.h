@@ -34,7 +34,7 @@ public:
     /// @param part [m] first and last ray parameter of the part that is sampled; first < second
     Equiangular(const TraceRay& ray, const std::pair<double, double>& part, const LightPlace& light);
 
-    /// True if the light is so near that the density varies much along the part.
+    /// True if the sampling density varies much along the part, because the light is near.
     bool isNear() const { return isNear_; }
     double parameter(double u) const;       ///< [m] sampled ray parameter. @param u random number in [0, 1)
     double density(double parameter) const; ///< [1/m]

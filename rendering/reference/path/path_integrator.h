@@ -14,8 +14,8 @@
 
 namespace fx::render {
 
-/// The scene of the path tracer. The caller owns the objects to which the members point. Coordinates are
-/// those of the rays.
+/// The scene of the path tracer. The caller owns the objects to which the members point. The objects and the
+/// rays use the same coordinates.
 struct PathScene
 {
     const PathMedium* medium = nullptr; ///< may be null
@@ -33,13 +33,13 @@ struct PathSettings
     FlightEstimator flight = FlightEstimator::Depth;
     ShadowEstimator shadow = ShadowEstimator::Exact;
 
-    /// Number of flights (free paths) at the beginning of a path in which a collision is forced. Such a
-    /// flight is weighted by the share of light that collides; the remaining share escapes to the sky. Used
-    /// only for FlightEstimator::Depth and flights that do not end at a surface.
+    /// Number of flights (free paths) at the beginning of a path in which a collision is forced. The flight
+    /// is weighted by the fraction of light that collides; the remaining light escapes to the sky. Collisions
+    /// are forced only with FlightEstimator::Depth, and only in flights that do not end at a surface.
     uint32_t forcedFlights = 1;
 
-    /// [1] Threshold of Russian roulette: paths with a lower throughput end at random. It is relative to the
-    /// share of light that remains after forced collisions. 0: no roulette.
+    /// [1] Threshold of Russian roulette: paths with a lower throughput end at random. The threshold is
+    /// relative to the fraction of light that remains after forced collisions. 0: no roulette.
     double roulette = 0.1;
 };
 
@@ -50,8 +50,8 @@ struct PathResult
     /// surface.
     double opacity = 0.0;
     bool sawBackground = false; ///< true: the camera ray hit no surface, so that the background is visible
-    /// [1] Transmittance to the background; valid if sawBackground is true. Then `luminance` does not include
-    /// light of the sky.
+    /// [1] Transmittance to the background; valid if sawBackground is true. If sawBackground is true,
+    /// `luminance` does not include light of the sky.
     glm::dvec3 throughput{0.0};
 };
 
@@ -80,16 +80,16 @@ private:
     /// [lx] Illuminance by a light sample, attenuated by media and surfaces.
     glm::dvec3 arriving(const LightSample& sample, const glm::dvec3& position, PathSampler& sampler);
 
-    /// Light of light sources that is scattered at the end of a path segment.
+    /// Light from the light sources that is scattered at the end of a path segment.
     glm::dvec3 lightAt(const Way& way, PathSampler& sampler);
     /// [1/m] Probability density of a collision at a ray parameter of `way`, which must be the last flight
     /// that was sampled by optical depth.
     double collisionDensity(const Way& way, double parameter) const;
-    /// Light of nearby light sources that is scattered anywhere on a path segment. One point on the segment
+    /// Light from nearby light sources that is scattered anywhere on a path segment. One point on the segment
     /// is sampled for each light.
     glm::dvec3 lightOnWay(const Way& way, PathSampler& sampler);
     /// Light emitted by the medium that arrives at a point and is scattered there.
-    /// @param density [1/sr] probability density of the next flight's direction, which equals the share of
+    /// @param density [1/sr] probability density of the next flight's direction, which equals the fraction of
     ///         light that is scattered to this direction
     template <class Density>
     glm::dvec3 emissionAt(const glm::dvec3& position, const Density& density, PathSampler& sampler);
@@ -98,7 +98,7 @@ private:
     /// [1] Opacity along the camera ray, up to infinity.
     double opacity(const Way& way, PathSampler& sampler);
     /// Applies Russian roulette: ends paths of low throughput at random, and increases the weight of the
-    /// others.
+    /// surviving paths.
     /// @param least [1] throughput below which paths may end
     /// @return false if the path ends
     static bool survives(double least, glm::dvec3& io, PathSampler& sampler);

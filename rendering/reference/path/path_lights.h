@@ -1,5 +1,6 @@
 /// @file path_lights.h
-/// Lights of the path tracer. Directions towards lights are sampled; the sky is hit by rays that escape.
+/// Lights of the path tracer. Directions towards lights are sampled. The sky is not sampled: rays that escape
+/// hit the sky.
 #pragma once
 
 #include "rendering/frame/scene_light.h"
@@ -17,7 +18,7 @@ namespace fx::render {
 struct LightSample
 {
     glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit vector towards the light
-    /// [m] distance of the light; objects beyond it do not block it
+    /// [m] distance of the light; objects beyond this distance do not block the light
     double distance = std::numeric_limits<double>::infinity();
     /// [lx] luminance divided by the probability density per solid angle. Its expected value is the
     /// illuminance of a surface perpendicular to the light.
@@ -31,8 +32,8 @@ struct LightPlace
     double radius = 0.0;    ///< [m] radius of the light; 0: a point light
 };
 
-/// A light that rays do not hit, so that it must be sampled. Coordinates are those of the rays. Threads: any
-/// thread may call const functions.
+/// A light that rays do not hit, so that it must be sampled. The lights and the rays use the same
+/// coordinates. Threads: any thread may call const functions.
 class PathLight
 {
 public:
@@ -50,7 +51,7 @@ class SunLight final : public PathLight
 {
 public:
     /// @param direction unit vector towards the center of the disc
-    /// @param illuminance [lx] illuminance of a surface perpendicular to it
+    /// @param illuminance [lx] illuminance of a surface perpendicular to `direction`
     /// @param angularRadius [rad] angular radius of the disc, 0..pi/2; 0: parallel light
     SunLight(const glm::dvec3& direction, const glm::dvec3& illuminance, double angularRadius);
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
@@ -58,7 +59,7 @@ public:
 private:
     glm::dvec3 direction_, illuminance_;
     double cosine_; ///< cosine of the angular radius
-    double scale_;  ///< [1] factor by which samples get the mean `illuminance_`
+    double scale_;  ///< [1] factor with which the mean of the samples is `illuminance_`
 };
 
 /// A ball with a surface of uniform luminance. From inside, the surface is visible in all directions.
@@ -94,8 +95,8 @@ private:
     double cosInner_, cosOuter_;
 };
 
-/// A glowing group of particles. It illuminates like a point light, but inside of its extent its light is
-/// finite and nothing blocks it. The reference renderer and the lights of views use the same model.
+/// A glowing group of particles. The illuminance is intensity / (distance^2 + radius^2). Objects within the
+/// radius do not block the light. The reference renderer and the lights of views use the same model.
 class GlowPathLight final : public PathLight
 {
 public:

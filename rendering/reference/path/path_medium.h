@@ -47,7 +47,7 @@ public:
     ///         mix. `scattering` is divided by the probability of the selection
     virtual MediumPoint at(double parameter, double choice) = 0;
     /// Optical depth of each channel between two parameters of `ray`, if it has a closed form.
-    /// @return false if it has none, so that the transmittance must be estimated
+    /// @return false if there is no closed form, so that the transmittance must be estimated
     virtual bool opticalDepth(const TraceRay& ray, double begin, double end, glm::dvec3& out) = 0;
 };
 
@@ -92,7 +92,8 @@ public:
     virtual double emissionDensity() const = 0;
 };
 
-/// A participating medium. Coordinates are those of the rays. Threads: any thread may call const functions.
+/// A participating medium. The medium and the rays use the same coordinates. Threads: any thread may call
+/// const functions.
 class PathMedium
 {
 public:

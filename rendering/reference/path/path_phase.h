@@ -30,8 +30,8 @@ public:
     double cosine(double u) const;
     double meanCosine() const { return share_ * g_[0] + (1.0 - share_) * g_[1]; }
 
-    /// The direction that has the given cosine to `direction` and is rotated about it by `turn` turns, [0,
-    /// 1).
+    /// Returns the direction whose angle to `direction` has the given cosine. `turn` [turns] is its azimuth
+    /// about `direction`, [0, 1).
     static glm::dvec3 around(const glm::dvec3& direction, double cosine, double turn);
 
     bool operator==(const PhaseFunction&) const = default;

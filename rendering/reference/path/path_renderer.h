@@ -3,10 +3,10 @@
 /// variance of every pixel.
 ///
 /// Light of sun, lamps, sky, glowing gas and luminous particles is scattered by media and reflected by
-/// diffuse triangles any number of times. Camera rays that hit nothing show the background of the scene.
-/// Other rays that escape hit the sky: above the horizon its luminance, below it the light reflected by the
-/// ground with Lighting::groundAlbedo. The picture has the same bits for any number of threads, in one run or
-/// in several.
+/// diffuse triangles any number of times. Camera rays that hit nothing show the background of the scene. All
+/// other rays that escape receive the luminance of the sky above the horizon. Below the horizon they receive
+/// the light that the ground reflects with Lighting::groundAlbedo. The picture has the same bits for any
+/// number of threads and any number of runs.
 #pragma once
 
 #include "rendering/reference/path/path_integrator.h"
@@ -21,13 +21,14 @@ namespace fx::render {
 
 struct PathPictureSettings
 {
-    int width = 640;       ///< [pixel] 1..16384
-    int height = 360;      ///< [pixel] 1..16384
-    uint32_t samples = 64; ///< number of paths per pixel, 1..2^24; if `error` is not 0, the largest number
+    int width = 640;  ///< [pixel] 1..16384
+    int height = 360; ///< [pixel] 1..16384
+    uint32_t samples =
+        64; ///< number of paths per pixel, 1..2^24; if `error` is not 0, this is an upper limit
     /// [1] Requested standard error of pixels, as a root mean square over a tile, in the unit of written
-    /// values. 0: all pixels have `samples` paths. A tile first traces kPilotSamples paths per pixel; their
-    /// variance gives the required number of paths. These pilot paths are not part of the picture, because a
-    /// mean is biased if its number of samples depends on the samples.
+    /// values. 0: all pixels have `samples` paths. A tile first traces kPilotSamples pilot paths per pixel,
+    /// whose variance gives the required number of paths. The pilot paths are not part of the picture,
+    /// because they would bias the mean.
     double error = 0.0;
     double exposure = 1.0;      ///< [m2/cd] exposure: written value divided by luminance
     double sunRadius = 0.00465; ///< [rad] angular radius of the sun, 0..pi/2
@@ -39,7 +40,7 @@ struct PathPictureSettings
 namespace path_channel {
 enum : uint32_t
 {
-    /// RGBA, linear and exposed; A is 1 in front of triangles and background, otherwise the medium's opacity.
+    /// RGBA, linear and exposed; A is 1 in front of triangles and background, else the medium's opacity.
     Color,
     Variance = 4, ///< RGB: variance of the mean, which is the square of the standard error
     Samples = 7,  ///< number of paths of the pixel
@@ -71,8 +72,8 @@ public:
     /// Identifies the picture: a hash of all inputs of its pixels.
     uint64_t key() const { return key_; }
     uint32_t tileCount() const { return tiles_.tileCount(); }
-    /// Sets the values of a tile that an earlier run has rendered. They are ignored if tile number or length
-    /// are invalid.
+    /// Sets the values of a tile that an earlier run has rendered. The values are ignored if their number or
+    /// the tile number is invalid.
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
     /// Renders the missing tiles.
     /// @param journal receives each finished tile; may be null

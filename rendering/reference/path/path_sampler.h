@@ -1,7 +1,7 @@
 /// @file path_sampler.h
-/// The random numbers of one path. They are stratified over the samples of a pixel, and are a pure function
-/// of pixel, sample and dimension. So a picture depends on neither the order of paths nor the number of
-/// threads.
+/// The random numbers of one path. The numbers are stratified over the samples of a pixel, and are a pure
+/// function of pixel, sample and dimension. Therefore a picture does not depend on the order of paths or the
+/// number of threads.
 #pragma once
 
 #include <array>
@@ -35,8 +35,8 @@ public:
     {}
 
     std::array<double, 2> pair(); ///< two random numbers in [0, 1)
-    /// A random number in [0, 1) without stratification. Used for frequent decisions, such as those of null
-    /// collisions.
+    /// A random number in [0, 1) without stratification. Use this function for frequent decisions, such as
+    /// null collisions.
     double number();
 
 private:

@@ -1,6 +1,6 @@
 /// @file path_tracking.h
-/// Samples free paths through a medium, and computes the light that the medium emits along them and
-/// transmittances.
+/// Samples free paths through a medium. Also computes transmittances and the light that the medium emits
+/// along a path.
 #pragma once
 
 #include "rendering/reference/path/path_medium.h"
@@ -17,11 +17,11 @@ namespace fx::render {
 /// Method by which free paths are sampled.
 enum class FlightEstimator : uint8_t
 {
-    Depth, ///< inverts the optical depth if it has a closed form; otherwise uses local majorants
+    Depth, ///< inverts the optical depth if it has a closed form, else uses local majorants
 
     LocalMajorants, ///< samples null collisions, with a majorant for each segment of MediumWalk
 
-    /// Plain delta tracking [WMHL65], which serves for comparison. It uses one majorant for the whole medium,
+    /// Plain delta tracking [WMHL65], which serves for comparison. One majorant is used for the whole medium,
     /// also for shadow rays. Absorption ends paths at random.
     Analog
 };
@@ -29,9 +29,9 @@ enum class FlightEstimator : uint8_t
 /// Method by which the transmittance towards lights is computed.
 enum class ShadowEstimator : uint8_t
 {
-    Exact, ///< uses the closed form of the medium if there is one; otherwise ratio tracking
+    Exact, ///< uses the closed form of the medium if there is one, else ratio tracking
     Ratio, ///< uses ratio tracking: the product of the probabilities of null collisions [NSJ14]
-    Delta  ///< uses 1 if a sampled free path is longer than the distance to the light, otherwise 0
+    Delta  ///< uses 1 if a sampled free path is longer than the distance to the light, else 0
 };
 
 /// Input of a free path.
@@ -40,11 +40,11 @@ struct FlightStart
     TraceRay ray;
     double begin = 0.0;                                   ///< [m] ray parameter
     double end = std::numeric_limits<double>::infinity(); ///< [m]
-    /// true: a collision is forced; requires flights by depth
+    /// true: a collision is forced; requires FlightEstimator::Depth
     bool isForced = false;
 
-    /// [1/sr] Probability density of the direction, if light at the begin of the path was also sampled with
-    /// PathMedium::emissionDirection(); otherwise 0.
+    /// [1/sr] Probability density of the direction, if light at the beginning of the path was also sampled
+    /// with PathMedium::emissionDirection(); else 0.
     double density = 0.0;
     /// Number of points on the path at which each of two methods samples the emission; 0: only one method
     /// samples, at one point.
@@ -57,8 +57,8 @@ struct Flight
     bool isScattered = false;
     double distance = 0.0; ///< [m] ray parameter at which the light is scattered
     PhaseFunction phase;
-    double colliding = 1.0; ///< [1] share of light that collides, if the collision was forced
-    double passing = 0.0;   ///< [1] share of light that escapes, if the collision was forced
+    double colliding = 1.0; ///< [1] fraction of light that collides, if the collision was forced
+    double passing = 0.0;   ///< [1] fraction of light that escapes, if the collision was forced
 };
 
 /// @formula spectral-tracking
@@ -113,17 +113,17 @@ public:
 
     /// Samples one free path.
     /// @param io throughput; it is multiplied by the transmittance and the scattering weight
-    /// @param outLuminance [cd/m2] light; that which the medium emits along the path is added
+    /// @param outLuminance [cd/m2] sum of light, to which the emission of the medium along the path is added
     Flight fly(const FlightStart& start, PathSampler& sampler, glm::dvec3& io, glm::dvec3& outLuminance);
 
     /// Transmittance of the medium between two ray parameters, exact or as an unbiased estimate.
     glm::dvec3 transmittance(const TraceRay& ray, double begin, double end, PathSampler& sampler);
 
-    /// The ray of the last fly(), with its optical depth; null if flights are not sampled by depth.
+    /// The ray of the last fly(), with its optical depth; null without FlightEstimator::Depth.
     const DepthWalk* lastWay() const { return depthWalk_.get(); }
 
     /// [cd/m2] Emitted light from a direction of PathMedium::emissionDirection(), divided by the sum of the
-    /// densities of both methods that sample this direction. 0 if flights are not sampled by depth.
+    /// densities of both methods that sample this direction. 0 without FlightEstimator::Depth.
     /// @param density [1/sr] probability density with which the phase function samples this direction, see
     ///         FlightStart::density
     glm::dvec3 emissionFrom(const TraceRay& ray, double end, double density, PathSampler& sampler);

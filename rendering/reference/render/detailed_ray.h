@@ -114,7 +114,7 @@ private:
     std::vector<Sample> samples_; ///< samples at the ends and midpoints of the first pieces
     std::vector<Piece> pieces_;
     double perLength_ = 0.0; ///< [1/m] 1 / L
-    double brightest_ = 0.0; ///< [cd/m2] J
+    double brightest_ = 0.0; ///< [cd/m2] symbol J of the formula
     double depth_ = 0.0;
     Sent sent_;
 };

@@ -16,17 +16,17 @@ namespace fx::render {
 /// One ball with the quartic kernel.
 struct MediumBlob
 {
-    glm::dvec3 center{0.0};    ///< [m] world
+    glm::dvec3 center{0.0};    ///< [m] position of the center in the world
     double radius = 0.0;       ///< [m] > 0
     double crossSection = 0.0; ///< [m2] integral of the ball's extinction over space, > 0
     glm::dvec3 albedo{0.0};    ///< [1]
     glm::dvec3 source{0.0};    ///< [cd/m2] emitted light per optical depth
     double anisotropy = 0.0;   ///< [1] mean cosine g of the Henyey-Greenstein phase function
-    /// [1] share of the opacity that belongs to the layer Fire
+    /// [1] fraction of the opacity that belongs to the layer Fire
     double fireShare = 0.0;
-    base::MediaLayer layer = base::MediaLayer::Smoke; ///< layer of the remaining opacity
+    base::MediaLayer layer = base::MediaLayer::Smoke; ///< layer to which the remaining opacity belongs
     uint64_t instance = 0;                            ///< instance of the scene to which the ball belongs
-    glm::dvec3 velocity{0.0};                         ///< [m/s] world
+    glm::dvec3 velocity{0.0};                         ///< [m/s] velocity in the world
     double temperature = 0.0;                         ///< [K]; the emitted light is in `source`
     uint64_t id = 0;                                  ///< id of the ball in its group of the snapshot
 };
@@ -40,11 +40,11 @@ struct MediumList
 };
 
 /// The blobs of two snapshots at a moment between them. Matching by id, interpolation, extrapolation of
-/// newborn blobs and streaks follow the rules of rendering/media/blob_gather.h. But blobs are neither culled
-/// nor enlarged to a pixel, and positions are double.
+/// newborn blobs and streaks follow the rules of rendering/media/blob_gather.h. This function does not cull
+/// blobs and does not enlarge them to a pixel. Positions have double precision.
 ///
 /// source = (1 - albedo) black body + emission. The detail of fields is included. The noise of single balls
-/// (`detailAmount`) exists in GPU passes only and is omitted.
+/// (`detailAmount`) is omitted; only GPU passes have this noise.
 /// @param interpolation moment between the older (0) and the newer (1) snapshot
 MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation);
 

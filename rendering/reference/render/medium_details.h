@@ -22,7 +22,7 @@ struct MediumDetails
     {
         /// Parameters of the detail, for positions relative to `origin`, along world axes.
         GroupDetail detail;
-        glm::dvec3 origin{0.0}; ///< [m] world
+        glm::dvec3 origin{0.0}; ///< [m] position of the origin in the world
     };
     /// Data of one ball.
     struct Ball

@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// Kinds of light of the blobs, of which an integration computes one.
+/// Kinds of light of the blobs. An integration computes one kind.
 enum class MediumSource : uint8_t
 {
     Light,    ///< [cd/m2] emitted light
@@ -40,7 +40,7 @@ public:
     /// Instance and velocity of a blob.
     struct Track
     {
-        glm::dvec3 velocity; ///< [m/s] world
+        glm::dvec3 velocity; ///< [m/s] velocity in the world
         uint64_t instance;
     };
     const Track& track(uint32_t place) const { return tracks_[place]; }
@@ -63,14 +63,14 @@ public:
     bool isEmpty() const { return count_ == 0; }
     /// True if all blobs have the same layers, so that coverage needs no separate integration.
     bool isUniform() const { return isUniform_; }
-    /// valid if isUniform()
+    /// Opacities of fire, smoke and dust that all blobs share; valid if isUniform() is true.
     glm::dvec3 coverage() const { return {coverage_[0][0], coverage_[0][1], coverage_[0][2]}; }
 
 private:
     BallTree tree_;
     size_t count_ = 0;
     std::unique_ptr<BallBlob<double>[]> blobs_;
-    /// Opacities of the layers by place; one entry for all blobs if isUniform_.
+    /// Opacities of the layers by place. If isUniform_ is true, there is one entry for all blobs.
     std::vector<std::array<double, 3>> coverage_;
     std::unique_ptr<Scattering[]> scattering_;
     std::vector<glm::vec3> scattered_;
@@ -102,8 +102,8 @@ class BundleIntegrator
 {
 public:
     virtual ~BundleIntegrator() = default;
-    /// Finds those of `candidates` that the rays of the bundle meet. Candidates are places in ascending
-    /// order. The next integrate() uses the result.
+    /// Finds the candidates that the rays of the bundle meet. Candidates are places in ascending order. The
+    /// next integrate() uses the result.
     /// @return number of ray-blob hits
     virtual uint64_t meet(const MediumView& medium, const RayBundle& rays,
                           std::span<const uint32_t> candidates) = 0;

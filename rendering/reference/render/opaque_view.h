@@ -33,8 +33,8 @@ struct OpaqueScene
     Lighting lighting;
     std::vector<SceneLight> lamps;
     std::vector<EffectLight> lights; ///< lights of the effects
-    /// Those of `lights` that particles emit, and not a medium. The path tracer uses only these, because it
-    /// computes the light of emitting media by itself.
+    /// The subset of `lights` that particles emit; the lights of media are omitted. The path tracer uses this
+    /// subset, because the light of emitting media results from its paths.
     std::vector<EffectLight> particleLights;
     /// True: there are no surfaces and no background, so that the picture is transparent behind the medium.
     bool isEmpty = false;
@@ -50,7 +50,7 @@ struct OpaqueSample
     double distance = std::numeric_limits<double>::infinity(); ///< [m] along the ray
 };
 
-/// [lx] Illuminance at a point slightly above a surface. The unit normal is on the visible side.
+/// [lx] Illuminance at a point slightly above a surface. The unit normal points to the visible side.
 using Illuminance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
 
 /// Shades surfaces like rendering/stage, but with exact shadow rays instead of a shadow map. Media cast no

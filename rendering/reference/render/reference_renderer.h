@@ -1,10 +1,11 @@
 /// @file reference_renderer.h
 /// Renders a picture by the ray integral, with tiles on several threads and a journal of finished tiles.
 ///
-/// A pixel is the integral of emission and absorption along its ray, through all blobs in double (or float),
-/// up to the nearest triangle. These effects of GPU passes are omitted: noise of single balls, multiple
-/// scattering, shimmer, glare. Single scattering of the light of sun, lamps, fires and sky is optional. The
-/// picture has the same bits for any number of threads, any instruction set, and in one run or in several.
+/// The value of a pixel is the integral of emission and absorption along its ray, through all blobs, up to
+/// the nearest triangle. The integral is computed in double or float. These effects of GPU passes are
+/// omitted: noise of single balls, multiple scattering, shimmer, glare. Single scattering of the light of
+/// sun, lamps, fires and sky is optional. The picture has the same bits for any number of threads, any
+/// instruction set, and any number of runs.
 #pragma once
 
 #include "rendering/reference/render/reference_scene.h"
@@ -28,8 +29,8 @@ public:
     uint64_t key() const { return key_; }
     uint32_t tileCount() const { return tiles_.tileCount(); }
 
-    /// Sets the values of a tile that an earlier run has rendered. They are ignored if tile number or length
-    /// are invalid.
+    /// Sets the values of a tile that an earlier run has rendered. The values are ignored if their number or
+    /// the tile number is invalid.
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
     /// Renders the missing tiles.
     /// @param journal receives each finished tile; may be null
@@ -38,7 +39,7 @@ public:
 
     /// The values of one channel (see reference_channel), width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return tiles_.pixels(channel); }
-    /// The values of the four channels from `first` on, interleaved by pixel.
+    /// The values of four channels, interleaved by pixel. `first` is the first channel.
     std::vector<float> interleaved(uint32_t first) const { return tiles_.interleaved(first); }
     const ReferenceWork& work() const { return work_; }
 

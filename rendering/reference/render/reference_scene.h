@@ -27,7 +27,7 @@ struct ReferenceScene
 };
 
 /// Hashes the inputs of the picture number by number, because structs have padding. Words are distributed
-/// over four chains that run in parallel, because within a chain each word must wait for the one before it.
+/// over four chains that run in parallel. Within a chain, each word waits for the previous word.
 class KeyHash
 {
 public:
@@ -66,7 +66,7 @@ void addScene(KeyHash& io, const ReferenceScene& scene, base::TaskRunner& tasks)
 ///         impossible values
 base::Status checkScene(const ReferenceScene& scene, int width, int height);
 
-/// A copy of the camera whose axes have exactly the lengths that formulas assume.
+/// A copy of the camera whose axes have exactly the lengths that the formulas of the renderers assume.
 /// @param camera camera that checkScene() accepts
 ReferenceCamera withUnitAxes(const ReferenceCamera& camera);
 

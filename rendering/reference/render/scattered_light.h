@@ -60,20 +60,18 @@ public:
     Layers along(const TraceRay& ray, const RayHits& hits, double begin, double end);
 
 private:
-    /// The ray along which light is summed.
     struct Ray
     {
         const TraceRay& ray;
         const RayHits& hits;
         double begin;
     };
-    /// A piece of the ray.
     struct Interval
     {
         double from, to;
     };
     static constexpr double kDetailTolerance = 1e-3;
-    static constexpr size_t kDistant = size_t(-1); ///< index that stands for sun and sky instead of a lamp
+    static constexpr size_t kDistant = size_t(-1); ///< index of a lamp that denotes sun and sky
 
     void findEvents(const Ray& ray, double end);
     double opticalDepth(const Ray& ray, double from, double to) const;
@@ -82,7 +80,7 @@ private:
     void addPart(const Ray& ray, const Interval& part, Layers& io);
     void addLampPart(const Ray& ray, const Interval& part, size_t lamp, Layers& io);
     void addNode(const Ray& ray, double t, double length, size_t lamp, Layers& io);
-    /// [cd/m2 per optical depth of scattering] The light at the current node that is scattered to the eye.
+    /// [cd/m2 per optical depth of scattering] Light that is scattered to the eye at the current node.
     glm::dvec3 inflow(const glm::dvec3& look, float anisotropy) const;
 
     const MediumView& medium_;

@@ -18,7 +18,8 @@ struct ArrivingLight
 {
     glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit vector towards the light
     glm::dvec3 illuminance{0.0};         ///< [lx] illuminance of a surface perpendicular to the light
-    double distance = 1e30;              ///< [m] distance of the light; objects beyond it do not block it
+    double distance =
+        1e30; ///< [m] distance of the light; objects beyond this distance do not block the light
     /// [sr] solid angle that the direction represents; 0: the light has no extent
     double solidAngle = 0.0;
 };
@@ -61,11 +62,11 @@ public:
     bool hasSun() const { return sun_.illuminance != glm::dvec3(0.0); }
     const ArrivingLight& sun() const { return sun_; }
 
-    /// Number of lamps: first the lights in the list of the scene, then those of glowing groups.
+    /// Number of lamps: first the lights in the list of the scene, then the lights of glowing groups.
     size_t lampCount() const { return lamps_.size(); }
     /// Appends the light of a lamp at a point: one direction for a point light, a spot or a glowing group,
-    /// many for a ball. A glowing group illuminates like a point light. But inside of its extent its light is
-    /// finite, and nothing within its extent blocks it.
+    /// many directions for a ball. The illuminance of a glowing group is finite everywhere, and objects
+    /// within its extent do not block its light.
     /// @param turn [1] rotation of the directions, 0..1, see appendCone()
     void appendLamp(size_t lamp, const glm::dvec3& point, double turn, std::vector<ArrivingLight>& out) const;
 

@@ -43,8 +43,8 @@ public:
     static constexpr int kSteps = 64;
 
 private:
-    /// [1] by step: optical depth, from the begin of the medium to the step's midpoint, of blobs that contain
-    /// this midpoint
+    /// [1] by step: optical depth of blobs that contain the step's midpoint, from the beginning of the medium
+    /// to this midpoint
     std::array<double, kSteps> depth_;
     /// [1] by step: optical depth of blobs that end before the step's midpoint
     std::array<double, kSteps + 1> passed_;

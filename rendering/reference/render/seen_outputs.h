@@ -1,6 +1,6 @@
 /// @file seen_outputs.h
 /// Computes the outputs of a ray (view_output): instance and motion of the visible medium, and the distance
-/// at which it begins.
+/// at which the medium begins.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -27,7 +27,7 @@ struct ReferencePast
 struct InstanceShare
 {
     uint64_t instance;
-    double share; ///< [1] share of the ray's opacity
+    double share; ///< [1] part of the ray's opacity that the instance causes
 };
 
 /// Adds `share` to the entry of `instance`, or appends a new entry.
@@ -35,15 +35,15 @@ void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 
 /// Computes the outputs of rays, as defined in docs/howto/outputs.md.
 ///
-/// A ray is divided into steps. In step k, let d_k be the optical depth of a ball and D_k that of all balls,
-/// and T_k the transmittance up to the step. The share of the ball in the visible opacity is
+/// A ray is divided into steps. In step k, d_k is the optical depth of a ball, D_k the optical depth of all
+/// balls, and T_k the transmittance up to the step. The share of the ball in the visible opacity is
 ///     sum over k of T_k (1 - exp(-D_k)) d_k / D_k,
 /// which is exact if the mixture of balls is constant within each step. Each thread needs its own object.
 class SeenOutputs
 {
 public:
-    /// [1] Optical depth at which a medium begins to be visible; the first depth is the distance at which it
-    /// is reached.
+    /// [1] Optical depth at which a medium begins to be visible. The first depth is the distance at which the
+    /// medium reaches this optical depth.
     static constexpr double kSeenDepth = 0.01;
     static constexpr int kSteps = 256;
 
@@ -65,7 +65,7 @@ public:
     /// @param hits blobs that the ray meets between its parameters `begin` and `end`
     /// @param detailed object that has traced the same ray; null: blobs are smooth
     /// @param window [pixel] position of the ray in the picture, to the right and upwards
-    /// @param ioShares visible shares by instance; the shares of this ray are added
+    /// @param ioShares visible shares by instance; the shares of the ray are added
     Seen along(const TraceRay& ray, const RayHits& hits, double begin, double end, DetailedRay* detailed,
                const glm::dvec2& window, std::vector<InstanceShare>& ioShares);
 

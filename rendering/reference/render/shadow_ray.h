@@ -1,5 +1,5 @@
 /// @file shadow_ray.h
-/// Computes the attenuation of light on its way to a point, by the medium and the triangles of a scene.
+/// Computes the attenuation of light by the medium and the triangles of a scene, between a light and a point.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -10,8 +10,8 @@
 
 namespace fx::render {
 
-/// Computes the attenuation along shadow rays. Each thread needs its own object, because memory is kept from
-/// ray to ray.
+/// Computes the attenuation along shadow rays. Each thread needs its own object, because rays share scratch
+/// memory.
 class ShadowRay
 {
 public:
@@ -41,7 +41,8 @@ public:
     double toSurface(const TraceRay& ray) { return opaque_.distance(ray, hits_); }
 
 private:
-    /// Tolerance for media with detail. It is large, because each result is a mean over many shadow rays.
+    /// Tolerance for media with detail. A large value suffices, because each result is a mean over many
+    /// shadow rays.
     static constexpr double kDetailTolerance = 0.01;
 
     const MediumView& medium_;

@@ -2,9 +2,9 @@
 /// Stores finished tiles of a picture in a file next to the picture, so that a killed render can be
 /// continued.
 ///
-/// The file has a header, then one record per tile in the order of completion: number, checksum, floats, in
-/// the byte order of the machine. A killed process leaves at most one incomplete record, which the next
-/// open() removes. Threads: any thread may call append().
+/// The file has a header, then one record per finished tile. A record has the tile number, a checksum and the
+/// values, in the byte order of the machine. A killed process leaves at most one incomplete record, which the
+/// next open() removes. Threads: any thread may call append().
 #pragma once
 
 #include "foundation/result/status.h"
@@ -32,15 +32,16 @@ public:
     TileJournal& operator=(const TileJournal&) = delete;
 
     /// Begins a new journal and replaces an existing one.
-    /// @return Io if the file cannot be written, or if another TileJournal has opened it; then it is not
-    ///         changed
+    /// @return Io if the file cannot be written, or if another TileJournal has opened it. In the second case
+    ///         the file is not changed
     base::Status start();
     /// Continues an existing journal, or begins one if there is none.
-    /// @return InvalidArgument if the file belongs to another picture; then it is not changed. Io as for
-    ///         start()
+    /// @return InvalidArgument if the file belongs to another picture; the file is then not changed. Io for
+    /// the
+    ///         reasons given at start()
     base::Status resume(const Restore& restore);
-    /// Adds a finished tile. After a failure, the journal ends with the last complete tile, and no more tiles
-    /// are added.
+    /// Adds a finished tile. After a failure, the journal ends with the last complete tile, and further calls
+    /// add no tiles.
     base::Status append(uint32_t tile, std::span<const float> values);
     /// Deletes the journal. Must be called when the picture has been written.
     void remove();

@@ -23,7 +23,7 @@ enum class ScatteringMode : uint8_t
 {
     None,
     Centers, ///< uses the illumination at the centers of blobs, see blob_light.h
-    /// uses shadow rays from points along each ray, see scattered_light.h; surfaces also have shadow rays
+    /// uses shadow rays from points along each ray, see scattered_light.h, and shadow rays from surfaces
     Single
 };
 
@@ -36,13 +36,13 @@ struct ReferenceSettings
     double exposure = 1.0; ///< [m2/cd] exposure: written value divided by luminance
     bool isSingle = false; ///< true: integrate in float instead of double
     ScatteringMode scattering = ScatteringMode::None;
-    /// Number of rings of directions, 1..64: ScatteringMode::Single samples the sky in 4 skyRings^2
-    /// directions.
+    /// Number of rings of directions in each hemisphere, 1..64. ScatteringMode::Single samples the sky in 4
+    /// skyRings^2 directions.
     int skyRings = 3;
     IntegralSettings integral;
     /// [1] tolerance e of formula detailed-ray-integral, 1e-6..0.1
     double detailTolerance = 1e-3;
-    bool outputs = false; ///< true: also compute the channels from reference_channel::InstanceId on
+    bool outputs = false; ///< true: also compute reference_channel::InstanceId and the channels after it
     ReferencePast past;   ///< camera and time of the previous frame, for motion
 
     uint32_t channels() const;
@@ -52,7 +52,7 @@ struct ReferenceSettings
 namespace reference_channel {
 enum : uint32_t
 {
-    Color, ///< RGBA, linear and exposed; A is 1 in front of opaque surfaces, otherwise the medium's opacity
+    Color, ///< RGBA, linear and exposed; A is 1 in front of opaque surfaces, else the medium's opacity
     Background = 4, ///< RGBA of the opaque scene
     Fire = 8,       ///< RGBA premultiplied
     Smoke = 12,
@@ -60,7 +60,8 @@ enum : uint32_t
     Depth = 20,   ///< [m] mean distance of the visible medium, +infinity without medium
     OpticalDepth, ///< [1] optical depth of the medium
     Count,
-    /// [1] MediumBlob::instance of the instance with the largest share, exact below 2^24; 0 without medium.
+    /// [1] MediumBlob::instance of the instance with the largest part of the opacity, exact below 2^24; 0
+    /// without medium.
     InstanceId = Count,
     MotionX,    ///< [pixel] motion to the right since the previous frame
     MotionY,    ///< [pixel] motion upwards since the previous frame
@@ -74,7 +75,7 @@ inline uint32_t ReferenceSettings::channels() const
     return outputs ? reference_channel::CountWithOutputs : reference_channel::Count;
 }
 
-/// Data shared by all tiles. It is built once, then read by all threads.
+/// Data shared by all tiles. The data are built once. Then all threads read the data.
 struct ReferencePicture
 {
     ReferenceSettings settings;
@@ -102,7 +103,8 @@ public:
     ~TileRenderer();
 
     /// Writes ReferenceSettings::channels() floats for each pixel of `block`, row by row from the top.
-    /// @param shouldStop called repeatedly between rays; rendering stops when it returns true; may be empty
+    /// @param shouldStop function that is called repeatedly between rays. Rendering stops when the function
+    ///         returns true. May be empty
     /// @return false if rendering was stopped; `out` is then invalid
     bool render(const PixelBlock& block, std::span<float> out, const std::function<bool()>& shouldStop);
 
@@ -126,7 +128,7 @@ private:
     std::unique_ptr<BundleIntegrator> integrator_;
     SeenDepth seenDepth_;
     SeenOutputs seenOutputs_;
-    std::vector<InstanceShare> pixelShares_; ///< scratch
+    std::vector<InstanceShare> pixelShares_; ///< scratch memory
     DetailedRay detailed_;
     ScatteredLight scattered_;
     SurfaceLight surfaceLight_;

@@ -14,12 +14,14 @@
 
 namespace fx::render {
 
-/// Callbacks of a long render. They are called from any thread.
+/// Callbacks of a long render. Any thread may call the callbacks.
 struct RenderCallbacks
 {
-    /// Receives the numbers of finished tiles and of all tiles; one call at a time; may be empty.
+    /// Receives the number of finished tiles and the number of all tiles. Calls do not overlap. The function
+    /// may be empty.
     std::function<void(uint32_t done, uint32_t total)> progress;
-    /// Returns true to stop rendering. It is called often, by several threads at once; may be empty.
+    /// Returns true to stop rendering. Several threads call the function often and at the same time. It may
+    /// be empty.
     std::function<bool()> shouldStop;
 };
 
@@ -27,7 +29,7 @@ class TiledPicture
 {
 public:
     /// A function that renders the pixels of `block`, row by row from the top, with all channels of a pixel
-    /// together. It is called by several threads.
+    /// together. Several threads call the function at the same time.
     /// @return false if rendering was stopped; `out` is then not used
     using RenderTile = std::function<bool(const PixelBlock& block, std::span<float> out)>;
 
@@ -36,8 +38,8 @@ public:
     void start(int width, int height, int edge, uint32_t channels);
     uint32_t tileCount() const { return tilesX_ * tilesY_; }
 
-    /// Sets the values of a tile that an earlier run has rendered. They are ignored if tile number or length
-    /// are invalid.
+    /// Sets the values of a tile that an earlier run has rendered. The values are ignored if their number or
+    /// the tile number is invalid.
     void restore(uint32_t tile, std::span<const float> values);
     /// Renders the missing tiles.
     /// @param journal receives each finished tile; may be null
@@ -47,7 +49,7 @@ public:
 
     /// The values of one channel, width x height, top row first.
     const std::vector<float>& pixels(uint32_t channel) const { return planes_[channel]; }
-    /// The values of the four channels from `first` on, interleaved by pixel.
+    /// The values of four channels, interleaved by pixel. `first` is the first channel.
     std::vector<float> interleaved(uint32_t first) const;
 
 private:

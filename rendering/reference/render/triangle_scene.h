@@ -1,5 +1,5 @@
 /// @file triangle_scene.h
-/// Computes the intersection of rays with opaque triangles, and their occlusion.
+/// Computes the intersection of rays with opaque triangles, and the occlusion by triangles.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"
@@ -15,7 +15,8 @@
 
 namespace fx::render {
 
-/// Triangles with a diffuse color per vertex; each has three vertices of its own. The caller owns the arrays.
+/// Triangles with a diffuse color per vertex; each triangle has three vertices of its own. The caller owns
+/// the arrays.
 struct OpaqueMesh
 {
     glm::dvec3 origin{0.0};               ///< [m] world position to which the vertices are relative
@@ -35,8 +36,8 @@ struct SurfaceHit
     bool isHit() const { return distance < std::numeric_limits<double>::infinity(); }
 };
 
-/// [1] Rays that leave a surface begin above it, at this factor times the distance of the surface from the
-/// previous origin.
+/// [1] Height above a surface at which rays that leave the surface begin, divided by the distance of the
+/// surface from the previous origin.
 constexpr double kSurfaceLift = 1e-6;
 
 /// Interpolates an attribute of the vertices at `hit`.
@@ -57,11 +58,11 @@ public:
     bool empty() const { return tree_.count() == 0; }
     const BallTree& tree() const { return tree_; }
 
-    /// The nearest intersection after the ray parameter `begin` with those triangles whose balls are in
-    /// `hits`. Triangles are two-sided.
+    /// The nearest intersection after the ray parameter `begin` with the triangles whose balls are in `hits`.
+    /// Triangles are two-sided.
     SurfaceHit nearest(const TraceRay& ray, const RayHits& hits, double begin) const;
     /// The nearest intersection of a ray with all triangles.
-    /// @param scratch memory that is overwritten, and kept from call to call
+    /// @param scratch memory that is overwritten; reuse it for further calls
     SurfaceHit trace(const TraceRay& ray, double begin, RayHits& scratch) const;
 
 private:
@@ -73,7 +74,7 @@ private:
     void meet(const Triangle& triangle, const TraceRay& ray, double begin, SurfaceHit& io) const;
 
     BallTree tree_;
-    std::vector<Triangle> triangles_; ///< triangles in the order of the mesh, without degenerate ones
+    std::vector<Triangle> triangles_; ///< triangles in the order of the mesh, without degenerate triangles
 };
 
 } // namespace fx::render

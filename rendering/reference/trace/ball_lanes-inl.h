@@ -1,6 +1,7 @@
 /// @file ball_lanes-inl.h
-/// Intersection of rays and balls with SIMD vectors; all tests of rays against balls use it. Included once
-/// for each instruction set. Operations are not fused, so all instruction sets give the same bits.
+/// Intersection of rays and balls with SIMD vectors; all tests of rays against balls use this code. The file
+/// is included once for each instruction set. Operations are not fused, so all instruction sets give the same
+/// bits.
 #if defined(FX_BALL_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_BALL_LANES_INL
 #undef FX_BALL_LANES_INL
@@ -40,7 +41,7 @@ HWY_INLINE uint32_t lastBit(uint32_t bits)
     return 31u - uint32_t(__builtin_clz(bits));
 }
 
-/// Converts a mask to bits: bit k is lane k.
+/// Converts a mask to bits. Bit k belongs to lane k.
 template <class Tag>
 HWY_INLINE uint32_t bitsOf(Tag tag, hn::Mask<Tag> mask)
 {
@@ -57,7 +58,7 @@ HWY_INLINE hn::Mask<PlaceTag> placeMask(DoubleMask mask)
     return hn::LoadMaskBits(PlaceTag(), bits);
 }
 
-/// Stores the selected lanes contiguously. Memory behind them may be overwritten.
+/// Stores the selected lanes contiguously. Memory behind the stored values may be overwritten.
 template <class Tag, class T>
 HWY_INLINE void storeSelected(Tag tag, hn::Vec<Tag> v, hn::Mask<Tag> selected, T* to)
 {
@@ -170,7 +171,7 @@ inline void cutHits(double begin, double end, RayHits& io)
 }
 
 /// Computes the entry points of hits, and removes hits that lie completely before `begin` or after `end`.
-/// Square roots dominate the cost; they are computed for hits only.
+///
 HWY_INLINE void finishHits(double begin, double end, RayHits& io)
 {
     const DoubleTag tag;

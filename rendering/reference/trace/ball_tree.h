@@ -3,10 +3,10 @@
 /// of rays intersects.
 ///
 /// Balls are sorted along a Hilbert curve. Eight balls form a leaf, and eight boxes form a node, up to one
-/// root. It is a packed tree [KF93] with implicit indices: it needs no pointers, and every level is built in
-/// parallel. Balls of different size are in different parts of the order, because one large ball among small
-/// ones would enlarge their box. Building needs one sort and one pass over the balls. The result has the same
-/// bits for any number of workers.
+/// root. The tree is packed [KF93]: child indices are implicit, so that no pointers are stored. Every level
+/// is built in parallel. Balls of different size are in different parts of the order, because one large ball
+/// among small balls would enlarge the box of the small balls. Building needs one sort and one pass over the
+/// balls. The result has the same bits for any number of workers.
 ///
 /// Threads: one thread at a time may call build(); any thread may call const functions.
 #pragma once
@@ -43,7 +43,8 @@ public:
         double radius[kWidth]; ///< [m]
     };
 
-    /// Boxes of eight children, enlarged slightly, so that rounding in float never misses an intersection.
+    /// Boxes of eight children. The boxes are slightly enlarged, so that rounding in float never causes a
+    /// missed intersection.
     struct alignas(64) Node
     {
         float center[3][kWidth]; ///< [m] center relative to the tree's origin
@@ -62,7 +63,7 @@ public:
     uint32_t ballAt(uint32_t place) const { return order_[place].index; }
     std::span<const Leaf> leaves() const { return leaves_; }
     /// Number of levels; 0 without balls. The highest level has one node. Child k of node i is node 8 i + k
-    /// one level lower; on level 0 it is leaf 8 i + k.
+    /// one level lower. On level 0, the child is leaf 8 i + k.
     uint32_t levels() const { return uint32_t(levelBegin_.size()); }
     const Node& node(uint32_t level, uint32_t index) const { return nodes_[levelBegin_[level] + index]; }
 

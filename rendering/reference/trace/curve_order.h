@@ -1,5 +1,6 @@
 /// @file curve_order.h
-/// Sorts balls along a Hilbert curve, so that neighbors in the list are near each other in space.
+/// Sorts balls along a Hilbert curve, so that balls that follow each other in the list are near each other in
+/// space.
 #pragma once
 
 #include "foundation/tasks/task_runner.h"
@@ -47,8 +48,9 @@ struct KeyedIndex
     uint32_t index;
 };
 
-/// Sorts by key. Equal keys keep their order, so that the result does not depend on the number of workers.
-/// @param scratch memory that is overwritten; it gets the same length
+/// Sorts by key. The order of equal keys does not change, so that the result does not depend on the number of
+/// workers.
+/// @param scratch memory that is overwritten and resized to the length of `io`
 void sortByKey(std::vector<KeyedIndex>& io, std::vector<KeyedIndex>& scratch, base::TaskRunner& tasks);
 
 } // namespace fx::render

@@ -9,8 +9,8 @@
 
 namespace fx::render {
 
-/// A ray. Its parameter is the distance from the origin. Coordinates are those of the tree through which it
-/// is traced.
+/// A ray. Its parameter is the distance from the origin. The ray and the tree through which it is traced use
+/// the same coordinates.
 struct TraceRay
 {
     glm::dvec3 origin;    ///< [m]

@@ -14,11 +14,11 @@ namespace fx::render {
 class RayHits
 {
 public:
-    static constexpr size_t kSlack = 8; ///< number of entries behind the last one that may be overwritten
+    static constexpr size_t kSlack = 8; ///< number of entries behind the last entry that may be overwritten
 
     size_t size() const { return size_; }
     void clear() { size_ = 0; }
-    /// Makes room for `more` further entries and for kSlack entries behind them.
+    /// Reserves memory for `more` additional entries plus kSlack entries.
     void reserve(size_t more)
     {
         if (size_ + more + kSlack > place.size())
@@ -28,7 +28,7 @@ public:
     /// Sorts by `enter`, then by `place`, so that the result does not depend on the order of insertion.
     void sort();
 
-    /// [m] Ray parameter at which the ray enters the ball; may be before the ray's begin.
+    /// [m] Ray parameter at which the ray enters the ball; may be before the beginning of the ray.
     std::vector<double> enter;
     std::vector<double> nearest;     ///< [m] ray parameter of the point nearest to the ball's center
     std::vector<double> chordSquare; ///< [m2] square of half the chord, > 0

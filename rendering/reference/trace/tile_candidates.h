@@ -1,6 +1,7 @@
 /// @file tile_candidates.h
 /// Candidate balls of all rays of a tile. A large tile traverses the tree. Smaller tiles filter the list of
-/// the large tile. A ray is tested against the list of its tile. Lists are in the order of the tree.
+/// candidates of the large tile. A ray is tested against the list of its tile. Lists are in the order of the
+/// tree.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"
@@ -13,7 +14,7 @@
 namespace fx::render {
 
 /// The candidates of a tile, as columns that are padded after size() with entries that no ray hits. The
-/// memory is kept from tile to tile.
+/// memory is reused for the next tile.
 class TileCandidates
 {
 public:
@@ -26,7 +27,7 @@ public:
     ///
     /// A ray meets a ball if the distance of the center from the ray is less than the radius, and if the ray
     /// neither leaves the ball before `begin` nor enters it after `end`. See formula ball-chord. All
-    /// instruction sets give the same bits. Any thread may call this.
+    /// instruction sets give the same bits. Any thread may call this function.
     void hits(const TraceRay& ray, double begin, double end, RayHits& out) const;
 
     size_t size() const { return size_; }

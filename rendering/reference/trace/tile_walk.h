@@ -1,6 +1,6 @@
 /// @file tile_walk.h
 /// Visits all rays of a part of a picture, each with the balls that it meets. Large tiles find candidates in
-/// the tree, and smaller tiles filter the candidates of larger ones.
+/// the tree, and smaller tiles filter the candidates of larger tiles.
 #pragma once
 
 #include "rendering/reference/trace/tile_candidates.h"
@@ -18,21 +18,21 @@ struct PixelBlock
     int x0, y0, x1, y1;
 };
 
-/// Begin and end of rays.
+/// Beginning and end of rays.
 struct RayLimits
 {
-    double nearDepth = 0.0; ///< [m] begin of rays, as a distance along the view axis
+    double nearDepth = 0.0; ///< [m] beginning of rays, as a distance along the view axis
     double farthest = std::numeric_limits<double>::infinity(); ///< [m] end of rays, as a ray parameter
 };
 
-/// Visits the rays of a block of pixels. Memory is kept from call to call. Each thread needs its own object.
+/// Visits the rays of a block of pixels. Memory is reused in further calls. Each thread needs its own object.
 class TileWalk
 {
 public:
     static constexpr int kLargest = 32; ///< [pixel] side of the tiles that find their candidates in the tree
 
     /// Divides `block` into blocks of at most `edge` x `edge` pixels, and calls leaf(block, candidates) once
-    /// for each. Candidates are all balls that rays through the area of the block can meet.
+    /// for each small block. Candidates are all balls that rays through the area of the block can meet.
     /// @param edge [pixel] a power of two, at most kLargest
     template <class Leaf>
     void visit(const BallTree& tree, const RayGrid& grid, const PixelBlock& block, double farthest, int edge,

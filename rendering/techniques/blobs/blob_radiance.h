@@ -17,8 +17,8 @@ glm::vec3 blobSource(const base::SnapshotGroup& group, size_t ball);
 float blobArea(float crossSection, float radius);
 
 /// Intensity of the group, as a mean over all directions, by equations (2) to (4) of formula light-of-media.
-/// It includes the occlusion of balls by each other, and detail. Equal input gives equal bits. If the balls
-/// move smoothly, the intensity changes smoothly.
+/// The intensity includes the occlusion of balls by each other, and detail. Equal input gives equal bits. If
+/// the balls move smoothly, the intensity changes smoothly.
 /// @param group index of a group of the kind "blob"
 /// @return [cd] in the space of the group: not multiplied by the square of its scale
 glm::vec3 blobIntensity(const base::FrameSnapshot& snapshot, size_t group);

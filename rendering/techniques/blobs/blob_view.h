@@ -42,14 +42,14 @@ private:
     GlDevice& device_;
     FrameBuilder builder_;
     BlobSource blobs_;
-    BlobSource takenBlobs_; ///< source of the blobs of those impostors that are rendered in this frame
+    BlobSource takenBlobs_; ///< source of the blobs of the impostors that are rendered in this frame
     DrawBatch takenBatch_;
     ImpostorSource impostors_;
     GlBuffer blobBuffer_;  ///< buffer of blobs; persistent, so that the next frame can reuse its content
-    GlBuffer lightBuffer_; ///< buffer of the lights of blobs; also persistent
+    GlBuffer lightBuffer_; ///< buffer of the lights of blobs; persistent, like `blobBuffer_`
     GlBuffer impostorBuffer_;
     GlTexture impostorAtlas_;      ///< created when the first impostor is rendered
-    bool isKept_ = false;          ///< true: lists and buffers are those of the last frame
+    bool isKept_ = false;          ///< true: lists and buffers are unchanged since the last frame
     uint32_t blobsUnused_ = 0;     ///< consecutive frames without blobs
     uint32_t impostorsUnused_ = 0; ///< consecutive frames without impostors
     uint32_t restingFrames_ = 0;   ///< number of consecutive calls of rest()

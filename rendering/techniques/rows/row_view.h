@@ -1,6 +1,6 @@
 /// @file row_view.h
 /// All rows of particles of one view. Techniques with a RowTechnique share this state, so that their groups
-/// share batches, orders and buffers.
+/// share batches, sort orders and buffers.
 #pragma once
 
 #include "rendering/particle_rows/group_merger.h"

@@ -1,5 +1,5 @@
 /// @file birth_log.h
-/// Birth ticks of particles, stored as runs of evenly spaced births instead of one entry per birth.
+/// Birth ticks of particles. The log stores runs of evenly spaced births instead of one entry per birth.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -17,7 +17,8 @@ __extension__ typedef __int128 WideInt; ///< integer that can hold the product o
 /// integer that can hold the product of a 96-bit fraction and 2^32
 __extension__ typedef unsigned __int128 WideWord;
 
-/// Receives births from BirthSchedule in the order of their indices. Keeps the births of a window of time.
+/// Receives births from BirthSchedule in the order of their indices. The log has the births of a window of
+/// time.
 class BirthLog
 {
 public:
@@ -33,7 +34,7 @@ public:
     /// Removes runs of births that ended before `tick`, and advances front().
     void forget(base::Ticks tick);
 
-    uint64_t front() const { return front_; } ///< index of the oldest birth that is kept
+    uint64_t front() const { return front_; } ///< index of the oldest birth in the log
     uint64_t next() const { return next_; }
     bool empty() const { return front_ == next_; }
     size_t runs() const { return runs_.size(); }
@@ -45,8 +46,8 @@ public:
     void publish(base::Ticks now, std::span<base::GpuBirthRun> out) const;
 
 private:
-    /// A run of births. Birth number j of the run has the tick: tick + j * stride + the whole part of (rest +
-    /// j * fraction), with rest and fraction in units of 2^-96.
+    /// A run of births. The tick of birth j of the run is tick + j * stride + floor(rest + j * fraction). The
+    /// unit of rest and fraction is 2^-96.
     struct Run
     {
         uint64_t first;
@@ -56,7 +57,7 @@ private:
         WideWord fraction;
         WideWord rest;
 
-        // Parameters of the run, to detect whether births continue unchanged. rate 0: a burst.
+        // Parameters of the run, to detect whether births continue unchanged. The rate of a burst is 0.
         base::Ticks begin;
         WideInt sought, one, rate;
 

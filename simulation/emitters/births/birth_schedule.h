@@ -51,7 +51,7 @@
 
 namespace fx::sim {
 
-/// Number of births of a step. The stored births are the first ones of the step.
+/// Number of births of a step. The stored births are the first births of the step.
 struct BirthCount
 {
     uint64_t total = 0;
@@ -62,12 +62,12 @@ struct BirthCount
 struct BirthWindow
 {
     base::Ticks begin;
-    base::Ticks end;      ///< end of the interval, at which the next window begins
+    base::Ticks end;      ///< end of the interval and beginning of the next window
     double intensity = 1; ///< factor on rate and burst counts
     bool emitting = true; ///< false: births of the window are discarded
 };
 
-/// Evenly spaced births at a constant rate, computed without division: (4) of birth-ticks.
+/// Evenly spaced births at a constant rate. Equation (4) of birth-ticks computes the births without division.
 struct EvenBirths
 {
     base::Ticks tick = kForever; ///< tick of the next birth
@@ -87,8 +87,8 @@ struct EvenBirths
     }
 };
 
-/// Rate and bursts of one emitter, advanced window by window without gaps. Births at the same tick are
-/// ordered: bursts by declaration, then the rate.
+/// Rate and bursts of one emitter, advanced window by window without gaps. At the same tick, births of bursts
+/// come before births of the rate. Bursts are in the order of declaration.
 class BirthSchedule
 {
 public:
@@ -96,18 +96,18 @@ public:
     /// @param emission births; `start` delays rate and bursts, and endless bursts end with the duration
     BirthSchedule(const Emission& emission, std::pmr::memory_resource* memory);
 
-    /// Sets the random phase. Called before the first advance.
+    /// Sets the random phase. Must be called before the first advance().
     void setPhase(float phase);
-    /// Sets the random key of bursts with a probability below 1. Called before the first advance.
+    /// Sets the random key of bursts with a probability below 1. Must be called before the first advance().
     void setSeed(uint64_t seed, uint32_t solverIndex);
-    /// Sets the log to which all births at constant rates are added; null for none. The log must outlive its
-    /// use.
+    /// Sets the log to which all births at constant rates are added; null: no log. The log must outlive the
+    /// schedule.
     void setLog(BirthLog* log) { log_ = log; }
-    /// Writes all births of the window to `out`, in order. Births that do not fit are counted, and each uses
-    /// up an index.
+    /// Writes all births of the window to `out`, in order. Births that do not fit are counted, and their
+    /// indices are not reused.
     BirthCount advance(const BirthWindow& window, std::span<Birth> out);
-    /// As the function above, but passes births to `take` whenever `room` is full and at the end of the
-    /// window, up to `most` births.
+    /// Passes up to `most` births of the window to `take`. The function calls `take` whenever `room` is full,
+    /// and at the end of the window.
     /// @param take called as take(std::span<const Birth>)
     template <class Take>
     BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, Take&& take)
@@ -118,9 +118,10 @@ public:
         base::Ticks end;
         return advanceTo(window, {room, most, call, &take}, end);
     }
-    /// As the function above, but stops after about `wanted` births, at least one.
-    /// @param outReached begin of the next window: the end of this one or earlier, possibly between births of
-    ///          the same tick
+    /// Passes births of the window to `take`, and stops after about `wanted` births, at least one.
+    /// @param outReached beginning of the next window. The time is at or before the end of this window, and
+    /// may
+    ///         be between two births of the same tick
     template <class Take>
     BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, uint64_t wanted,
                        base::Ticks& outReached, Take&& take)
@@ -130,27 +131,27 @@ public:
         };
         return advanceTo(window, {room, most, call, &take, wanted}, outReached);
     }
-    /// Local time before which there are no births, as long as the conditions of the last window do not
-    /// change; 0 when unknown. Windows up to that time may be skipped.
+    /// Local time before which there are no births if the conditions of the last window do not change; 0 if
+    /// unknown. Windows up to this time may be skipped.
     base::Ticks quietUntil() const { return quiet_.until; }
-    /// Skips windows up to `tick`; does nothing when the schedule has passed `tick` already.
+    /// Skips windows up to `tick`. Has no effect if the schedule has already passed `tick`.
     void passTo(base::Ticks tick)
     {
         if (tick > quiet_.to && tick <= quiet_.until)
             quiet_.to = tick;
     }
-    /// All births from `tick`, the end of the last window, until end(), as long as the host's parameters do
-    /// not change. Empty unless births then have a constant rate of at least 1e-3 /s.
+    /// All births from `tick` until end(), if the host's parameters do not change. `tick` must be the end of
+    /// the last window. There is no value unless the births have a constant rate of at least 1e-3 [1/s].
     std::optional<EvenBirths> evenBirths(base::Ticks tick, double intensity, bool emitting) const;
     base::Ticks end() const { return end_; } ///< end of the rate
-    /// Whether there are no births from `tick` on.
+    /// True if there are no births at or after `tick`.
     bool exhausted(base::Ticks tick) const;
-    /// Lower bound of the time of the next birth after `tick`, the end of the last window, as long as the
-    /// host's parameters do not change.
+    /// Lower bound of the time of the next birth after `tick`, if the host's parameters do not change. `tick`
+    /// must be the end of the last window.
     base::Ticks quietUntil(base::Ticks tick, double intensity, bool emitting) const;
 
-    /// Saves the progress of births; rate and bursts belong to the definition.
-    /// @param now windows up to this tick were skipped, as by passTo()
+    /// Saves the progress of births. Rate and bursts are not saved, because they belong to the definition.
+    /// @param now windows up to this tick count as skipped, see passTo()
     void save(StateWriter& writer, base::Ticks now = 0) const;
     void restore(StateReader& reader);
 
@@ -163,7 +164,7 @@ private:
         uint32_t count;
         float probability;
         uint64_t next = 0;  ///< index of the next cycle
-        uint32_t given = 0; ///< number of births of the next cycle that have been passed on
+        uint32_t given = 0; ///< number of births of the next cycle that are already done
 
         base::Ticks nextTick() const
         {
@@ -174,10 +175,10 @@ private:
     struct Piece
     {
         base::Ticks begin, end;
-        WideInt rate;  ///< q
-        WideInt slope; ///< m
+        WideInt rate;  ///< symbol q of the formula
+        WideInt slope; ///< symbol m of the formula
 
-        WideInt sum(base::Ticks n) const; ///< S
+        WideInt sum(base::Ticks n) const; ///< symbol S of the formula
         base::Ticks tickOf(WideInt sum) const;
     };
     /// Destination of births.
@@ -192,29 +193,29 @@ private:
     };
     struct Writer;
 
-    /// Windows without births that have been skipped and not yet been added to the progress.
+    /// Skipped windows without births, which are not yet added to the progress.
     struct Quiet
     {
         base::Ticks from = 0;
         base::Ticks to = 0;    ///< the windows cover [from, to)
-        base::Ticks until = 0; ///< no births before this time under the same conditions
+        base::Ticks until = 0; ///< no births before this time if the conditions do not change
         double intensity = 0;
         bool emitting = false;
-        WideInt rate = 0; ///< q
+        WideInt rate = 0; ///< symbol q of the formula
     };
 
     BirthCount advanceTo(const BirthWindow& window, const Outlet& outlet, base::Ticks& outReached);
     bool staysQuiet(const BirthWindow& window);
     void endQuiet();
     void findQuiet(const BirthWindow& window);
-    WideInt particle() const; ///< D
+    WideInt particle() const; ///< progress per particle, symbol D of the formula
     Piece pieceAt(base::Ticks tick, base::Ticks end, const BirthWindow& window) const;
     base::Ticks giveRate(base::Ticks from, base::Ticks to, const BirthWindow& window, Writer& writer);
     bool giveBurst(ScheduledBurst& burst, const BirthWindow& window, Writer& writer);
     ScheduledBurst* nextBurst(base::Ticks end);
     bool happens(const ScheduledBurst& burst) const;
 
-    Quiet quiet_; ///< first member, because most steps read nothing else
+    Quiet quiet_; ///< first member, because most steps read only this member
     float rate_;
     base::Ticks start_;
     base::Ticks end_;
@@ -223,7 +224,7 @@ private:
     std::pmr::vector<ScheduledBurst> bursts_; ///< in the order of declaration
     uint64_t seed_ = 0;
     uint32_t solverIndex_ = 0;
-    WideInt progress_ = 0; ///< R
+    WideInt progress_ = 0; ///< symbol R of the formula
     uint64_t nextIndex_ = 0;
     BirthLog* log_ = nullptr;
 };

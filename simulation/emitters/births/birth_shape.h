@@ -28,7 +28,7 @@ namespace fx::sim {
 struct BirthPlace
 {
     glm::vec3 position;  ///< [m]
-    glm::vec3 direction; ///< unit
+    glm::vec3 direction; ///< unit vector
 };
 
 /// Computes the initial position and direction of a particle from random numbers.

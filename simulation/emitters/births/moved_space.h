@@ -32,7 +32,7 @@
 
 namespace fx::sim {
 
-/// Linear interpolation by `share`; the bits depend only on the arguments.
+/// Linear interpolation of placements. @param share [1] weight of `to`
 base::Placement between(const base::Placement& from, const base::Placement& to, float share);
 
 class MovedSpace
@@ -40,21 +40,22 @@ class MovedSpace
 public:
     /// Sets the placement at the start of the emitter.
     void begin(const base::Placement& placement);
-    /// Begins a step, at the end of which the instance has moved by `share` of the way to `placement`.
+    /// Begins a step. During the step, the instance moves by the fraction `share` of the way to `placement`.
     void moveTo(const base::Placement& placement, float share = 1.0f);
-    /// Sets the placement without motion in between.
+    /// Sets the placement without motion from the last placement.
     void jumpTo(const base::Placement& placement);
-    /// Whether the placement equals that at the end of the last step.
+    /// True if `placement` equals the placement at the end of the last step.
     bool stands(const base::Placement& placement) const;
 
     const base::Placement& home() const { return home_; }
-    /// Transforms position and velocity of a birth by rate or burst to H, by (1) to (3).
+    /// Transforms position and velocity of a birth by rate or burst to the space H, by equations (1) to (3).
     void carry(float share, float seconds, float inherit, glm::vec3& ioPosition, glm::vec3& ioVelocity) const;
-    /// Transforms a point from the instance's space to H at the begin of the step, by (1) at t = 0.
+    /// Transforms a point from the instance's space to the space H, by equation (1) at the beginning of the
+    /// step.
     glm::vec3 placed(const glm::vec3& point) const;
-    /// Transforms a vector from the instance's space to H at the end of the step, by (3) at t = 1.
+    /// Transforms a vector from the instance's space to the space H, by equation (3) at the end of the step.
     glm::vec3 turned(const glm::vec3& vector) const;
-    /// Rotates a vector from the axes of the world to the axes of H.
+    /// Rotates a vector from the axes of the world to the axes of the space H.
     glm::vec3 fromWorld(const glm::vec3& vector) const { return glm::conjugate(home_.rotation) * vector; }
 
     void save(StateWriter& writer) const;
@@ -73,8 +74,8 @@ private:
 
     base::Placement home_;
     base::Placement last_; ///< placement at the end of the last step
-    Pose begin_;           ///< A
-    Pose end_;             ///< B
+    Pose begin_;           ///< transform to H at the beginning of the step, symbol A of the formula
+    Pose end_;             ///< transform to H at the end of the step, symbol B of the formula
 };
 
 } // namespace fx::sim

@@ -18,14 +18,14 @@ constexpr uint32_t kMinEventBirths = 4096;
 /// Requests for births in one emitter.
 struct EventRequests
 {
-    /// requested births in the order of processing, without those that do not fit
+    /// requested births in the order of processing, without births that exceed the capacity
     std::span<const EventBirth> births;
     uint64_t asked = 0; ///< number of all requested births
 };
 
-/// Keeps for each emitter only as many requests as its capacity allows: the first ones in processing order,
-/// independent of the order of posting. Memory and time are proportional to the capacity. It lives in the
-/// scratch memory of the step. Threads: one at a time.
+/// Stores for each emitter the first requests in processing order, as many as the emitter's capacity allows.
+/// The stored requests do not depend on the order of posting. Memory and time are proportional to the
+/// capacity. The board uses the scratch memory of the step. Threads: one at a time.
 class EventBoard
 {
 public:
@@ -41,7 +41,7 @@ public:
     }
 
     uint64_t number() const { return number_; }
-    /// Strong guarantee.
+    /// Adds a request. Strong guarantee.
     void post(uint32_t target, const EventBirth& birth)
     {
         if (target >= notes_.size() || birth.count == 0)
@@ -64,7 +64,7 @@ public:
     }
 
     /// Sorts the requests for `target` within the work budget. All requests must have been posted.
-    /// @return whether they are sorted
+    /// @return true if all requests for `target` are sorted
     bool order(uint32_t target, base::WorkBudget& work)
     {
         Note& note = notes_[target];
@@ -89,7 +89,7 @@ private:
         std::span<EventBirth> kept; ///< the first `size` elements are a heap, whose front is processed last
         size_t size;
         size_t ordered;  ///< number of requests at the end that are already sorted
-        uint64_t wanted; ///< number of births of the kept requests
+        uint64_t wanted; ///< number of births of the stored requests
         uint64_t asked;  ///< number of births of all posted requests
         uint64_t room;   ///< maximum number of attempted births
 

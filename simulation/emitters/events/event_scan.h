@@ -1,5 +1,5 @@
 /// @file event_scan.h
-/// Finds those events of an emitter's particles in a step to which its rules apply.
+/// Finds the events of an emitter's particles in a step to which the emitter's rules apply.
 ///
 /// @formula particle-event-ticks
 /// The ticks at which a particle is born, reaches an age and dies.
@@ -40,8 +40,8 @@
 
 namespace fx::sim {
 
-/// [1] linear Rec. 709: the color over life of the particle in `row` at `tick`, including inherited color,
-/// without brightness. For a medium: its albedo.
+/// [1, linear Rec. 709] Color over life of the particle in `row` at `tick`, including inherited color,
+/// without brightness. For a medium, the color is the albedo.
 glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
 
 /// Maximum number of contacts of a particle in one step with obstacles, the host's geometry and the ground.
@@ -51,12 +51,12 @@ constexpr uint32_t kMaxParticleContacts = 10;
 class EventInterest
 {
 public:
-    /// Collects the needs of `rules`.
+    /// Determines the events and properties that `rules` need.
     /// @param longest [tick] upper bound of the age of particles
     EventInterest(std::span<const EventRule> rules, base::Ticks longest);
 
     bool in(EventKind kind) const { return kinds_[size_t(kind)]; }
-    bool inColor() const { return colors_; } ///< whether a rule needs the color of the particle
+    bool inColor() const { return colors_; } ///< true: a rule needs the color of the particle
     /// Ages at which rules apply; ascending, without duplicates, at most kMaxEventAges.
     std::span<const base::Ticks> ages() const { return ages_; }
     /// Index in ages() of the first age greater than `age`.
@@ -69,9 +69,9 @@ public:
     {
         return 3 + uint32_t(ages_.size()) + (in(EventKind::Collision) ? kMaxParticleContacts : 0);
     }
-    /// Whether `rule` applies to an event.
+    /// True if `rule` applies to an event.
     bool answers(const EventRule& rule, const ParticleEvent& event) const;
-    /// Whether a rule may apply to the contact.
+    /// True if a rule may apply to the contact.
     bool counts(const TileContact& contact) const
     {
         return contact.speed >= (contact.isLast ? leastLastSpeed_ : leastSpeed_);
@@ -86,8 +86,9 @@ private:
     std::vector<base::Ticks> ages_;
 };
 
-/// Lists of events, one per tile, so that threads do not share lists. Their memory is limited: if many tiles
-/// have many events in one step, some events are dropped, the same ones for any number of threads.
+/// Lists of events, one per tile, so that threads do not share lists. The memory of the lists is limited. If
+/// many tiles have many events in one step, some events are dropped. The dropped events do not depend on the
+/// number of threads.
 class EventRoom
 {
 public:
@@ -106,13 +107,13 @@ struct EventScan
     const ParticleStore& store;
     AppearanceJob job;
     uint32_t emitter;
-    base::Ticks begin; ///< begin of the step
+    base::Ticks begin; ///< beginning of the step
     base::Ticks end;
 
-    /// Finds ages and deaths of particles that are alive at the begin of the step, in the tile at `row`.
+    /// Finds ages and deaths of particles that are alive at the beginning of the step, in the tile at `row`.
     void scanTile(uint32_t row, EventList& out) const;
-    /// Finds all events of a particle that is born in this step, if it has a row.
-    /// @param fed whether its birth was caused by an event
+    /// Finds all events of a particle that is born in this step, if the particle has a row.
+    /// @param fed true: an event caused the birth
     void scanBirth(uint64_t index, bool fed, bool birthOnly, EventList& out) const;
 
 private:

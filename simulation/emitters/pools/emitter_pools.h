@@ -15,8 +15,8 @@ namespace fx::sim {
 struct PoolRequest
 {
     uint32_t user;      ///< see PoolEntry
-    uint64_t step;      ///< number of that step
-    base::Ticks now;    ///< pool's time
+    uint64_t step;      ///< number of the last step of the emitter
+    base::Ticks now;    ///< time of the pool to which the emitter has been stepped
     base::Ticks offset; ///< local time of the emitter minus the time of the pool
 };
 
@@ -30,7 +30,7 @@ class EmitterPools
 public:
     explicit EmitterPools(std::pmr::memory_resource* memory) : memory_(memory) {}
 
-    /// Revision, incremented when a member is added or removed.
+    /// Revision, which is incremented when a member is added or removed.
     uint64_t revision() const { return revision_; }
     bool empty() const { return pools_.empty() || members() == 0; }
     uint32_t members() const;
@@ -39,8 +39,8 @@ public:
     void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
     size_t indexOf(const EmitterPool& pool) const; ///< index among the pools with members
 
-    /// Returns the pool that an emitter may join now: a pool that already has members, or a new one if enough
-    /// emitters request it in this step. Null if there is no such pool, or without memory.
+    /// Returns the pool that an emitter may join now: a pool that already has members, or a new pool if
+    /// enough emitters request a pool in this step. Null if there is no such pool, or if memory is exhausted.
     EmitterPool* offer(const std::shared_ptr<const ParticleProgram>& program, const glm::vec3& pull,
                        uint64_t step);
     /// @param outLeft see EmitterPool::step()

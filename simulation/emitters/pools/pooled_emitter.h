@@ -22,16 +22,17 @@ struct StepCounters;
 class PooledEmitter
 {
 public:
-    /// Joins a pool, which then computes the emitter until it leaves the pool. Meanwhile the emitter is
-    /// neither stepped nor published; all its other functions work as usual. @return whether it has joined
+    /// Joins a pool, which then computes the emitter until leavePool(). Until then, the emitter must not be
+    /// stepped or published. All other functions of the emitter may be called. @return true if the emitter
+    /// has joined a pool
     virtual bool joinPool(EmitterPools& pools, const PoolRequest& request) = 0;
-    /// Copies the state from the pool and leaves it; the emitter is then stepped separately. Does nothing
-    /// without a pool.
+    /// Copies the state from the pool and leaves the pool. The emitter is then stepped separately. Has no
+    /// effect without a pool.
     virtual void leavePool() = 0;
-    virtual const EmitterPool* pool() const = 0; ///< pool that computes the emitter; null for none
+    virtual const EmitterPool* pool() const = 0; ///< pool that computes the emitter; null: no pool
     virtual uint32_t member() const = 0;         ///< number of the emitter in the pool
-    /// As Solver::publish(), but `spawnBatch` may fill the columns later. @return false, without any change,
-    /// if the emitter does not support this
+    /// Publishes like Solver::publish(), but `spawnBatch` may fill the columns later. @return false, without
+    /// any change, if the emitter does not support spawn batches
     virtual bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                                  SpawnBatch& spawnBatch) const = 0;
 

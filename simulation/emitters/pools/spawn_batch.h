@@ -1,7 +1,7 @@
 /// @file spawn_batch.h
-/// Computes births and publications of many small emitters in one batch. Results have the same bits as for
-/// separate emitters. A batch fills the lanes of random-number vectors and shares the fixed cost of a pass
-/// over particles.
+/// Computes births and publications of many small emitters in one batch. Results have the same bits as
+/// without a batch. A batch fills the lanes of random-number vectors and shares the fixed cost of a pass over
+/// particles.
 #pragma once
 
 #include "simulation/emitters/pools/pooled_emitter.h"
@@ -14,33 +14,35 @@
 
 namespace fx::sim {
 
-/// A batch of births and publications of small emitters. Threads: one at a time (the scene thread); large
-/// publications run in parallel on the task runner.
+/// A batch of births and publications of small emitters. Threads: one at a time (the scene thread). Large
+/// publications use the threads of the task runner.
 class SpawnBatch
 {
 public:
     explicit SpawnBatch(std::pmr::memory_resource* memory);
 
     // ---- a step ----
-    /// Largest number of births of one emitter that are deferred. More births fill vectors without a batch.
+    /// Largest number of births of one emitter that are deferred. Larger numbers of births fill vectors
+    /// without a batch.
     static constexpr size_t kMaxDeferredBirths = 256;
-    /// Defers `births` of `emitter`, at most kMaxDeferredBirths and at most its rows, and the end of its
-    /// step. They are executed by close() at the latest.
+    /// Defers `births` and the end of the step of `emitter`. The number of births must not exceed
+    /// kMaxDeferredBirths or the number of rows of the emitter. close() executes the deferred work at the
+    /// latest.
     void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
-    /// Whether the end of the emitter's step is deferred.
+    /// True if the end of the emitter's step is deferred.
     bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
-    /// Discards pending births; called after an exception.
+    /// Discards pending births. For use after an exception.
     void forget();
     /// Computes the deferred births.
     void makeBirths();
-    /// Computes all pending births and ends the steps of their emitters. It must be called before any access
-    /// to these emitters.
+    /// Computes all pending births and ends the steps of their emitters. Must be called before any access to
+    /// these emitters.
     void close();
 
     // ---- a publication ----
     void beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks);
-    /// Adds the last group of the snapshot; its columns and bounds are computed later. @return its job, which
-    /// the caller fills in
+    /// Adds the last group of the snapshot; its columns and bounds are computed later. @return job of the
+    /// group, which the caller fills in
     AppearanceJob& add(base::SnapshotGroup& group)
     {
         if (partCount_ == kMaxParts)
@@ -50,15 +52,14 @@ public:
         part.group = snapshot_->groupCount() - 1;
         return part.job;
     }
-    /// Completes the groups of the publication. @return [unit of base::WorkBudget] work spent
+    /// Completes the groups of the publication. @return [unit of base::WorkBudget] work of the call
     uint64_t endPublication();
 
 private:
-    /// The emitter of a birth.
     struct Owner
     {
         PooledEmitter* emitter;
-        const ParticleProgram* program; ///< null: already computed
+        const ParticleProgram* program; ///< null: the birth is already computed
         uint32_t solver;
     };
     void makeRoom();
@@ -72,8 +73,8 @@ private:
     std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
     StepCounters* counters_ = nullptr;
 
-    /// maximum number of parts that are computed together; they and their inputs fit into the L1 and L2
-    /// caches
+    /// Maximum number of parts that are computed together. The parts and their inputs fit into the L1 and L2
+    /// caches.
     static constexpr size_t kMaxParts = 64;
     std::array<AppearancePart, kMaxParts> parts_;
     size_t partCount_ = 0;

@@ -15,10 +15,10 @@ namespace fx::sim {
 
 enum class ObstacleKind : uint8_t
 {
-    Plane,       ///< plane through `position` with the normal `axis`; matter is below it
+    Plane,       ///< plane through `position` with the normal `axis`; matter is below the plane
     Sphere,      ///< sphere of radius size.x
     Box,         ///< box with the half extents `size`, whose +Y points along `axis`
-    Mesh,        ///< `field`
+    Mesh,        ///< triangle mesh, given by its distance field `field`
     HeightField, ///< height field `heights` above the plane through `position`, without rotation
     Ground,      ///< the instance's ground plane, if enabled
     Scene,       ///< the host's geometry, if set
@@ -28,9 +28,9 @@ enum class ObstacleKind : uint8_t
 
 enum class ContactResponse : uint8_t
 {
-    Bounce, ///< reflected
-    Kill,   ///< dies at the contact
-    Stick,  ///< stays at the contact
+    Bounce, ///< the particle is reflected
+    Kill,   ///< the particle dies at the contact
+    Stick,  ///< the particle stays at the contact
 };
 
 struct CollisionDef
@@ -40,14 +40,15 @@ struct CollisionDef
     glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< direction of the axis, of any length > 0
     glm::vec3 size{1.0f};             ///< [m]
     bool isHollow = false;            ///< for spheres and boxes: true keeps particles inside
-    float margin = 0.0f; ///< [m] distance that particles keep from planes, spheres, boxes, heights and depth
+    float margin = 0.0f; ///< [m] distance that particles keep from planes, spheres, boxes, height fields and
+                         ///< depth surfaces
     float thickness = 0.5f; ///< [m] for ObstacleKind::Depth: assumed thickness of surfaces along the ray
     std::shared_ptr<const DistanceField> field; ///< distance field of the mesh
     std::shared_ptr<const FieldGrid> heights;   ///< [m] heights: one channel, one node along y
 
     ContactResponse response = ContactResponse::Bounce;
-    float restitution = 0.5f; ///< [1] 0..1 share of the normal speed that is kept
-    float friction = 0.0f;    ///< [1] 0..1 share of the tangential speed that is lost
+    float restitution = 0.5f; ///< [1] 0..1 fraction of the normal speed after the contact
+    float friction = 0.0f;    ///< [1] 0..1 fraction of the tangential speed that is lost
 };
 
 } // namespace fx::sim

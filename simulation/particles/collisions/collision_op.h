@@ -1,8 +1,8 @@
 /// @file collision_op.h
 /// Module of a tile that contains all obstacles of an emitter.
 ///
-/// There is one module for all obstacles, because the order of contacts determines the motion, and because
-/// the response to one contact must not push a particle into another obstacle.
+/// All obstacles are in one module, because the order of contacts determines the motion. The response to one
+/// contact must not push a particle into another obstacle.
 #pragma once
 
 #include "simulation/particles/collisions/collision_defs.h"

@@ -1,5 +1,5 @@
 /// @file contact_leg.h
-/// A part of a particle's path in a step, as input of obstacles.
+/// A part of a particle's path in a step, which is tested against obstacles.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,7 +21,7 @@ struct ContactLeg
 struct LegContact
 {
     bool found = false;
-    float share = 1.0f;     ///< [1] share of the leg's duration before the contact
+    float share = 1.0f;     ///< [1] time before the contact divided by the duration of the leg
     glm::vec3 place{0.0f};  ///< [m]
     glm::vec3 normal{0.0f}; ///< unit vector towards the side on which particles may be
 };

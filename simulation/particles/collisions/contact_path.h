@@ -1,5 +1,5 @@
 /// @file contact_path.h
-/// A particle's path through a step with contacts with all obstacles.
+/// Computes the path of a particle in a step, with contacts with all obstacles.
 ///
 /// @formula contact-path
 /// Motion after each contact in a step.
@@ -55,7 +55,8 @@ struct ContactState
     bool isHit = false;
     bool isKilled = false;
     bool isStuck = false;
-    /// [1] share of the step before the first contact, or before the contact that kills the particle
+    /// [1] Time before the first contact divided by the length of the step. For a particle that dies, the
+    /// time before the contact that kills it.
     float contact = 1.0f;
 };
 
@@ -72,7 +73,7 @@ struct ContactList
 /// Follows the path of a particle through a step and responds to its contacts.
 /// @param state state at the end of the step without contacts
 /// @param seconds [s] length of the step, > 0
-/// @param list receives the contacts; null: none are collected
+/// @param list receives the contacts; null: no contacts are collected
 ContactState followPath(std::span<const ObstacleEntry> obstacles, const StepContext& step,
                         const glm::vec3& from, const ContactState& state, float seconds,
                         ContactList* list = nullptr);

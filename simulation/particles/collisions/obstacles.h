@@ -41,13 +41,13 @@ class GpuModules;
 
 namespace fx::sim {
 
-/// An obstacle of particles. Immutable. [any thread]; allocates nothing.
+/// An obstacle of particles. Obstacles are immutable and allocate no memory. [any thread]
 class Obstacle
 {
 public:
     virtual ~Obstacle() = default;
-    /// Whether the obstacle exists in this step; false, for example, if it is the host's geometry and none is
-    /// set.
+    /// True if the obstacle exists in this step. For example, an obstacle of the kind Scene exists only if
+    /// the host has set its geometry.
     virtual bool isThere(const StepContext&) const { return true; }
     virtual Clearance clearance(const StepContext& step, const glm::vec3& p) const = 0;
     virtual LegContact meet(const StepContext& step, const ContactLeg& leg) const = 0;
@@ -56,7 +56,7 @@ public:
     {
         enum Form : uint8_t
         {
-            Everywhere, ///< unbounded
+            Everywhere, ///< the obstacle is unbounded
             Plane,
             Ball
         } form = Everywhere;
@@ -65,18 +65,18 @@ public:
         bool isHollow = false;  ///< true: points inside of the ball may be close to the surface
     };
     virtual Outline outline(const StepContext&) const { return {}; }
-    /// Describes the obstacle for the GPU as GpuModuleSource::describe() does. The numbers of the obstacle
-    /// are followed by its response, restitution and friction.
+    /// Describes the obstacle for the GPU like GpuModuleSource::describe(). Response, restitution and
+    /// friction follow the numbers of the obstacle.
     virtual bool describe(base::GpuModules&) const { return false; }
 };
 
 std::unique_ptr<Obstacle> makeObstacle(const CollisionDef& def);
 
 // Each function has its own file.
-std::unique_ptr<Obstacle> makePlaneObstacle(const CollisionDef& def); ///< Ground as well
+std::unique_ptr<Obstacle> makePlaneObstacle(const CollisionDef& def); ///< for Plane and Ground
 std::unique_ptr<Obstacle> makeSphereObstacle(const CollisionDef& def);
 std::unique_ptr<Obstacle> makeBoxObstacle(const CollisionDef& def);
-std::unique_ptr<Obstacle> makeFieldObstacle(const CollisionDef& def); ///< Mesh, Scene, Hook
+std::unique_ptr<Obstacle> makeFieldObstacle(const CollisionDef& def); ///< for Mesh, Scene and Hook
 std::unique_ptr<Obstacle> makeHeightObstacle(const CollisionDef& def);
 std::unique_ptr<Obstacle> makeDepthObstacle(const CollisionDef& def);
 

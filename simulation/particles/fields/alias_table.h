@@ -27,7 +27,7 @@
 
 namespace fx::sim {
 
-/// Immutable. [any thread]
+/// Draws items with probabilities proportional to their weights. Objects are immutable. [any thread]
 class AliasTable
 {
 public:
@@ -49,8 +49,8 @@ public:
 private:
     struct Row
     {
-        float keep;     ///< [1] q
-        uint32_t alias; ///< a
+        float keep;     ///< [1] probability q
+        uint32_t alias; ///< index a of the alternative item
     };
     std::vector<Row> rows_;
 };

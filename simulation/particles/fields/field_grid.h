@@ -9,7 +9,8 @@
 ///     cell X Y Z          [m] distance between neighboring nodes, > 0
 ///     data                followed by a line feed
 ///     NX * NY * NZ * C binary32 numbers, little endian; channels vary fastest, then x, y, z
-/// The lines of the header have this order. Each ends with a line feed; spaces separate their words.
+/// The lines of the header have this order. Each line ends with a line feed. Spaces separate the words of a
+/// line.
 ///
 /// @formula trilinear-vectors
 /// Values between the nodes of a grid by trilinear interpolation.
@@ -48,7 +49,8 @@ constexpr uint32_t kMaxGridNodesPerAxis = 4096;
 constexpr size_t kMaxGridNodes = size_t(1) << 24;
 constexpr uint64_t kMaxGridBytes = uint64_t(kMaxGridNodes) * 12 + 1024; ///< [byte] maximum size of a file
 
-/// A regular grid of numbers or vectors. Immutable once it is shared. [any thread]
+/// A regular grid of numbers or vectors. A grid must not change after it is shared between threads. [any
+/// thread]
 struct FieldGrid
 {
     glm::uvec3 nodes{1u};

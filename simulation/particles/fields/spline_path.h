@@ -32,21 +32,21 @@ namespace fx::sim {
 
 constexpr size_t kMaxSplinePoints = 256;
 
-/// Immutable. [any thread]
+/// A spline through points. Objects are immutable. [any thread]
 class SplinePath
 {
 public:
     /// Computes a spline through points.
     /// @param points at least two points
-    /// @param isClosed true: the last point is joined to the first
+    /// @param isClosed true: the last point is joined to the first point
     SplinePath(std::span<const glm::vec3> points, bool isClosed);
 
     struct Place
     {
         glm::vec3 position; ///< [m]
-        glm::vec3 tangent;  ///< unit
+        glm::vec3 tangent;  ///< unit vector
     };
-    /// The point at the share `u` in [0, 1) of the total length.
+    /// The point at the arc length u times the total length. @param u 0 <= u < 1
     Place at(float u) const;
     double length() const { return length_.back(); } ///< [m]
 

@@ -23,7 +23,7 @@ struct AttractorConstants
 
     float softening; ///< [m2] square of e
     float reach;     ///< [m2] square of AttractorDef::reach
-    float factor;    ///< S R^n
+    float factor;    ///< product S R^n
 };
 
 /// Constants of formula vortex-air.

@@ -20,25 +20,26 @@ struct GustDef
     float period = 1.0f;      ///< [s] time between two changes of the deviation, > 0
 };
 
-/// Air that rotates about an axis as a Kaufmann (Scully) vortex: its speed is largest at `radius`,
-/// proportional to r far inside and to 1 / r far outside.
+/// Air that rotates about an axis as a Kaufmann (Scully) vortex: the speed is largest at `radius`. The speed
+/// is proportional to the distance r from the axis far inside, and to 1 / r far outside.
 struct VortexDef
 {
     glm::vec3 position{0.0f}; ///< [m] position of a point on the axis
-    /// direction of the axis, of any length > 0; the rotation about it is right-handed
+    /// direction of the axis, of any length > 0; the rotation about the axis is right-handed
     glm::vec3 axis{0.0f, 1.0f, 0.0f};
     float radius = 1.0f; ///< [m] > 0
     float speed = 0.0f;  ///< [m/s] speed of the air at `radius`
     float lift = 0.0f;   ///< [m/s] speed of the air along the axis, at the axis
     float pull = 0.0f;   ///< [m/s] speed of the air towards the axis, at `radius`
-    /// [1] share, 0..1, of the centripetal acceleration that is applied, which keeps a particle on its circle
+    /// [1] Fraction of the centripetal acceleration that is applied, 0..1. With 1, a particle stays on its
+    /// circle.
     float hold = 0.0f;
 };
 
 /// Dependence of an attraction on distance r.
 enum class Falloff : uint8_t
 {
-    Spring,        ///< grows as r
+    Spring,        ///< proportional to r
     Constant,      ///< independent of r
     Inverse,       ///< proportional to 1 / r
     InverseSquare, ///< proportional to 1 / r^2
@@ -52,7 +53,7 @@ struct AttractorDef
     Falloff falloff = Falloff::InverseSquare;
     float softening = 0.0f;  ///< [m] length that keeps the acceleration finite at the center, >= 0
     float reach = 0.0f;      ///< [m] distance beyond which the force is 0; 0: no limit
-    float killRadius = 0.0f; ///< [m] distance within which particles die; 0: none die
+    float killRadius = 0.0f; ///< [m] distance within which particles die; 0: no particles die
 };
 
 struct VectorFieldDef

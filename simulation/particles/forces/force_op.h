@@ -47,8 +47,8 @@ std::unique_ptr<TileOp> makeForceOp(const Def& def, const TileBound& bound,
     return std::make_unique<ForceOp<Def>>(def, bound, describe, kernel);
 }
 
-/// Argument `kernel` of makeForceOp(). It calls an exported kernel, `void FUNCTION(const Def&, Tile&)`,
-/// compiled for the instruction set in use.
+/// Argument `kernel` of makeForceOp(). The macro calls an exported kernel, `void FUNCTION(const Def&,
+/// Tile&)`, which is compiled for the instruction set in use.
 #define FX_FORCE_KERNEL(FUNCTION)                                                                            \
     [](const auto& def, Tile& tile) { HWY_DYNAMIC_DISPATCH(FUNCTION)(def, tile); }
 

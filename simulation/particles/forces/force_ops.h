@@ -1,6 +1,6 @@
 /// @file force_ops.h
-/// The forces of force_defs.h as modules of a tile. Each file of this folder contains the formula of one
-/// force.
+/// Creates tile modules for the forces of force_defs.h. The formula of each force is in its own source file
+/// in this folder.
 #pragma once
 
 #include "simulation/particles/forces/force_defs.h"
@@ -11,7 +11,8 @@
 namespace fx::sim {
 
 std::unique_ptr<TileOp> makeGustOp(const GustDef& def);
-/// Quadratic drag: the acceleration is -q |v - u| (v - u) for a particle of velocity v in air of velocity u.
+/// Quadratic drag. The acceleration is -q |v - u| (v - u), where v is the velocity of the particle and u the
+/// velocity of the air.
 /// @param coefficient [1/m] q, >= 0
 std::unique_ptr<TileOp> makeQuadraticDragOp(float coefficient);
 std::unique_ptr<TileOp> makeVortexOp(const VortexDef& def);

@@ -1,6 +1,6 @@
 /// @file tile_lanes-inl.h
-/// Three-dimensional vectors for as many rows of a tile as the instruction set has lanes. Included once for
-/// each instruction set.
+/// Three-dimensional vectors for as many rows of a tile as the instruction set has lanes. The file is
+/// included once for each instruction set.
 #if defined(FX_TILE_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_TILE_LANES_INL
 #undef FX_TILE_LANES_INL

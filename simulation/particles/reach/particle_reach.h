@@ -17,27 +17,27 @@ namespace fx::sim {
 float reachOf(const EmitterSettings& def, const ReachConditions& conditions, const BirthReach& births,
               std::span<BirthReach> ioOthers);
 
-/// Box that contains everything that is drawn of particles up to the age `seconds`, for all random numbers.
+/// Box that contains all drawn parts of particles up to the age `seconds`, for all random numbers.
 /// @param low, high [m/s2] range of accelerations, component by component
-/// @param secondsBack [s] time since the previous snapshot; particles born since then are drawn at that time
-///          too, at extrapolated positions
+/// @param secondsBack [s] time since the previous snapshot; newer particles are also drawn at the time of the
+///         previous snapshot, at extrapolated positions
 base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const glm::vec3& high,
                          float seconds, float secondsBack);
 
-/// Ranges of conditions, apart from modules, since the birth of the oldest particle.
+/// Ranges of conditions since the birth of the oldest particle, without the conditions of modules.
 struct ConditionsRange
 {
     ReachConditions strongest; ///< strongest conditions, and the duration that they cover
     glm::vec3 low{0.0f}; ///< [m/s2] range of the acceleration by gravity and wind, see AppearanceJob::pull
     glm::vec3 high{0.0f};
-    float lowGround = 0.0f; ///< [m] range of the height of the ground plane, -infinity for none
+    float lowGround = 0.0f; ///< [m] range of the height of the ground plane, -infinity: no ground
     float highGround = 0.0f;
     float secondsBack = kLongestStep; ///< [s] see boundsOfAll()
-    bool meetsGround = false;         ///< whether particles are kept above the ground
-    bool meetsOthers = false;         ///< whether contacts may deflect particles in any direction
+    bool meetsGround = false;         ///< true: the ground stops particles
+    bool meetsOthers = false;         ///< true: contacts may deflect particles in any direction
 };
 
-/// As boundsOfAll(), for particles whose motion is changed by modules; infinite when unknown.
+/// Computes boundsOfAll() for particles whose motion is changed by modules; infinite if no bound is known.
 base::Bounds boundsOfStepped(const EmitterSettings& def, const ConditionsRange& conditions);
 
 } // namespace fx::sim

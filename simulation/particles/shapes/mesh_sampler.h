@@ -37,9 +37,9 @@ struct MeshSampler
 {
     struct Triangle
     {
-        glm::vec3 corner;  ///< [m] a
+        glm::vec3 corner;  ///< [m] corner a
         glm::vec3 side[2]; ///< [m] edges b - a and c - a
-        glm::vec3 normal;  ///< unit
+        glm::vec3 normal;  ///< unit vector
     };
     std::vector<Triangle> triangles;
     AliasTable table;
@@ -55,10 +55,10 @@ struct VolumeSampler
 };
 
 /// Prepares sampling of the triangles of a mesh.
-/// @return the error of checkMesh(), InvalidArgument (no triangle with an area)
+/// @return the error of checkMesh(), or InvalidArgument if all triangles have zero area
 base::Result<std::shared_ptr<const MeshSampler>> makeMeshSampler(const TriangleMesh& mesh);
 /// Prepares sampling of a density.
-/// @return InvalidArgument (not one channel, no density above 0)
+/// @return InvalidArgument if the grid does not have one channel, or has no density above 0
 base::Result<std::shared_ptr<const VolumeSampler>> makeVolumeSampler(const FieldGrid& density);
 
 } // namespace fx::sim

@@ -40,7 +40,7 @@ namespace fx::sim {
 struct ShapePlace
 {
     glm::vec3 position;  ///< [m]
-    glm::vec3 direction; ///< unit
+    glm::vec3 direction; ///< unit vector
 };
 
 /// Computes the initial position and direction of a particle from random numbers.
@@ -55,7 +55,7 @@ double slopeOf(const ShapeDef& def);
 /// Module that samples the shape for many births at once.
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def);
 
-/// Definition of a shape that makeShapeOp() created; null for other shapes.
+/// Definition of a shape that makeShapeOp() created; null for all other shapes.
 const ShapeDef* shapeOf(const ShapeOp& shape);
 
 } // namespace fx::sim

@@ -30,7 +30,7 @@ std::array<BoundaryAxis<T>, 3> boundaryAxes(const Domain& domain)
     return axes;
 }
 
-/// Whether `x` is outside of the domain on this axis.
+/// True if `x` is outside of the domain on this axis.
 template <class T>
 bool hasLeft(const BoundaryAxis<T>& axis, T x)
 {
@@ -39,7 +39,7 @@ bool hasLeft(const BoundaryAxis<T>& axis, T x)
     return x < axis.low || (axis.kind == AxisKind::Periodic ? x >= axis.high : x > axis.high);
 }
 
-/// Moves `x` back into the domain, periodically or by reflection. @return whether the velocity on this axis
+/// Moves `x` back into the domain, periodically or by reflection. @return true if the velocity on this axis
 /// is reversed
 template <class T>
 bool bringBack(const BoundaryAxis<T>& axis, T& x)

@@ -1,5 +1,5 @@
 /// @file dynamics_state.h
-/// State shared by the parts of the gas dynamics. Internal to this folder.
+/// State shared by the parts of the gas dynamics. Only code of this folder uses this header.
 #pragma once
 
 #include "simulation/sph/dynamics/gas_columns.h"
@@ -18,9 +18,9 @@ namespace fx::sim {
 constexpr double kEndless = 1e30; ///< [s] time step of a particle that no criterion limits
 
 /// After heat input or new particles, step criteria underestimate the changes of the flow. Therefore the
-/// first step is shortened by this factor, and each further step may be twice as long. Fitted by the energy
-/// error of a point blast in 24^3 particles with block steps: 1.9e-2 for 1, 5e-3 for 1/2, 3.2e-3 for 1/4,
-/// 3.0e-3 for 1/8.
+/// first step is shortened by this factor, and each further step may be twice as long as the previous step.
+/// The energy error of a point blast in 24^3 particles with block steps is 1.9e-2 for the factor 1, 5e-3 for
+/// 1/2, 3.2e-3 for 1/4 and 3.0e-3 for 1/8.
 constexpr float kFirstSteps = 0.25f;
 
 /// Heat that will be released at a later time.
@@ -29,10 +29,10 @@ struct DelayedHeat
     double seconds; ///< [s] time from the beginning of the next frame to the release
     double joules;
     uint32_t id;
-    uint32_t isGiven; ///< 1 from the release until the end of the frame, otherwise 0
+    uint32_t isGiven; ///< 1 from the release until the end of the frame, else 0
 };
 
-/// Neighbor lists of all particles and their validity. They are kept from frame to frame.
+/// Neighbor lists of all particles and their validity. The lists are reused in the following frames.
 struct ListState
 {
     bool valid = false;
@@ -68,7 +68,7 @@ struct DynamicsState
     DensityRules densityRules;
     ForceRules forceRules;
     double pressureScale = 1; ///< [1] factor of GasDynamics::setPressureScale()
-    double soundScale = 1;    ///< [1] its square root
+    double soundScale = 1;    ///< [1] square root of pressureScale
 
     uint32_t count = 0;
     GasColumns<T> gas;
@@ -76,7 +76,7 @@ struct DynamicsState
     bool fresh = false;          ///< true: some particles have no density yet
     /// true: accelerations are outdated, because the caller changed particles
     bool stale = false;
-    bool shaken = false;    ///< true: heat or particles were added, so the first steps must be short
+    bool shaken = false;    ///< true: the first steps must be short, because heat or particles were added
     bool heatedNow = false; ///< true: heat was released at the present tick
     std::pmr::vector<DelayedHeat> delayed; ///< sorted by time
 
@@ -87,10 +87,11 @@ struct DynamicsState
     NeighborLists<T> lists;
     ListState listState;
     bool listsServeActive = false; ///< true: every active slot has a list
-    /// positions [m] and supports [m] of the last sort, from which it can be repeated
+    /// Positions [m] and supports [m] at the last sort. The sort can be repeated from these values.
     base::Column<T> sortedX, sortedY, sortedZ, sortedSupport;
     base::Column<T> nowX, nowY, nowZ; ///< [m] present positions, from which the tree is refitted
-    /// positions [m] and supports [m] when `listState` was built; meaningful while it is valid
+    /// Positions [m] and supports [m] when the neighbor lists were built; meaningful while the lists are
+    /// valid.
     base::Column<T> listX, listY, listZ, listSupport;
     /// Records of the particles at the present time, as read by the loops over pairs.
     base::Column<GasRecord<T>> records;
@@ -105,7 +106,7 @@ struct DynamicsState
     base::Column<uint32_t> blockCounts; ///< number of active slots in each block of kBlock slots
     base::Column<uint64_t> blockEnds;   ///< [tick] earliest end, after `now`, of a step in each block
     base::Column<T> blockSpeeds;        ///< [1/s2] largest (|v| / H)^2 in each block
-    base::Column<uint64_t> blockNow;    ///< [tick] time that nowX..nowZ of each block refer to
+    base::Column<uint64_t> blockNow;    ///< [tick] time of the positions nowX..nowZ of each block
     base::Column<uint8_t> blockChanged; ///< 1 if steps in the block have changed since the last prediction
     std::atomic<uint64_t> nextEnd{0};   ///< [tick] earliest end of a step after `now`
     double fastest = 0;                 ///< [1/s] largest |v| / H
@@ -126,7 +127,7 @@ struct DynamicsState
     Advance advance;
 };
 
-/// Maximum and minimum of values from several threads; the result does not depend on the order of calls.
+/// Maximum and minimum of values from several threads. The result does not depend on the order of calls.
 template <class N>
 void raiseTo(std::atomic<N>& largest, N value)
 {
@@ -142,7 +143,7 @@ void lowerTo(std::atomic<N>& smallest, N value)
     }
 }
 
-/// [m5/(kg s2)] The quantity p of gas-pair-forces.
+/// [m5/(kg s2)] The quantity p of formula gas-pair-forces.
 template <class T>
 T pushOf(const DynamicsState<T>& s, T correction, T pressure, T density)
 {
@@ -151,10 +152,10 @@ T pushOf(const DynamicsState<T>& s, T correction, T pressure, T density)
     return T(s.pressureScale) * correction * drawn / (density * density);
 }
 
-/// [m] Largest support for which periodic axes and pairs of walls are wide enough.
+/// [m] Largest support that periodic axes and pairs of walls allow.
 double largestInDomain(const GasDynamicsDef& def);
 
-/// number of slots of a block, the unit of sums and searches over all particles
+/// Number of slots of a block. Sums and searches over all particles process one block at a time.
 constexpr uint32_t kBlock = 1024;
 
 /// Makes the next prediction process the block of `slot`. Thread-safe.

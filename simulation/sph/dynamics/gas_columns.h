@@ -12,9 +12,10 @@
 
 namespace fx::sim {
 
-/// All columns of the gas, indexed by slot. During a frame every particle has its own step: velocity and
-/// entropy refer to the middle of the step, the position to the tick `drifted`, and all other columns to
-/// `begin`. Between frames all columns refer to the same time, and the ticks are 0.
+/// All columns of the gas, indexed by slot. During a frame, every particle has its own step. Velocity and
+/// entropy are values at the middle of the step, the position is the value at the tick `drifted`, and all
+/// other columns are values at `begin`. Between frames, all columns are values at one time, and the ticks are
+/// 0.
 template <class T>
 struct GasColumns
 {
@@ -23,7 +24,7 @@ struct GasColumns
     /// Moves the data of index order[slot] to `slot`, for every column.
     void permute(std::span<const uint32_t> order, base::TaskRunner& tasks);
 
-    /// Calls f(column) for every column that is kept from frame to frame.
+    /// Calls f(column) for every column that is preserved between frames.
     template <class F>
     void forEachLasting(F&& f)
     {
@@ -32,22 +33,22 @@ struct GasColumns
             f(*column);
     }
 
-    base::Column<uint32_t> id;   ///< index with which the particle was added; it never changes
+    base::Column<uint32_t> id;   ///< index with which the particle was added; the id never changes
     base::Column<T> x, y, z;     ///< [m]
     base::Column<T> vx, vy, vz;  ///< [m/s]
     base::Column<T> mass;        ///< [kg]
-    base::Column<T> entropy;     ///< K of state-equation
+    base::Column<T> entropy;     ///< entropy function K of formula state-equation
     base::Column<T> ax, ay, az;  ///< [m/s2]
     base::Column<T> entropyRate; ///< [K/s]
     base::Column<T> support;     ///< [m] radius of the kernel's support; 0 before the density is known
     base::Column<T> density;     ///< [kg/m3]
     base::Column<T> correction;  ///< [1] correction f for varying support, see gas-density
     base::Column<T> divergence;  ///< [1/s]
-    /// [1/s] relative rate of decrease of the density, as the density loop computes it
+    /// [1/s] Relative rate of decrease of the density, computed by the density loop.
     base::Column<T> expansion;
-    base::Column<T> divergenceBefore; ///< [1/s] divergence at the evaluation before the last
+    base::Column<T> divergenceBefore; ///< [1/s] divergence at the second-last evaluation
     base::Column<T> curl;             ///< [1/s]
-    base::Column<T> exposure;         ///< [1] exposure, as the density loop computes it
+    base::Column<T> exposure;         ///< [1] exposure, computed by the density loop
     base::Column<T> viscosity;        ///< [1] coefficient alpha of the artificial viscosity
     base::Column<T> limiter;          ///< [1] Balsara limiter of the viscosity
     base::Column<T> pressure, energy; ///< [Pa] pressure; [J/kg] thermal part of the internal energy
@@ -57,8 +58,8 @@ struct GasColumns
     base::Column<T> heatToEntropy;    ///< change of the entropy function K per heat
     base::Column<T> wantedStep;       ///< [s] longest step that the particle and its neighborhood allow
 
-    base::Column<uint64_t> begin, end; ///< [tick] begin and end of the particle's step
-    base::Column<uint64_t> drifted;    ///< [tick] time that the position refers to
+    base::Column<uint64_t> begin, end; ///< [tick] beginning and end of the particle's step
+    base::Column<uint64_t> drifted;    ///< [tick] time of the position
     base::Column<uint8_t> level;       ///< binary logarithm of the length of the step in ticks
 
 private:

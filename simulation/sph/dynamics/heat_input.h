@@ -6,8 +6,8 @@
 
 namespace fx::sim {
 
-/// Adds heat to the particle at `slot`: exact for any amount at constant density, at any time within its
-/// step. Its viscosity is set to the largest value.
+/// Adds heat to the particle at `slot`, at any time within its step. The result is exact at constant density.
+/// The viscosity of the particle is set to the largest value.
 template <class T>
 void heatParticle(DynamicsState<T>& state, uint32_t slot, double joules);
 
@@ -19,7 +19,7 @@ uint64_t nextHeat(const DynamicsState<T>& state);
 template <class T>
 void wakeHeated(DynamicsState<T>& state);
 
-/// Releases the delayed heat that is due now, to particles whose density refers to the present.
+/// Releases the delayed heat that is due now. The densities of the heated particles must be up to date.
 template <class T>
 void giveDelayedHeat(DynamicsState<T>& state);
 

@@ -6,8 +6,8 @@
 
 namespace fx::sim {
 
-/// Whether the order of the particles is still efficient for searches; otherwise the next evaluation sorts
-/// the particles.
+/// True if the order of the particles is efficient for searches. If false, the next evaluation sorts the
+/// particles.
 template <class T>
 bool treeIsGood(const DynamicsState<T>& s)
 {
@@ -15,13 +15,14 @@ bool treeIsGood(const DynamicsState<T>& s)
     return s.treeIsSorted && s.tree.loosened() <= kMaxLoosenedShare;
 }
 
-/// Sorts particles by their current positions and moves all columns. Records and active slots are invalid
-/// afterwards.
+/// Sorts particles by their current positions and reorders all columns. After the call, records and active
+/// slots are invalid.
 template <class T>
 void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Restores the tree of a state, whose columns are in the order of a sort by sortedX..sortedSupport. If
-/// listState is valid, also restores the lists, which were built at listX..listSupport.
+/// Restores the tree of a state. The columns of the state are in the order of a sort by
+/// sortedX..sortedSupport. If listState is valid, the neighbor lists are also restored, from
+/// listX..listSupport.
 template <class T>
 void recoverTree(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -38,7 +39,8 @@ void measureWays(DynamicsState<T>& state, base::TaskRunner& tasks);
 template <class T>
 double roomOfLists(const DynamicsState<T>& state);
 
-/// [1] Margin with which new lists are built. It is large if the lists will be used for several steps.
+/// [1] Margin with which new lists are built. The margin is large if the lists will be used for several
+/// steps.
 template <class T>
 double marginOfLists(const DynamicsState<T>& state);
 

@@ -30,7 +30,7 @@
 
 namespace fx::sim {
 
-/// Displaces all particles. Called between two frames. Density, forces and lists are not updated.
+/// Displaces all particles. Must be called between two frames. Density, forces and lists are not updated.
 /// @param strength C > 0
 /// @param longest L > 0
 template <class T>

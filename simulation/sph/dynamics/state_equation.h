@@ -31,8 +31,8 @@
 
 namespace fx::sim {
 
-/// Equation of state. Ideal gas: only gamma is used. Stiffened gas: gamma and stiffness. JWL: gamma = 1 +
-/// omega, and the five other members.
+/// Equation of state. The ideal gas uses only gamma. The stiffened gas uses gamma and stiffness. JWL uses
+/// gamma = 1 + omega, the four JWL constants and the reference density.
 struct StateEquation
 {
     double gamma = 1.4;          ///< [1] > 1

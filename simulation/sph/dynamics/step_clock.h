@@ -28,7 +28,7 @@ inline uint32_t alignedLevel(uint32_t level, uint64_t now)
     return std::min(level, uint32_t(std::countr_zero(now | kFrameTicks)));
 }
 
-/// Number of ticks from the middle of the step [begin, end) to `now`; exact.
+/// Number of ticks from the middle of the step [begin, end) to `now`, without rounding error.
 inline double ticksSinceMiddle(uint64_t now, uint64_t begin, uint64_t end)
 {
     return 0.5 * double(int64_t(2 * now) - int64_t(begin + end));

@@ -42,8 +42,8 @@ struct StepMotion
     T signalSpeed;        ///< [m/s]
     T squareAcceleration; ///< [m2/s4]
     T entropy;
-    T entropyRate; ///< [1/s] of entropy
-    T divergence;  ///< [1/s] of the velocity
+    T entropyRate; ///< [1/s] rate of change of the entropy function
+    T divergence;  ///< [1/s] divergence of the velocity
 };
 
 /// Limits of a step: the Courant number, and the relative change of volume.

@@ -1,5 +1,5 @@
 /// @file stepping.h
-/// Kicks, the choice of the next step, and the waking of neighbors with longer steps.
+/// Kicks, the choice of the next step, and the early end of longer steps of neighbors.
 ///
 /// @formula kick-drift-kick
 /// The velocity changes at the middles of steps; the position drifts with it between the middles.
@@ -36,21 +36,22 @@
 
 namespace fx::sim {
 
-/// Ends the steps of the active slots with their new rates, by (1). Their velocities then refer to the
-/// present time.
+/// Ends the steps of the active slots with their new rates, by equation (1). The velocities of the active
+/// slots are then valid at the present time.
 template <class T>
 void closeSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Begins the next steps of the active slots within a frame, by (2) and (4).
+/// Begins the next steps of the active slots within a frame, by equations (2) and (4).
 template <class T>
 void openSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Shortens the step of one particle to end at `end`, by (3). `end` is not before the present. The rates are
-/// kept for half of the step.
+/// Shortens the step of one particle by equation (3), so that it ends at `end`. `end` must not be before the
+/// present time. The rates act for half of the step.
 template <class T>
 void shortenStep(DynamicsState<T>& state, uint32_t slot, uint64_t end);
 
-/// Ends the step of one particle now, by (5). The present rates act for half of the last `lately` ticks.
+/// Ends the step of one particle now, by equation (5). The present rates act for half of the last `lately`
+/// ticks.
 template <class T>
 void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 
@@ -58,24 +59,25 @@ void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 template <class T>
 void openFrame(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks);
 
-/// [s] Shortest of the steps that the criteria allow the particles.
+/// [s] Smallest step of all particles by the criteria.
 template <class T>
 double shortestStep(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-// (4), in step_limiter.cpp: keeps the steps of neighbors within a factor of each other.
+// Equation (4), in step_limiter.cpp: limits the ratio of the steps of neighbors.
 
-/// Chooses the levels of the next steps of the active slots: the largest that the criteria, the neighbors and
-/// the clock allow.
+/// Chooses the levels of the next steps of the active slots. The level is the largest that the criteria, the
+/// neighbors and the clock allow.
 template <class T>
 void chooseLevels(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Ends now the steps of neighbors of the active slots that are too long by (4). The woken particles become
-/// the active slots, to be evaluated at once. @return number of woken particles
+/// Ends the steps of neighbors of the active slots now, if the steps are too long by equation (4). These
+/// neighbors become the active slots, and must be evaluated at once. @return number of neighbors whose steps
+/// were ended
 template <class T>
 uint32_t wakeNeighbors(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Limits the steps that the criteria allow by those of the neighbors. Called at the end of a frame, when all
-/// particles are active and have lists.
+/// Limits the steps of particles by the steps of their neighbors. Must be called at the end of a frame, when
+/// all particles are active and have lists.
 template <class T>
 void limitWantedSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 

@@ -1,5 +1,6 @@
 /// @file viscosity_switch.h
-/// Controls artificial viscosity: high in front of shocks, low in shear flow and in sound waves.
+/// Controls artificial viscosity. The viscosity is high in front of shocks, and low in shear flow and in
+/// sound waves.
 ///
 /// @formula viscosity-switch
 /// The coefficient rises at once where the convergence of the flow grows, and decays behind the shock.
@@ -41,7 +42,7 @@ template <class T>
 struct FlowGradient
 {
     T divergence; ///< [1/s]
-    T growth;     ///< [1/s2] of the divergence
+    T growth;     ///< [1/s2] rate of change of the divergence
     T curl;       ///< [1/s]
     T h;          ///< [m]
     T sound;      ///< [m/s]
@@ -54,7 +55,7 @@ struct SwitchRules
     T alphaMin, alphaMax, decay; ///< [1]
 };
 
-/// (1): share of compression.
+/// Fraction of compression in the velocity gradient, by equation (1).
 template <class T>
 T compressivePart(T divergence, T curl)
 {
@@ -63,7 +64,7 @@ T compressivePart(T divergence, T curl)
     return square > 0 ? square / (square + curl * curl) : T(0);
 }
 
-/// alpha after `seconds`, by (2) and (3).
+/// The coefficient alpha after `seconds` [s], by equations (2) and (3).
 template <class T>
 T switchedViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow, T alpha, T seconds)
 {
@@ -77,7 +78,7 @@ T switchedViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow, T 
     return std::min(std::max(std::max(decayed, local), rules.alphaMin), rules.alphaMax);
 }
 
-/// alpha of a particle without a previous step, by (5).
+/// The coefficient alpha of a particle without a previous step, by equation (5).
 template <class T>
 T firstViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow)
 {
@@ -87,7 +88,7 @@ T firstViscosity(const SwitchRules<T>& rules, const FlowGradient<T>& flow)
            (rules.alphaMax - rules.alphaMin) * strength * compressivePart(flow.divergence, flow.curl);
 }
 
-/// (4): Balsara's limiter.
+/// Balsara's limiter, by equation (4).
 template <class T>
 T shearLimiter(const FlowGradient<T>& flow)
 {

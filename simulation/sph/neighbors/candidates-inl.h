@@ -1,5 +1,5 @@
 /// @file candidates-inl.h
-/// Candidate neighbors in contiguous arrays. Compiled once for each instruction set.
+/// Candidate neighbors in contiguous arrays. The file is compiled once for each instruction set.
 #if defined(FX_CANDIDATES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_CANDIDATES_INL_H
 #undef FX_CANDIDATES_INL_H
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace fx::sim::HWY_NAMESPACE {
 
 /// Moves the selected lanes of a vector to its beginning. Highway's Compress is used only for 16 lanes, where
-/// it is one instruction; for fewer lanes, GCC copies its table in every call.
+/// it is one instruction. For fewer lanes, GCC copies the table of Compress in every call.
 template <class D>
 class Packing
 {
@@ -31,7 +31,7 @@ public:
     }
 
     uint32_t kept() const { return kept_; }
-    /// Stores the selected lanes to `out`. It may write as many values as a vector has.
+    /// Stores the selected lanes to `out`. The function may write as many values as a vector has.
     HWY_INLINE void store(hn::Vec<D> v, T* out) const
     {
         const D d;
@@ -68,7 +68,7 @@ private:
 };
 
 /// Candidates of all images, one segment for each image. Every segment starts at a multiple of the vector
-/// width and is padded with candidates at NaN, which are within the reach of no particle.
+/// width. Every segment is padded with candidates at NaN, which are never neighbors.
 template <class T>
 struct Candidates
 {
@@ -78,7 +78,7 @@ struct Candidates
     uint32_t count = 0;
     /// index of the first candidate of each image; the last element is the end
     std::array<uint32_t, kMaxImages + 1> segment{};
-    alignas(64) T at[3][kMax + kPadding];  ///< [m] positions in the coordinates of the image of their segment
+    alignas(64) T at[3][kMax + kPadding];  ///< [m] positions in the coordinates of the image of the segment
     alignas(64) T reach2[kMax + kPadding]; ///< [m2] square of the reach (1 + margin) support
     alignas(64) uint32_t entry[kMax + kPadding];
 
@@ -109,8 +109,8 @@ struct Candidates
     }
 };
 
-/// Collects the particles in the runs of slots that a query touches in one image. A TreeWalk passes it these
-/// runs.
+/// Collects the particles in the runs of slots that a query touches in one image. A TreeWalk passes the runs
+/// to this class.
 template <bool kPlain, class T>
 class Gatherer
 {
@@ -132,7 +132,8 @@ public:
         end_ = end;
         return fits;
     }
-    /// Tests the pending run and appends its particles. @return false if there was not enough room
+    /// Tests the particles of the pending run and appends the candidates. @return false if there was not
+    /// enough memory
     bool flush()
     {
         const hn::ScalableTag<T> d;
@@ -206,7 +207,7 @@ bool gather(const SearchSetup<T>& setup, const Query<T>& query, Candidates<T>& o
     return true;
 }
 
-/// Collects those candidates of `from` that a smaller query box touches.
+/// Collects the candidates of `from` that a smaller query box touches.
 template <bool kWraps, class T>
 void refine(const SearchSetup<T>& setup, const Query<T>& query, const Candidates<T>& from, Candidates<T>& out)
 {

@@ -12,7 +12,7 @@ namespace fx::sim {
 
 enum class AxisKind : uint8_t
 {
-    Open,      ///< unbounded
+    Open,      ///< the axis is unbounded
     Periodic,  ///< particles that leave at `high` enter at `low`
     Reflecting ///< rigid, frictionless walls at `low` and `high`; there is no wall at an infinite bound
 };
@@ -24,22 +24,23 @@ struct Domain
     glm::dvec3 high{std::numeric_limits<double>::infinity()}; ///< [m] > low
 };
 
-/// Data of the domain for loops over pairs. On each axis there are either a period, or walls, or neither.
+/// Data of the domain for loops over pairs. Each axis has a period, or walls, or neither.
 template <class T>
 struct PairImages
 {
-    /// [m] period: length of a periodic axis; [1/m] perPeriod: its inverse. Both are 0 on other axes. The
-    /// difference d of two coordinates is corrected to d - period * round(d * perPeriod), the same expression
-    /// for all axes.
+    /// `period` [m] is the length of a periodic axis, and `perPeriod` [1/m] is 1 / period. Both are 0 on axes
+    /// that are not periodic. On all axes, the difference d of two coordinates is corrected to d - period *
+    /// round(d * perPeriod).
     std::array<T, 3> period{};
     std::array<T, 3> perPeriod{};
     /// [m] walls of a reflecting axis; infinite where there is no wall. The difference of x_i and the image
-    /// of x_j in the wall at w is computed as (x_i - w) + (x_j - w). It has the same bits when i and j are
-    /// exchanged.
+    /// of x_j in the wall at w is computed as (x_i - w) + (x_j - w). The result has the same bits if i and j
+    /// are exchanged.
     std::array<T, 3> low{-kNone, -kNone, -kNone};
     std::array<T, 3> high{kNone, kNone, kNone};
 
-    /// [m] Position of the wall nearer to a particle at `x`, in which its neighbors are mirrored.
+    /// [m] Position of the wall that is nearer to a particle at `x`. The neighbors of the particle are
+    /// mirrored in this wall.
     T nearerWall(uint32_t axis, T x) const
     {
         return x - low[axis] <= high[axis] - x ? low[axis] : high[axis];

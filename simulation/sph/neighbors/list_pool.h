@@ -12,18 +12,18 @@
 namespace fx::sim {
 
 /// Mask of the slot in an entry of a list. An entry consists of a slot (lower 29 bits) and one bit for each
-/// mirrored axis. Such a bit marks the mirror image of the particle in the reflecting wall nearer to the
-/// particle that owns the list.
+/// mirrored axis. A mirror bit marks the mirror image of the particle in a reflecting wall, the wall nearer
+/// to the owner of the list.
 constexpr uint32_t kPlaceMask = (1u << 29) - 1;
 /// bit of an entry that is mirrored on axis x; kMirrorX << a is the bit of axis a
 constexpr uint32_t kMirrorX = 1u << 29;
 
-/// Length to whose multiple lists are padded, with the owner's slot. Every sum over neighbors uses this
-/// number of virtual lanes, independently of the vector width of the processor.
+/// Lists are padded with the owner's slot to a multiple of this length. The length is also the number of
+/// virtual lanes of every sum over neighbors, for any vector width of the processor.
 constexpr uint32_t kLanes = 16;
 
 /// The neighbor lists of all slots. The order of threads decides which lists do not fit into memory. The
-/// neighbors do not depend on that order, because a missing list is searched again.
+/// neighbors do not depend on the order of threads, because a missing list is searched again.
 class ListPool
 {
 public:
@@ -74,8 +74,8 @@ public:
         pool_.total_.fetch_add(total_, std::memory_order_relaxed);
     }
 
-    /// Returns memory for `entries` more entries; null if it is exhausted. After null, all later calls return
-    /// null.
+    /// Returns memory for `entries` more entries; null if memory is exhausted. All later calls then also
+    /// return null.
     uint32_t* room(uint32_t entries)
     {
         if (end_ - next_ < entries && !refill(entries))
@@ -102,7 +102,7 @@ public:
     }
 
 private:
-    static constexpr uint64_t kBlock = 16384; ///< entries
+    static constexpr uint64_t kBlock = 16384; ///< number of entries that a writer allocates at once
 
     bool refill(uint32_t entries)
     {
@@ -114,7 +114,7 @@ private:
         exhausted_ = end_ - next_ < entries;
         return !exhausted_;
     }
-    /// Returns the rest of the block to the pool, unless another writer has taken the next block.
+    /// Returns the unused part of the block to the pool, unless another writer has taken the next block.
     void giveBack()
     {
         uint64_t expected = end_;

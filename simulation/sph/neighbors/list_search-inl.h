@@ -1,5 +1,5 @@
 /// @file list_search-inl.h
-/// Computes the neighbor lists of owners. Compiled once for each instruction set.
+/// Computes the neighbor lists of owners. The file is compiled once for each instruction set.
 #if defined(FX_LIST_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_LIST_SEARCH_INL_H
 #undef FX_LIST_SEARCH_INL_H
@@ -30,7 +30,7 @@ Owner<T> ownerSeen(const SearchSetup<T>& setup, const SeenImage<T>& image, uint3
             reach * reach};
 }
 
-/// Whether the walls of the image are those nearer to the owner.
+/// True if the walls of the image are the walls nearer to the owner.
 template <class T>
 bool isSeenBy(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t slot)
 {
@@ -56,8 +56,8 @@ HWY_INLINE auto isNear(const SearchSetup<T>& setup, const Owner<T>& owner, D d, 
     return hn::Lt(sumOfSquares(dx, dy, dz), hn::Max(reach2, hn::Set(d, owner.reach2)));
 }
 
-/// Writes the entries of the candidates [begin, end) that are within the reach of the owner. @return their
-/// number
+/// Writes the entries of the candidates [begin, end) that are neighbors of the owner. @return number of
+/// entries
 template <bool kWraps, class T>
 uint32_t keepNear(const SearchSetup<T>& setup, const Owner<T>& owner, const Candidates<T>& from,
                   uint32_t begin, uint32_t end, uint32_t* out)

@@ -7,7 +7,7 @@
 
 namespace fx::sim {
 
-/// Bits per axis. A key has three times as many, so it fits into 64 bits.
+/// Bits per axis. A key of three axes has 63 bits.
 constexpr uint32_t kMortonAxisBits = 21;
 constexpr uint32_t kMortonBits = 3 * kMortonAxisBits;
 

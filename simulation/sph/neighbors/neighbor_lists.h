@@ -8,25 +8,26 @@
 
 namespace fx::sim {
 
-/// Neighbor lists of particles (Verlet lists). Lists built with `margin` contain all pairs nearer than the
-/// larger of their supports, as long as every particle satisfies: present support + 2 (largest displacement
-/// of any particle since the build) <= (1 + margin) (support at the build).
+/// Neighbor lists of particles (Verlet lists). The lists contain all pairs nearer than the larger of both
+/// supports, under a condition for every particle. The condition is: support + 2 d <= (1 + margin) (support
+/// at the build), where d is the largest displacement of any particle since the build.
 template <class T>
 class NeighborLists
 {
 public:
     /// Creates empty lists.
     /// @param capacity maximum number of particles, below 2^29
-    /// @param entriesPerParticle memory for lists. A particle whose list does not fit is searched again on
-    ///          each request; this is slower, with equal results
+    /// @param entriesPerParticle memory for lists. A list that does not fit is searched again on each
+    /// request,
+    ///         which is slower but gives the same results
     NeighborLists(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t entriesPerParticle);
 
-    /// Builds the lists of every slot of `owners` (ascending). The list of i holds all other particles j and
-    /// all mirror images with |x_i - x_j| < (1 + margin) max(support_i, support_j) at the time of the last
-    /// refit. The particle itself is not in its list; its mirror images are. The order of a list depends only
-    /// on the tree. Periodic axes and axes between two walls must be at least twice as long as the longest
-    /// reach. The tree must outlive the lists and must be neither sorted nor refit while they are in use.
-    /// Every thread needs 160 KiB of stack.
+    /// Builds the lists of every slot of `owners` (ascending). The list of particle i has all other particles
+    /// j and all mirror images with |x_i - x_j| < (1 + margin) max(support_i, support_j). The positions are
+    /// from the last refit. The list does not contain particle i itself, but the mirror images of i. The
+    /// order of a list depends only on the tree. Periodic axes and axes between two walls must be at least
+    /// twice as long as the longest reach. The tree must outlive the lists. The tree must not be sorted or
+    /// refit while the lists are in use. Every thread needs 160 KiB of stack.
     void build(const ParticleTree<T>& tree, const Domain& domain, std::span<const uint32_t> owners, T margin,
                base::TaskRunner& tasks);
 
@@ -51,10 +52,10 @@ public:
             const_cast<std::remove_const_t<Function>*>(&f));
     }
 
-    /// Number of owners of the last build without a list, because memory was exhausted or because they have
-    /// more than about two thousand neighbors. Each access to such a list costs about ten searches.
+    /// Number of owners of the last build without a list. Causes are exhausted memory, or more than about two
+    /// thousand neighbors. Each access to a missing list costs about ten searches.
     uint32_t unlisted() const { return pool_.unlisted(); }
-    /// Entries of all lists of the last build, without padding and without owners that have no list.
+    /// Number of entries of all lists of the last build, without padding.
     uint64_t entries() const { return pool_.total(); }
 
 private:

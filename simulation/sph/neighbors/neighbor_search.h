@@ -1,9 +1,9 @@
 /// @file neighbor_search.h
-/// The neighbor search, compiled for each instruction set. The owners of eight leaves together query the tree
-/// for candidates in all images. Each leaf keeps the candidates near its own box. Each owner tests these with
-/// vector instructions. All bounds hold exactly in floating point: differences, squares and their sums are
-/// computed in the same order for boxes as for pairs, and rounding is monotonic, so no pair is lost. Only
-/// boxes on periodic axes need a tolerance. Results have the same bits for every instruction set.
+/// The neighbor search, compiled for each instruction set. One query of the tree finds the candidates of
+/// eight leaves in all images. Each leaf selects the candidates near its box. Each owner tests the selected
+/// candidates with vector instructions. No pair is lost to rounding. Boxes and pairs use the same order of
+/// operations, and rounding is monotonic. Only boxes on periodic axes need a tolerance. Results have the same
+/// bits for every instruction set.
 #pragma once
 
 #include "simulation/sph/neighbors/list_pool.h"
@@ -15,8 +15,8 @@
 
 namespace fx::sim {
 
-/// An image of the particles: unchanged, or mirrored in one wall on some of the axes. On every axis, the
-/// difference of an owner at x and the image of a particle at x_j is (x - wall) - (sign x_j + shift).
+/// An image of the particles. On each axis, the image is unchanged or mirrored in one wall. On every axis,
+/// the difference of an owner at x and the image of a particle at x_j is (x - wall) - (sign x_j + shift).
 template <class T>
 struct SeenImage
 {
@@ -26,7 +26,7 @@ struct SeenImage
     uint32_t bits = 0; ///< mirror bits of the entries of this image, kMirrorX << axis for each mirrored axis
 };
 
-/// maximum number of images: on each of three axes no mirror, the low wall or the high wall
+/// Maximum number of images. Each of three axes has no mirror, the low wall or the high wall.
 constexpr uint32_t kMaxImages = 27;
 
 /// Inputs of a search.
@@ -36,10 +36,10 @@ struct SearchSetup
     TreeView<T> tree;
     PairImages<T> pairs;
     T scale = 1;              ///< 1 + margin
-    bool wraps = false;       ///< whether an axis is periodic
+    bool wraps = false;       ///< true: an axis is periodic
     std::array<T, 3> slack{}; ///< [m] upper bound of the rounding errors of boxes on periodic axes
     uint32_t imageCount = 1;
-    /// images in the ascending order of their bits; the first is not mirrored
+    /// images in the ascending order of their bits; the first image is not mirrored
     std::array<SeenImage<T>, kMaxImages> images;
 };
 
@@ -52,7 +52,7 @@ void listOwners(const SearchSetup<T>& setup, std::span<const uint32_t> owners, L
 
 using ListPiece = void (*)(void* argument, const uint32_t* entries, uint32_t count, bool last);
 
-/// Searches the list of one slot and passes it on in pieces, without storing it.
+/// Searches the neighbors of one slot and passes them to the caller in pieces, without storing a list.
 template <class T>
 void searchOwner(const SearchSetup<T>& setup, uint32_t owner, ListPiece piece, void* argument);
 

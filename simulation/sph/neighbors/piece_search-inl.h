@@ -1,5 +1,6 @@
 /// @file piece_search-inl.h
-/// Searches the list of one particle in pieces, with little memory. Compiled once for each instruction set.
+/// Searches the list of one particle in pieces, with little memory. The file is compiled once for each
+/// instruction set.
 #if defined(FX_PIECE_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PIECE_SEARCH_INL_H
 #undef FX_PIECE_SEARCH_INL_H
@@ -21,7 +22,7 @@ public:
     {}
 
     uint32_t* end() { return entries_ + count_; }
-    /// Adds `count` entries, which the caller has written at end(); at most kRoom.
+    /// Adds `count` entries, at most kRoom, which the caller has written at end().
     void add(uint32_t count)
     {
         count_ += count;
@@ -49,8 +50,8 @@ private:
     uint32_t entries_[kPiece + 2 * kRoom];
 };
 
-/// Tests the particles in runs of slots as neighbors of one owner in one image. A TreeWalk passes it these
-/// runs.
+/// Tests the particles in runs of slots as neighbors of one owner in one image. A TreeWalk passes the runs to
+/// this class.
 template <bool kPlain, class T>
 class PieceSink
 {

@@ -1,6 +1,6 @@
 /// @file tree_walk-inl.h
-/// Traversal from the root to all leaves that a query touches, eight children at once. Compiled once for each
-/// instruction set.
+/// Traversal from the root to all leaves that a query touches, eight children at once. The file is compiled
+/// once for each instruction set.
 #if defined(FX_TREE_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_TREE_WALK_INL_H
 #undef FX_TREE_WALK_INL_H
@@ -20,7 +20,8 @@ namespace fx::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A query box. It touches an element if their distance is below the reach of the query or of the element.
+/// A query box. The box touches an element if the distance of both is below the reach of the query or of the
+/// element.
 template <class T>
 struct Query
 {
@@ -41,7 +42,7 @@ Query<T> seenFrom(const Query<T>& query, const SeenImage<T>& image)
     return seen;
 }
 
-/// Converts a mask of at most eight lanes to bits; bit k is lane k.
+/// Converts a mask of at most eight lanes to bits. Bit k belongs to lane k.
 template <class D, class M>
 HWY_INLINE uint32_t bitsOf(D d, M mask)
 {
@@ -50,7 +51,7 @@ HWY_INLINE uint32_t bitsOf(D d, M mask)
     return bits[0];
 }
 
-/// Coordinates of particles, transformed to those of `image`.
+/// Transforms positions of particles to the coordinates of `image`.
 template <class T, class D, class V>
 HWY_INLINE V shownAt(const SeenImage<T>& image, uint32_t axis, D d, V x)
 {
@@ -66,8 +67,8 @@ HWY_INLINE V wrapped(const SearchSetup<T>& setup, uint32_t axis, D d, V differen
     return hn::Sub(difference, hn::Mul(turns, hn::Set(d, setup.pairs.period[axis])));
 }
 
-/// Gap between the boxes [low, high] and the query box on one axis, at least 0. It never exceeds the gap
-/// between any two particles inside the boxes.
+/// Gap between the boxes [low, high] and the query box on one axis, at least 0. The gap never exceeds the
+/// distance on this axis between two particles inside the boxes.
 template <bool kWraps, class T, class D, class V>
 HWY_INLINE V axisGap(const SearchSetup<T>& setup, const Query<T>& query, uint32_t axis, D d, V low, V high)
 {
@@ -128,7 +129,8 @@ private:
         return true;
     }
 
-    /// Bit mask of the eight boxes from `first` on that the query touches; bit k is box first + k.
+    /// Bit mask of the eight boxes, beginning with box `first`, that the query touches. Bit k belongs to box
+    /// first + k.
     uint32_t touched(uint32_t first) const
     {
         const hn::CappedTag<T, kTreeFanOut> d;

@@ -31,12 +31,12 @@
 
 namespace fx::sim {
 
-/// Results of the loop: arrays of G and E in [m], indexed by slot.
+/// Results of the loop: arrays of the vectors G and E [m], indexed by slot.
 template <class T>
 struct ConcentrationResults
 {
-    T *x, *y, *z;                      ///< G
-    T *outwardX, *outwardY, *outwardZ; ///< E
+    T *x, *y, *z;                      ///< [m] vector G
+    T *outwardX, *outwardY, *outwardZ; ///< [m] vector E
 };
 
 template <class T>
@@ -47,8 +47,8 @@ struct ConcentrationCall
     const ConcentrationResults<T>& results;
 };
 
-/// Computes G and E of all slots. Reads x, y, z, support and mass of the records. The lists must hold all
-/// neighbors within the larger support. Runs on the calling thread (the caller splits the work).
+/// Computes G and E of all slots. Reads x, y, z, support and mass of the records. The lists must contain all
+/// neighbors within the larger support. The function runs on the calling thread; the caller splits the work.
 template <class T>
 void sumConcentration(const ConcentrationCall<T>& call);
 

@@ -60,7 +60,7 @@ struct DensityRules
     double smallestSupport = 0;   ///< [m]
     double largestSupport = 1e30; ///< [m] >= smallestSupport
     double tolerance = 1e-4; ///< [1] relative tolerance of H in Newton's iteration (1e-7 in double precision)
-    bool subtractSelfBias = true; ///< true: the term e of (1) is applied; false: e = 0
+    bool subtractSelfBias = true; ///< true: the term e of equation (1) is applied; false: e = 0
 };
 
 /// Results of the loop: arrays indexed by slot.
@@ -72,7 +72,7 @@ struct DensityResults
     T* correction;       ///< [1] correction f, in [0.2, 5]; 1 where H is the smallest or largest support
     T* divergence;       ///< [1/s] divergence of the velocity
     T* curl;             ///< [1/s] magnitude of the curl of the velocity
-    uint8_t* wantsReach; ///< 1 if H would have to exceed the range of the list, otherwise 0
+    uint8_t* wantsReach; ///< 1 if the solution for H exceeds the range of the list, else 0
     /// number of particles within H, including mirror images, without the particle itself
     uint32_t* neighbors;
     /// [1] exposure: 0 inside of evenly sampled gas, 1 on a free surface; null: not computed
@@ -90,10 +90,11 @@ struct DensityCall
 };
 
 /// Computes density, support and velocity gradients of all slots. Reads x, y, z, velocity and mass of the
-/// records. H grows at most to (1 + reach) times its guess, because the lists are complete only up to there.
-/// H may shrink without limit, and stays within the bounds of the rules. A particle without neighbors gets
-/// the largest support (within reach); coincident particles get the smallest. Evaluates (1) at most 20 times.
-/// Bit-equal for every instruction set. Runs on the calling thread (the caller splits the work).
+/// records. The support H is limited to (1 + reach) times its initial guess, because the lists are complete
+/// only up to this distance. H is also limited to the bounds of the rules. A particle without neighbors gets
+/// the largest possible support, and coincident particles get the smallest support. Equation (1) is evaluated
+/// at most 20 times. All instruction sets give the same bits. The function runs on the calling thread; the
+/// caller splits the work.
 template <class T>
 void sumDensity(const DensityCall<T>& call);
 

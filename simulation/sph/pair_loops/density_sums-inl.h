@@ -1,5 +1,5 @@
 /// @file density_sums-inl.h
-/// The sums of gas-density over a block of neighbors. Included once for each instruction set.
+/// The sums of gas-density over a block of neighbors. The file is included once for each instruction set.
 #if defined(FX_PAIR_DENSITY_SUMS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PAIR_DENSITY_SUMS_INL
 #undef FX_PAIR_DENSITY_SUMS_INL
@@ -23,8 +23,8 @@ enum : uint32_t
     kDensitySums = 20
 };
 
-/// All sums for the lanes of one vector. They are single members instead of an array, because compilers do
-/// not keep arrays in registers.
+/// All sums for the lanes of one vector. The sums are single members instead of an array, because compilers
+/// do not keep arrays in registers.
 template <class T>
 struct FlowSums
 {
@@ -173,8 +173,8 @@ private:
     static HWY_INLINE Pack<T> at(const T* from) { return Pack<T>::load(from); }
 
     static constexpr double kFar = 1e30; ///< [m]
-    /// Distance between rows in memory. It is longer than kCapacity, because rows 4096 bytes apart would
-    /// delay loads.
+    /// Distance between rows in memory. The distance is larger than kCapacity, because rows with a distance
+    /// of 4096 bytes would delay loads.
     static constexpr uint32_t kPitch = kCapacity + kLanes;
 
     uint32_t size_ = 0;

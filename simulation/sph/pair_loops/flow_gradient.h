@@ -1,5 +1,6 @@
 /// @file flow_gradient.h
-/// Divergence and curl of a flow from moments of a neighborhood: gas-density (5), (6).
+/// Divergence and curl of a flow from moments of a neighborhood, by equations (5) and (6) of formula
+/// gas-density.
 #pragma once
 
 #include <array>

@@ -48,11 +48,12 @@ namespace fx::sim {
 
 struct ForceRules
 {
-    SphKernel kernel = SphKernel::WendlandC2; ///< unstable beyond kernelFacts(kernel).largestNeighbors
+    SphKernel kernel = SphKernel::WendlandC2; ///< kernel; forces are unstable for more than
+                                              ///< kernelFacts(kernel).largestNeighbors neighbors
     double beta = 3;                          ///< [1] coefficient beta of the signal speed
-    double conductivity = 1;                  ///< [1] coefficient k of the conduction; 0: none
-    /// Ids of the particles, indexed by slot. They determine the direction in which coincident particles are
-    /// pushed apart. Null: the slots serve as ids.
+    double conductivity = 1;                  ///< [1] coefficient k of the conduction; 0: no conduction
+    /// Ids of the particles, indexed by slot. The ids determine the direction in which coincident particles
+    /// are pushed apart. Null: the slots are the ids.
     const uint32_t* ids = nullptr;
 };
 
@@ -65,7 +66,8 @@ struct ForceResults
     T* az;
     T* heating;     ///< [W/kg] heating by viscosity and conduction, without pressure work (entropy form)
     T* signalSpeed; ///< [m/s] largest signal speed over all pairs, at least 2 c
-    /// [1] smallest stepLevel of the neighbors within the larger support; the particle's own if it has none
+    /// [1] Smallest stepLevel of the neighbors within the larger support; the stepLevel of the particle if it
+    /// has no neighbors.
     T* fastestNeighbor;
     uint32_t* pairs; ///< number of neighbors j with r < max(H_i, H_j), including mirror images
 };
@@ -79,8 +81,8 @@ struct ForceCall
 };
 
 /// Computes accelerations of all slots: pressure with corrections for varying support, viscosity with signal
-/// speed and limiter, and conduction. Bit-equal for every instruction set. Runs on the calling thread (the
-/// caller splits the work).
+/// speed and limiter, and conduction. All instruction sets give the same bits. The function runs on the
+/// calling thread; the caller splits the work.
 template <class T>
 void sumForces(const ForceCall<T>& call);
 

@@ -1,5 +1,5 @@
 /// @file force_sums-inl.h
-/// The sums of gas-pair-forces over a piece of a list. Included once for each instruction set.
+/// The sums of gas-pair-forces over a piece of a list. The file is included once for each instruction set.
 #if defined(FX_PAIR_FORCE_SUMS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PAIR_FORCE_SUMS_INL
 #undef FX_PAIR_FORCE_SUMS_INL
@@ -36,7 +36,7 @@ struct PairOwner
           viscosity(own.viscosity), limiter(own.limiter), energy(own.energy), pressure(own.pressure),
           beta(rules.beta), conductivity(rules.conductivity)
     {}
-    /// C / H^5
+    /// Returns C / H^5, see sph_kernel.h.
     static HWY_INLINE Pack<T> peakSlope(Pack<T> perSupport)
     {
         const Pack<T> square = perSupport * perSupport;
@@ -48,8 +48,8 @@ struct PairOwner
     Pack<T> beta, conductivity;
 };
 
-/// Replaces the position differences of coincident pairs by (6). Such pairs are rare and processed lane by
-/// lane.
+/// Replaces the position differences of coincident pairs by equation (6). Coincident pairs are rare and
+/// processed lane by lane.
 template <class T>
 HWY_NOINLINE void partCoincident(const Owner<T>& owner, const uint32_t* ids, const uint32_t* entries,
                                  Pack<T> meanSupport, Pack<T> isCoincident, Pack<T>* d)

@@ -1,8 +1,8 @@
 /// @file lanes-inl.h
-/// Arithmetic on vectors of any width, and sums whose bits do not depend on that width. Included once for
-/// each instruction set.
+/// Arithmetic on vectors of any width, and sums whose bits do not depend on the vector width. The file is
+/// included once for each instruction set.
 ///
-/// Every sum over neighbors has kLanes = 16 virtual lanes: lane k takes the list entries 16 m + k. Narrow
+/// Every sum over neighbors has kLanes = 16 virtual lanes: lane k sums the list entries 16 m + k. Narrow
 /// instruction sets process a few of these lanes at a time. The 16 partial results are added in the same
 /// order for every instruction set.
 #if defined(FX_PAIR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -47,8 +47,8 @@ HWY_INLINE Pack<T> choose(typename Pack<T>::Mask mask, Pack<T> yes, Pack<T> no)
     return Pack<T>(hn::IfThenElse(mask, yes.v, no.v));
 }
 
-/// The nearest integer, ties to even, for |a| < 2^22 (float) or 2^51 (double). It uses the rounding of an
-/// addition, which is the same on every processor.
+/// The nearest integer, ties to even, for |a| < 2^22 (float) or 2^51 (double). The function uses the rounding
+/// of an addition, which is the same on every processor.
 template <class T>
 HWY_INLINE Pack<T> nearestInteger(Pack<T> a)
 {
@@ -134,8 +134,8 @@ HWY_INLINE void halve(const T* lane, T* out, F f)
 }
 
 /// Combines the 16 lanes of rows [first, first + Rows): ((0+8)+(4+12))+((2+10)+(6+14)), plus the same
-/// expression of the odd lanes. Each level is computed for all rows before the next, to shorten dependency
-/// chains.
+/// expression for the odd lanes. Each level is computed for all rows before the next level, to shorten
+/// dependency chains.
 template <uint32_t Rows, class F, class T, uint32_t Q>
 HWY_INLINE void combineRows(const LaneSums<T, Q>& sums, uint32_t first, T* out, F f)
 {

@@ -1,6 +1,6 @@
 /// @file neighbors-inl.h
-/// Loads neighbors from their records and computes their positions relative to the owner of the list.
-/// Included once for each instruction set.
+/// Loads neighbors from their records and computes their positions relative to the owner of the list. The
+/// file is included once for each instruction set.
 #if defined(FX_PAIR_NEIGHBORS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PAIR_NEIGHBORS_INL
 #undef FX_PAIR_NEIGHBORS_INL
@@ -34,8 +34,8 @@ HWY_INLINE Quad<hn::TFromD<Tag>> loadTransposed(Tag, const hn::TFromD<Tag>* tabl
 
 #else
 
-/// Loads a vector of 128-bit blocks, one from the record of each of entries[0], entries[stride], entries[2
-/// stride], ... `table` points to the block of the first record.
+/// Loads a vector of 128-bit blocks, one block from each of the records entries[0], entries[stride],
+/// entries[2 stride], ... `table` points to the block of the first record.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> loadBlocks(Tag tag, const hn::TFromD<Tag>* table, const uint32_t* entries,
                                    uint32_t stride)

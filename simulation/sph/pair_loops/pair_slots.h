@@ -10,15 +10,15 @@ namespace fx::sim {
 
 /// Record of a gas particle for loops over pairs, in one cache line (float) or two (double).
 ///
-/// It has sixteen numbers in four groups of four. The loops load whole groups and transpose them, which is
-/// faster than gathering single numbers. The density loop needs the first two groups, the force loop needs
-/// all.
+/// A record has sixteen numbers in four groups of four. The loops load whole groups and transpose them, which
+/// is faster than gathering single numbers. The density loop needs the first two groups, the force loop needs
+/// all four groups.
 template <class T>
 struct alignas(16 * sizeof(T)) GasRecord
 {
     T x, y, z;    ///< [m]
     T support;    ///< [m] radius H of the kernel's support, > 0
-    T vx, vy, vz; ///< [m/s] velocity, predicted to the time of the loop
+    T vx, vy, vz; ///< [m/s] velocity at the time of the loop
     T mass;       ///< [kg] > 0
     T push;       ///< [m5/(kg s2)] f (P - P_ambient) / rho^2, with the correction f for varying support
     T density;    ///< [kg/m3] > 0

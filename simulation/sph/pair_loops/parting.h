@@ -1,5 +1,6 @@
 /// @file parting.h
-/// The direction in which coincident particles push each other apart: gas-pair-forces (6).
+/// The direction in which coincident particles push each other apart: equation (6) of formula
+/// gas-pair-forces.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -10,13 +11,13 @@
 
 namespace fx::sim {
 
-/// [1] distance over the mean support below which a pair has no defined direction
+/// [1] Distance divided by the mean support, below which a pair has no defined direction.
 constexpr double kCoincident = 1e-6;
-/// [1] distance over the mean support at which the kernel of such pairs is evaluated
+/// [1] Distance divided by the mean support, at which the kernel of coincident pairs is evaluated.
 constexpr double kPartingDistance = 0.05;
 
-/// Unit vector from the particle `other` towards the particle `id`. Exchanging both arguments gives its exact
-/// opposite.
+/// Unit vector from the particle `other` towards the particle `id`. Exchanged arguments give exactly the
+/// opposite vector.
 template <class T>
 std::array<T, 3> partingDirection(uint32_t id, uint32_t other)
 {

@@ -46,10 +46,10 @@ namespace fx::sim {
 /// Kernels W(r; H) = C / H^3 w(q), q = r / H in [0, 1], with integral 1 over space.
 enum class SphKernel : uint8_t
 {
-    WendlandC2,  ///< default
+    WendlandC2,  ///< the default kernel
     WendlandC4,  ///< suited to 100 neighbors and more
     CubicSpline, ///< particles form pairs if there are more than 50 neighbors
-    Quartic,     ///< (1 - q^2)^2, the kernel of the paper; for density and pictures, unstable for forces
+    Quartic,     ///< (1 - q^2)^2, the kernel of [UBT96]; for density and pictures, unstable for forces
     Sextic,      ///< (1 - q^2)^3, for density and pictures only
     Octic        ///< (1 - q^2)^4, for density and pictures only
 };
@@ -61,23 +61,23 @@ constexpr std::array<SphKernel, 6> kSphKernels{SphKernel::WendlandC2,  SphKernel
 struct KernelFacts
 {
     std::string_view name; ///< name in commands and files, such as "wendland-c2"
-    double norm;           ///< [1] C
+    double norm;           ///< [1] factor C of the kernel
     double center;         ///< [1] w(0)
-    /// [1] Largest number of neighbors for which forces are stable: infinite if the Fourier transform of the
-    /// kernel is nowhere negative, 0 if forces are unstable for any number.
+    /// [1] Largest number of neighbors for which forces are stable. It is infinite if the Fourier transform
+    /// of the kernel is nowhere negative, and 0 if forces are always unstable.
     double largestNeighbors;
 };
 
 KernelFacts kernelFacts(SphKernel kernel);
 
-/// [1/m3] W(r; H), 0 beyond the support.
+/// [1/m3] Kernel W(r; H), 0 beyond the support.
 double kernelValue(SphKernel kernel, double r, double support);
-/// [1/m4] dW/dr.
+/// [1/m4] Derivative dW/dr of the kernel.
 double kernelSlope(SphKernel kernel, double r, double support);
-/// [1/m4] dW/dH.
+/// [1/m4] Derivative dW/dH of the kernel.
 double kernelSupportSlope(SphKernel kernel, double r, double support);
 
-/// [1] Share of the self-contribution that the density omits, in [0, 1/2].
+/// [1] Fraction of the self-contribution that the density omits, in [0, 1/2].
 double selfBias(SphKernel kernel, double neighbors);
 
 } // namespace fx::sim

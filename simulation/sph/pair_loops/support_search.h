@@ -1,5 +1,6 @@
 /// @file support_search.h
-/// Finds the support that encloses a fixed mass, by a bounded Newton iteration for gas-density (2), (3).
+/// Finds the support that encloses a fixed mass, by a bounded Newton iteration for equations (2) and (3) of
+/// formula gas-density.
 #pragma once
 
 #include "foundation/math/elementary.h"
@@ -15,7 +16,7 @@ template <class T>
 class SupportSearch
 {
 public:
-    /// maximum number of evaluations in the search; the caller adds one at the result
+    /// Maximum number of evaluations in the search. The caller adds one evaluation at the result.
     static constexpr uint32_t kMaxEvaluations = 19;
 
     /// Starts a search in [bottom, top].
@@ -68,7 +69,7 @@ private:
     {
         return growth > T(0) && mass < T(2) * want_ && want_ < T(2) * mass;
     }
-    /// Whether the square of the relative change from support() to `next` is at most `square`.
+    /// True if the square of the relative change from support() to `next` is at most `square`.
     bool isWithin(T next, T square) const
     {
         const T change = next - support_;
@@ -82,8 +83,8 @@ private:
             return mass < want_ ? top_ : bottom_;
         return support_ * static_cast<T>(base::cubeRoot(static_cast<double>(want_ / mass))); // S grows as H^3
     }
-    /// Returns `next` if it is inside of the bracket; otherwise a bound that has not been tried, or the
-    /// middle of the bracket.
+    /// Returns `next` if it is inside of the bracket. If it is outside, returns a bound that has not been
+    /// evaluated, or the middle of the bracket.
     T inside(T next, bool grows) const
     {
         if (evaluations_ < kMaxProposals) {

@@ -26,7 +26,7 @@ protected:
         float wall = std::numeric_limits<float>::infinity();
         float from = 0.0f; ///< [m] depth along the camera's axis at which the range begins
         bool layers = false;
-        /// [m] distances of opaque surfaces for each pixel; if not empty, they replace `wall`
+        /// [m] distance of opaque surfaces for each pixel; replaces `wall` if not empty
         std::vector<float> walls = {};
     };
 
@@ -37,9 +37,9 @@ protected:
                              size_t target = render::MediaPass::Fire);
     std::vector<float> picture(const std::vector<FieldBall>& balls, const render::CameraView& camera,
                                int resolution, const Window& window);
-    /// reads a texture: 0 is medium, 1 is scatter, 2 is shares
+    /// Reads a texture of the field: 0 for the medium, 1 for the scattering, 2 for the fractions of layers.
     std::vector<float> texels(size_t texture, int channels = 4);
-    size_t texelOf(size_t brick, const glm::ivec3& s) const; ///< index, in texels
+    size_t texelOf(size_t brick, const glm::ivec3& s) const; ///< index of the texel of sample `s`
 
     static render::CameraView camera(const glm::dvec3& position, const glm::dvec3& target);
 

@@ -1,5 +1,5 @@
 /// @file add_pass.h
-/// A short way to declare a pass in tests.
+/// Declares a pass in tests.
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"

@@ -1,5 +1,5 @@
 /// @file graph_test.h
-/// Short ways to declare passes, for tests of the frame graph.
+/// Functions that declare simple passes for tests of the frame graph.
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"

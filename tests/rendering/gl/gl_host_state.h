@@ -1,6 +1,6 @@
 /// @file gl_host_state.h
-/// A host with unusual OpenGL state, and a probe that reads all state. Both are independent of the library's
-/// own table and use functions that the host loads itself.
+/// A host with unusual OpenGL state, and a probe that reads all state. Both use GL functions that the host
+/// loads, and do not use the function table of the library.
 #pragma once
 
 #include "rendering/gl/gl_functions.h"
@@ -11,7 +11,7 @@
 
 namespace fx::render {
 
-/// Values by the name of the state, such as "GL_BLEND[2]".
+/// State values by name, such as "GL_BLEND[2]".
 using GlProbe = std::map<std::string, std::vector<double>>;
 
 /// Names and values of the states that differ, one line for each.
@@ -23,12 +23,12 @@ class GlHost
 public:
     explicit GlHost(const GlLoader& loader) : loader_(loader) {}
 
-    /// Sets every state that the probe reads to a value that is neither the default of GL nor the value that
+    /// Sets all state that the probe reads to unusual values: not the default of GL, and not the value that
     /// drawing requires.
     void makeHostile();
     /// Reads all state.
     GlProbe probe();
-    /// Deletes everything that makeHostile() created, so that the context can be destroyed.
+    /// Deletes all objects of makeHostile(), so that the context can be destroyed.
     void release();
 
 private:

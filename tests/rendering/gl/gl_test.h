@@ -1,6 +1,5 @@
 /// @file gl_test.h
-/// A test with an OpenGL context of its own, without a window. Every message of the driver makes the test
-/// fail.
+/// A test with a separate OpenGL context without a window. Every message of the driver fails the test.
 #pragma once
 
 #include "rendering/gl/gl_backend.h"
@@ -63,7 +62,7 @@ protected:
                            backend->height(texture), channels);
     }
 
-    /// GLSL source of the test programs by name; empty when the name is unknown.
+    /// GLSL source of the test programs by name; empty if the name is unknown.
     static std::optional<std::string> testShader(std::string_view name);
 
     std::unique_ptr<GlContext> context;
@@ -71,9 +70,9 @@ protected:
     std::unique_ptr<GlMessages> messages;
     std::unique_ptr<GlBackend> backend;
     FrameGraph graph{std::pmr::get_default_resource()};
-    /// number of expected driver messages, for tests that cause errors on purpose
+    /// Number of expected driver messages, for tests that cause errors intentionally.
     uint32_t expectedMessages = 0;
-    /// [byte] memory of textures and buffers that a test still owns when it ends
+    /// [byte] Memory of textures and buffers that the test still owns at its end.
     uint64_t bytesOfTheTest = 0;
 };
 

@@ -1,5 +1,6 @@
 /// @file heap_counter.h
-/// Counts what this program takes from the heap through operator new. Needs tests/api/counting_new.cpp.
+/// Counts the heap allocations of this program by operator new. Programs must link
+/// tests/api/counting_new.cpp.
 #pragma once
 
 #include "tests/api/counting_new.h"

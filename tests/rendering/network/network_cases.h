@@ -1,4 +1,4 @@
-// Media for tests of networks, and the network once more in double precision, from the comment.
+// Media for tests of networks, and a reference implementation of the network in double precision.
 #pragma once
 
 #include "rendering/network/scattering_network.h"
@@ -26,9 +26,10 @@ NetworkCase evenCase(const glm::ivec3& cells, float opticalDepth, float albedo,
 /// A random medium with any allowed values, including empty and black cells.
 NetworkCase randomCase(uint64_t seed, const glm::ivec3& cells, double mostAlbedo = 1.0);
 
-/// Moments of the stationary light, solved by elimination: without iteration, in double precision.
+/// Moments of the stationary light, solved by elimination in double precision.
 std::vector<double> solvedExactly(const NetworkCase& c);
-/// [1] Difference of the scattered light from that of `light`, in the norm of SweepReport.
+/// [1] Difference between the exact scattered light and the scattered light of `light`, in the norm of
+/// SweepReport.
 double scatteredError(const NetworkCase& c, const std::vector<float>& light,
                       const std::vector<double>& exact);
 

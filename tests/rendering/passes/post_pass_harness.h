@@ -1,5 +1,5 @@
 /// @file post_pass_harness.h
-/// Runs the passes that follow composition on a software OpenGL and hands their pictures back.
+/// Runs the passes after composition on a software OpenGL, and returns their pictures.
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
@@ -48,8 +48,8 @@ protected:
                                     std::span<const float> texels);
     render::ResourceId importBytes(std::span<const std::byte> bytes);
 
-    /// Executes the graph and keeps the resource `kept`. The results of the frame can be read until the next
-    /// frame.
+    /// Executes the graph. The resource `kept` stays valid after the execution. The results of the frame can
+    /// be read until the next frame.
     void execute(render::ResourceId kept);
     std::vector<float> read(render::ResourceId texture, int channels = 4);
     /// Reads the content of the buffer that was imported last.

@@ -1,5 +1,5 @@
 /// @file outputs_truth.h
-/// Outputs computed from their definitions in docs/howto/outputs.md: a march with small steps, in double
+/// Outputs computed from their definitions in docs/howto/outputs.md: integration with small steps, in double
 /// precision, through smooth balls.
 #pragma once
 
@@ -25,8 +25,8 @@ struct MovingBall
     glm::dvec3 velocity{0.0}; ///< [m/s]
     uint64_t instance = 1;
 
-    /// [m2] Integral of the extinction over space. With the extinction `peak` at the center: depth = peak
-    /// 16/15 radius and section = peak 32 pi / 105 radius^3.
+    /// [m2] Integral of the extinction over space. If k is the extinction at the center, depth = k 16/15
+    /// radius and crossSection() = k 32 pi / 105 radius^3.
     double crossSection() const { return depth * radius * radius * std::numbers::pi * 2.0 / 7.0; }
     double extinction(const glm::dvec3& place) const
     {
@@ -42,7 +42,7 @@ struct TrueOutputs
     double opticalDepth = 0.0;
     glm::dvec2 motion{0.0}; ///< [pixel]
     uint64_t instance = 0;
-    /// [1] difference between the shares of `instance` and of the instance with the next smaller share
+    /// [1] Difference between the opacity of `instance` and the second-largest opacity of an instance.
     double lead = 0.0;
     double opacity = 0.0;
 };
@@ -71,8 +71,8 @@ struct PixelRay
     }
 };
 
-/// Outputs of a pixel whose center is at the window position (x, y), rows from the bottom.
-/// @param past camera of the frame before, `seconds` earlier
+/// Outputs of a pixel whose center is at the window position (x, y). Rows count from the bottom.
+/// @param past camera of the previous frame, `seconds` [s] earlier
 inline TrueOutputs trueOutputs(const std::vector<MovingBall>& balls, const render::CameraView& camera,
                                const render::CameraView& past, double seconds, double x, double y, int width,
                                int height, double end = 100.0)

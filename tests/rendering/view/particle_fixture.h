@@ -35,7 +35,7 @@ struct TestPoint
     float age = 0.0f;
 };
 
-/// Four binary16 numbers.
+/// Converts a color to four binary16 numbers.
 uint64_t packColor(const glm::vec4& color);
 
 class ParticleTest : public ViewTest
@@ -44,7 +44,8 @@ protected:
     void SetUp() override;
 
     base::FrameSnapshot emptySnapshot(double seconds = 0.0);
-    /// Adds a group in which the color 1 gives an exposed value of 1. Tests may change its constants.
+    /// Adds a group of particles. The color 1 gives an exposed value of 1. Tests may change the constants of
+    /// the group.
     base::SnapshotGroup& addParticles(base::FrameSnapshot& snapshot,
                                       const std::vector<TestParticle>& particles,
                                       base::ColumnSet columns = base::kAllColumns);
@@ -62,7 +63,7 @@ inline void set(base::SnapshotGroup& group, size_t index, float value)
     group.editConstants()[index] = value;
 }
 
-/// A camera on the Z axis, 10 m away, that sees 10 m of height at the origin through a parallel projection.
+/// A camera with parallel projection on the Z axis, 10 m from the origin. The height of the picture is 10 m.
 render::CameraView flatCamera(float aspect = 1.0f);
 
 } // namespace fx::test

@@ -6,7 +6,7 @@
 
 namespace fx::test {
 
-/// Number of random orders: 40, or 1000 where FXSDK_LONG_RUN is set.
+/// Number of random orders: 40, or 1000 if the environment variable FXSDK_LONG_RUN is set.
 inline int permutations()
 {
     return std::getenv("FXSDK_LONG_RUN") ? 1000 : 40;

@@ -1,6 +1,5 @@
 /// @file view_fixture.h
-/// A headless GL context with a view, a float target that stands for the host's picture, and hand-made
-/// snapshots.
+/// A headless GL context with a view, a float texture as the host's picture, and hand-made snapshots.
 #pragma once
 
 #include "foundation/snapshot/blob_kind.h"
@@ -42,7 +41,7 @@ struct Picture
     const float* at(int x, int y) const { return &texels[(size_t(y) * size_t(width) + size_t(x)) * 4]; }
 };
 
-/// Largest difference of any channel of any texel.
+/// Largest difference over all channels of all texels.
 double maxDifference(const Picture& a, const Picture& b);
 
 class ViewTest : public testing::Test
@@ -63,7 +62,8 @@ protected:
     Picture render(const base::FrameSnapshot& snapshot, const render::CameraView& camera);
     Picture read(uint32_t texture, int channels = 4);
 
-    // Destroyed from last to first, after the members of derived fixtures, which own objects of the device.
+    // These members are destroyed in reverse order, after the members of derived fixtures. Derived fixtures
+    // own objects of the device.
     base::SnapshotSchema schema_;
     std::unique_ptr<render::GlContext> context_;
     std::unique_ptr<render::GlDevice> device_;
@@ -72,7 +72,7 @@ protected:
     std::optional<render::GlTexture> color_;
     std::optional<render::GlTexture> depth_;
     bool useDepth_ = false;
-    uint64_t sequence_ = 0; ///< of the last snapshot
+    uint64_t sequence_ = 0; ///< sequence number of the last snapshot
 };
 
 } // namespace fx::test

@@ -35,12 +35,13 @@ inline std::vector<VoxelBlock> voxelize(std::span<const VoxelBall> balls, double
 struct VoxelSums
 {
     double mass = 0.0;        ///< [m2] density times volume
-    glm::dvec3 moment{0.0};   ///< [m3] of the density
+    glm::dvec3 moment{0.0};   ///< [m3] first moment of the density
     double light = 0.0;       ///< [cd] flame times volume
     double heat = 0.0;        ///< [K m2] temperature times mass
     glm::dvec3 momentum{0.0}; ///< [m3/s] velocity times mass
     double squares = 0.0;     ///< [m4] second moment about the origin
-    glm::ivec3 low{std::numeric_limits<int>::max()}, high{std::numeric_limits<int>::min()}; ///< with medium
+    glm::ivec3 low{std::numeric_limits<int>::max()},
+        high{std::numeric_limits<int>::min()}; ///< range of voxels with medium
 
     glm::dvec3 center() const { return moment / mass; }
 };

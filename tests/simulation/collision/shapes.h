@@ -18,7 +18,7 @@
 
 namespace fx::test {
 
-/// List of triangles: three consecutive positions each.
+/// List of triangles. Each triangle has three consecutive positions.
 using Soup = std::vector<glm::vec3>;
 
 inline void addQuad(Soup& soup, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
@@ -50,7 +50,8 @@ inline Soup boxMesh(const glm::vec3& low, const glm::vec3& high)
     return soup;
 }
 
-/// A sphere of 4 n (n - 1) triangles, 2 (n - 1) of them between each two neighbors of 2 n meridians.
+/// A sphere of 4 n (n - 1) triangles. There are 2 n meridians, with 2 (n - 1) triangles between two
+/// neighboring meridians.
 inline Soup sphereMesh(float radius, int n)
 {
     const auto at = [&](int i, int k) {
@@ -106,7 +107,7 @@ inline std::shared_ptr<const sim::DistanceField> fieldOf(const Soup& soup, float
     return field.ok() ? *field : nullptr;
 }
 
-/// Creates a runner that runs each loop on `threads` threads, whatever the number of processors.
+/// Creates a runner that runs each loop on `threads` threads, for any number of processors.
 inline std::unique_ptr<base::TaskRunner> threadedRunner(uint32_t threads)
 {
     static constexpr uint32_t kCounts[] = {0, 1, 2, 3, 4, 5, 6, 7};

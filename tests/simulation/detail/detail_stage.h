@@ -14,7 +14,7 @@ namespace fx::test {
 namespace column = base::material_column;
 namespace constant = base::material_constant;
 
-/// The groups of one solver: blobs, and material coordinates if it publishes them.
+/// The groups of one solver: blobs, and material coordinates if the solver publishes them.
 struct DetailGroups
 {
     explicit DetailGroups(const base::FrameSnapshot& snapshot)

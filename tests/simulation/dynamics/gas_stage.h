@@ -46,8 +46,8 @@ inline std::vector<sim::GasParticle> lattice(uint32_t n, double energy)
     return particles;
 }
 
-/// Distributes `joules` equally among the `count` particles nearest to `center`; of equally near ones, those
-/// with the smaller index.
+/// Distributes `joules` [J] equally among the `count` particles nearest to `center`. Particles at equal
+/// distance are selected by smaller index.
 inline void heatNearest(std::vector<sim::GasParticle>& particles, const glm::dvec3& center, uint32_t count,
                         double joules)
 {

@@ -7,7 +7,7 @@
 
 namespace fx::test {
 
-/// One fragment without drag or smoke, thrown straight up at `speed` from the origin.
+/// One fragment without drag or smoke. Its initial velocity at the origin is `speed` [m/s] upwards.
 inline std::unique_ptr<sim::FragmentsDef> oneFragment(float speed)
 {
     auto def = std::make_unique<sim::FragmentsDef>();

@@ -91,8 +91,8 @@ inline std::vector<uint32_t> everyone(uint32_t count)
     return owners;
 }
 
-/// Value that replaces a number of threads: loops run serially in the shortest allowed ranges, the last range
-/// first.
+/// Special value for a number of threads. Loops then run serially in the shortest allowed ranges, the last
+/// range first.
 constexpr uint32_t kBackwards = ~0u;
 
 inline std::unique_ptr<base::TaskRunner> runner(uint32_t threads)
@@ -114,7 +114,7 @@ struct SearchOptions
     double margin = 0.125;
     uint32_t entriesPerParticle = 512;
     uint32_t threads = 1;
-    std::vector<uint32_t> owners = {}; ///< empty: all particles
+    std::vector<uint32_t> owners = {}; ///< owners of lists; empty: all particles
 };
 
 template <class T>
@@ -136,8 +136,7 @@ Searched<T> searched(const Cloud<T>& cloud, const sim::Domain& domain, const Sea
 }
 
 /// [m2] Squared distance of particle i from the image of particle j that is mirrored on the axes of
-/// `mirrors`; infinite where there is no wall. It is implemented independently, from the comments in
-/// domain.h.
+/// `mirrors`; infinite if there is no wall. The function does not use the tested code.
 template <class T>
 T distance2(const Cloud<T>& cloud, const sim::Domain& domain, uint32_t i, uint32_t j, uint32_t mirrors)
 {
@@ -163,7 +162,7 @@ T distance2(const Cloud<T>& cloud, const sim::Domain& domain, uint32_t i, uint32
     return d2;
 }
 
-/// Entries of the list of slot `i`, found by testing all particles and all images, in the order of lists.
+/// Entries of the list of slot `i`, in the order of lists. The function tests all particles and all images.
 template <class T>
 std::vector<uint32_t> trialOfAll(const Cloud<T>& cloud, const sim::Domain& domain, T margin, uint32_t i)
 {

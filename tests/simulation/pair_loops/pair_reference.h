@@ -1,6 +1,6 @@
 /// @file pair_reference.h
-/// Reference of the sums of the pair loops: in double, over all pairs, in the textbook form with dW/dr and
-/// unit vectors, written from the formulas in the comments.
+/// Reference implementation of the sums of the pair loops. It computes in double over all pairs, in the
+/// textbook form with dW/dr and unit vectors.
 #pragma once
 
 #include "benchmarks/scenes/gas_stage.h"
@@ -17,7 +17,7 @@ namespace fx::test {
 using bench::chance, bench::latticeGas, bench::parcel, bench::stir, bench::unitBox;
 using bench::Densities, bench::Forces, bench::Gas, bench::GasStage;
 
-/// Kernel W and its derivative dW/dr for unit mass, in the form of Dehnen and Aly's table.
+/// Kernel W and its derivative dW/dr, in the form of the table of Dehnen and Aly.
 struct ReferenceKernel
 {
     sim::SphKernel kind;

@@ -1,5 +1,6 @@
 /// @file quad.h
-/// Makes __float128, with 113 bits of mantissa, usable as the number type of the ray integral.
+/// Defines the functions that the ray integral needs for the number type __float128 with 113 bits of
+/// mantissa.
 #pragma once
 
 #include "rendering/reference/integral/lane_numbers.h"

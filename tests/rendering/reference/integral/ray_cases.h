@@ -1,6 +1,6 @@
 /// @file ray_cases.h
-/// Rays through blobs for tests, with numbers that float represents exactly, so that every precision
-/// integrates the same blobs.
+/// Rays through blobs for tests. All numbers are exact in float, so that every precision integrates the same
+/// blobs.
 #pragma once
 
 #include "foundation/random/philox.h"
@@ -40,8 +40,8 @@ inline double fullDepth(const RayBlob<double>& b, uint32_t degree = 2)
            chord[degree - 2];
 }
 
-/// Random overlapping blobs along a ray. They lie between 2 and 12 m, have half chords of 0.02 to 2 m, and
-/// have the given total optical depth.
+/// Random overlapping blobs along a ray. The blobs are between 2 and 12 m, have half chords of 0.02 to 2 m,
+/// and have the given total optical depth.
 inline std::vector<RayBlob<double>> randomRay(uint32_t count, double opticalDepth, uint64_t seed,
                                               uint32_t degree = 2)
 {
@@ -101,7 +101,7 @@ RayLight<T> integrate(const IntegralSettings& settings, const std::vector<RayBlo
     return RayIntegrator<T>(settings).integrate(blobs, window);
 }
 
-/// Adaptive quadrature in __float128.
+/// Light of a ray by adaptive quadrature in __float128.
 inline std::array<double, 3> trueLight(const std::vector<RayBlob<double>>& blobs,
                                        const IntegralSettings& settings = {},
                                        const RayWindow<double>& window = openWindow<double>(),

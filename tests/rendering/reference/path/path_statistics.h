@@ -1,5 +1,5 @@
 /// @file path_statistics.h
-/// Means of random numbers with their standard errors, and free flights of light through a medium.
+/// Mean and standard error of random numbers, and free paths of light through a medium.
 #pragma once
 
 #include "rendering/reference/path/path_tracking.h"
@@ -29,17 +29,17 @@ private:
     double mean_ = 0.0, squares_ = 0.0;
 };
 
-/// Result of following light through a medium.
+/// Result of a path through a medium.
 struct Escape
 {
     bool isOut = false;
     uint32_t scatterings = 0;
     TraceRay ray{}; ///< ray of the last free path
     glm::dvec3 throughput{1.0};
-    glm::dvec3 luminance{0.0}; ///< emitted on the way
+    glm::dvec3 luminance{0.0}; ///< light emitted along the path
 };
 
-/// Follows light until it leaves the medium or its throughput is below `least`.
+/// Traces a path until it leaves the medium or its throughput is below `least`.
 inline Escape escape(MediumTracker& tracker, TraceRay ray, PathSampler& sampler, double least = 1e-9)
 {
     Escape result;

@@ -11,7 +11,7 @@
 
 namespace fx::render {
 
-/// Overlapping balls of different size around the origin, within 2 m.
+/// Overlapping balls of different sizes, within 2 m from the origin.
 inline std::vector<MediumBlob> someBlobs(uint32_t count, double crossSection, const glm::dvec3& albedo,
                                          double g = 0.0)
 {
@@ -29,7 +29,7 @@ inline std::vector<MediumBlob> someBlobs(uint32_t count, double crossSection, co
     return blobs;
 }
 
-/// One grey substance.
+/// Properties of a grey medium.
 inline MediumPoint substance(double extinction, double albedo,
                              const PhaseFunction& phase = PhaseFunction::isotropic())
 {

@@ -1,5 +1,5 @@
 /// @file detail_scenes.h
-/// Balls of medium whose field has detail, for the renderers without a GPU.
+/// Balls of medium whose field has detail, for tests of the renderers without a GPU.
 #pragma once
 
 #include "rendering/field_detail/detailed_field.h"
@@ -44,7 +44,7 @@ inline render::MediumDetails detailsOf(std::span<const render::MediumBlob> blobs
     return details;
 }
 
-/// The same field with detail, for evaluation point by point, without the conservation factor.
+/// The field of detailsOf() for evaluation at single points, without the conservation factor.
 inline render::DetailedField fieldOf(std::span<const render::MediumBlob> blobs,
                                      const render::MediumDetails& details, const render::LumpTile& tile)
 {

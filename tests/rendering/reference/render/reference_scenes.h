@@ -11,8 +11,8 @@
 
 namespace fx::test {
 
-/// Overlapping blobs of random emission in a ball of radius 1, seen from a distance of 4, with nothing
-/// behind.
+/// Overlapping blobs of random emission in a ball of radius 1 m. The camera distance is 4 m, and the
+/// background is empty.
 inline render::ReferenceScene blobScene(size_t count, double opticalDepth, uint64_t seed = 1)
 {
     Chance chance(seed);

@@ -44,7 +44,8 @@ inline Balls clusteredBalls(size_t count, uint64_t seed)
     return balls;
 }
 
-/// Sets of balls: random, clustered, coincident, a single one, none, and balls of very different sizes.
+/// Sets of balls: random, clustered and coincident balls, a single ball, no ball, and balls of very different
+/// sizes.
 inline std::vector<BallScene> ballScenes()
 {
     std::vector<BallScene> scenes;
@@ -65,7 +66,7 @@ inline std::vector<BallScene> ballScenes()
     return scenes;
 }
 
-/// Whether a ray intersects a ball between two ray parameters, computed directly from the definition.
+/// True if a ray intersects a ball between two ray parameters, computed directly from the definition.
 inline bool meets(const render::TraceRay& ray, const render::TraceBall& ball, double begin, double end,
                   const glm::dvec3& origin = glm::dvec3(0.0))
 {

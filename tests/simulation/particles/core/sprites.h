@@ -8,7 +8,7 @@
 
 namespace fx::test {
 
-/// An emitter of sprites that are born in a disc and thrown up; their motion has a closed form.
+/// An emitter of sprites that are born in a disc and move upwards. The motion has a closed form.
 inline std::unique_ptr<sim::EmitterDef> spriteEmitter(float rate, base::Range lifetime)
 {
     auto def = rateEmitter(rate);
@@ -27,7 +27,7 @@ inline std::unique_ptr<sim::EmitterDef> spriteEmitter(float rate, base::Range li
     return def;
 }
 
-/// A module that does nothing. With it, motion is integrated.
+/// A module without effect. Emitters with this module integrate motion in steps.
 class Idle final : public sim::TileOp
 {
 public:

@@ -9,7 +9,7 @@
 
 namespace fx::test {
 
-/// Creates an effect from emitters, which must be in an order in which causes precede their effects.
+/// Creates an effect from emitters. An emitter that causes births in another emitter must precede it.
 template <class... Defs>
 std::shared_ptr<sim::EffectDef> linkedEffect(std::unique_ptr<Defs>... defs)
 {
@@ -21,7 +21,7 @@ std::shared_ptr<sim::EffectDef> linkedEffect(std::unique_ptr<Defs>... defs)
     return effect;
 }
 
-/// An emitter of sprites that are born only by events, at the positions of the events, and do not move.
+/// An emitter of sprites without motion. Births are caused only by events, at the positions of the events.
 inline std::unique_ptr<sim::EmitterDef> fedEmitter(float lifetime = 1000.0f)
 {
     auto def = std::make_unique<sim::EmitterDef>();
@@ -47,7 +47,7 @@ struct Seen
     float age;
 };
 
-/// The particles in the group that solver number `solver` has published, by row.
+/// The particles in the group of the solver with the index `solver`, by row.
 inline std::vector<Seen> particlesOf(const base::FrameSnapshot& snapshot, uint32_t solver)
 {
     namespace column = base::particle_column;

@@ -10,7 +10,7 @@
 
 namespace fx::test {
 
-/// An emitter of sprites that stay where they are born, `rate` a second.
+/// An emitter of `rate` sprites per second that do not move after birth.
 inline std::unique_ptr<sim::EmitterDef> dropper(float rate)
 {
     auto def = rateEmitter(rate);

@@ -41,15 +41,17 @@ private:
 };
 
 /// Quantile of the chi-square distribution with `degrees` degrees of freedom, by the approximation of Wilson
-/// and Hilferty. A value exceeds it with the same probability with which a normal variable exceeds z.
+/// and Hilferty. The probability that a value exceeds the quantile equals the probability that a normal
+/// variable exceeds z.
 inline double chiSquareLimit(double degrees, double z)
 {
     const double part = 2.0 / (9.0 * degrees);
     return degrees * std::pow(1.0 - part + z * std::sqrt(part), 3.0);
 }
 
-/// Quantile z of the normal distribution for each of 40 tests of the shapes, so that all of them together
-/// fail by chance with a probability of 1 % (Sidak): 1 - 0.99^(1/40) = 2.5e-4 for each gives z = 3.48.
+/// Quantile z of the normal distribution for each of 40 tests of the shapes. The probability that at least
+/// one test fails by chance is 1 % (Sidak). The probability for one test is 1 - 0.99^(1/40) = 2.5e-4, which
+/// gives z = 3.48.
 constexpr double kSidak = 3.48;
 
 inline void expectEven(const EqualCells& cells, const char* what)

@@ -1,6 +1,5 @@
 /// @file tile_stage.h
-/// A single tile as input of modules, and the free flight between modules, implemented independently from the
-/// comments in tile.h.
+/// A single tile as input of modules, and an independent implementation of the free flight between modules.
 #pragma once
 
 #include "simulation/particles/tile.h"
@@ -42,7 +41,7 @@ public:
     glm::vec3 acceleration(uint32_t i = 0) const { return {tile->ax[i], tile->ay[i], tile->az[i]}; }
     glm::vec3 air(uint32_t i = 0) const { return {tile->ux[i], tile->uy[i], tile->uz[i]}; }
 
-    /// Clears the sums of the tile and sets the length of the next step.
+    /// Sets the sums of forces in the tile to 0, and sets the length of the next step.
     void begin(float seconds)
     {
         context.seconds = seconds;
