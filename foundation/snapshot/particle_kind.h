@@ -149,7 +149,8 @@ enum : size_t
     Mesh,        ///< id of the mesh in the AssetTable; 0: none
     ArcPerTile,  ///< [m] length of a ribbon per width of the texture; 0: the texture covers the whole strip
     Edge,        ///< [1] fraction of a ribbon's half width over which its edges fade, 0..1
-    /// [s] age at which a ribbon ends. The ribbon may have older rows, for interpolation to earlier moments.
+    /// [s] age at which a ribbon ends. Rows of greater age are not drawn. They serve the
+    /// interpolation to earlier moments.
     TailAge,
     Count
 };

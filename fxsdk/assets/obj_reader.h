@@ -65,7 +65,7 @@ constexpr size_t kMaxMeshTriangles = 65'536;
 
 /// Reads a mesh for particles. Polygons become fans of triangles; a corner without a normal gets the normal
 /// of its triangle.
-/// @return Parse with the line and the reason, TooLarge
+/// @return the mesh, or an error with the code Parse or TooLarge
 base::Result<ObjMesh> readObj(std::string_view text);
 
 struct ObjTriangles

@@ -7,10 +7,10 @@
 ///     if (backend.beginFrame(graph)) { graph.execute(backend); }
 ///     const base::Status status = backend.endFrame();
 ///
-/// Each draw has exactly the state that it declares. beginFrame() sets all states. Later calls set only the
-/// states that differ. GlStateGuard lists the affected states. The clip control and multisampling of the
-/// host are not changed. A frame with the same resources as the last frame allocates nothing. No draw makes
-/// GL queries. Threads: [GL thread].
+/// Each draw has exactly the state that it declares. beginFrame() sets all states. For each draw, only the
+/// states that differ from those of the previous draw are set. GlStateGuard lists the affected states. The
+/// clip control and multisampling of the host are not changed. A frame with the same resources as the last
+/// frame allocates nothing. No draw makes GL queries. Threads: [GL thread].
 #pragma once
 
 #include "foundation/result/status.h"

@@ -15,9 +15,9 @@
 ///   skip           The missing time is skipped. During the skipped time particles age or die, but do not
 ///                  move.
 ///   authoritative  The effect is never hidden.
-/// Without the member "offscreen", gases are authoritative. Other effects are analytic if all their solvers
-/// can jump to any time, and replayed otherwise. An effect of unknown extent is never hidden because of its
-/// position; the preset's member "bound" states the extent.
+/// If a preset has no member "offscreen", the value for gases is "authoritative". For other effects it is
+/// "analytic" if all solvers can jump to any time, otherwise "replay". An effect of unknown extent is never
+/// hidden because of its position; the preset's member "bound" states the extent.
 ///
 /// Threads: [scene thread] for all functions. Ownership: the library copies all arguments.
 #ifndef FXSDK_FX_ACTIVATION_H

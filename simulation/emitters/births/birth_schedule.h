@@ -178,7 +178,7 @@ private:
         WideInt rate;  ///< symbol q of the formula
         WideInt slope; ///< symbol m of the formula
 
-        WideInt sum(base::Ticks n) const; ///< symbol S of the formula
+        WideInt sum(base::Ticks n) const; ///< progress during the first n ticks, symbol S of the formula
         base::Ticks tickOf(WideInt sum) const;
     };
     /// Destination of births.

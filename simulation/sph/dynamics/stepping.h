@@ -46,7 +46,7 @@ template <class T>
 void openSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 /// Shortens the step of one particle by equation (3), so that it ends at `end`. `end` must not be before the
-/// present time. The rates act for half of the step.
+/// present time. The acceleration acts for half of the change of the length.
 template <class T>
 void shortenStep(DynamicsState<T>& state, uint32_t slot, uint64_t end);
 

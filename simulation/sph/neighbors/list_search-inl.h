@@ -16,7 +16,7 @@ namespace fx::sim::HWY_NAMESPACE {
 template <class T>
 struct Owner
 {
-    std::array<T, 3> at; ///< [m] position minus the walls of the image
+    std::array<T, 3> at; ///< [m] position relative to the wall that mirrors the image, on mirrored axes
     T reach2;            ///< [m2]
 };
 
