@@ -31,8 +31,7 @@ void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& i
     call.buffers = {buffers, bufferCount};
     call.uniforms = asUniforms(view);
     call.blend = Blend::Premultiplied;
-    call.vertices = 6;
-    call.instances = batch.count;
+    call.vertices = 6 * batch.count; // one instance, see shared/particle_fetch.glsl
     backend.draw(call);
 }
 

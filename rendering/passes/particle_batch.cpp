@@ -124,8 +124,9 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
     call.buffers = {buffers.data(), bufferCount};
     call.uniforms = target.isMarked || target.cards.marks.valid() ? asUniforms(marked) : asUniforms(block);
     call.blend = batch.isSolid ? Blend::None : Blend::Premultiplied;
-    call.vertices = batch.vertices;
-    call.instances = count;
+    const bool isMesh = batch.shape == BatchShape::Mesh;
+    call.vertices = isMesh ? batch.vertices : batch.vertices * count;
+    call.instances = isMesh ? count : 1;
     call.indirect = batch.arguments;
     call.depthTarget = depth;
     call.reversedDepth = true;

@@ -18,13 +18,14 @@ out vec2 impostorPlace;      // [0, 1] on the picture
 
 void main()
 {
-    Impostor impostor = impostors[gl_InstanceID + int(pass.y)]; // a draw may begin in the middle of the order
+    Impostor impostor = impostors[gl_VertexID / 6 + int(pass.y)]; // a draw may begin in the middle of the order
     impostorCenter = impostor.center;
     impostorAppearance = impostor.appearance;
     vec2 tile = vec2(impostor.right.w, impostor.up.w);
     impostorTiles = 32.0 * vec4(mod(tile.x, 64.0), floor(tile.x / 64.0), mod(tile.y, 64.0), floor(tile.y / 64.0));
-    vec2 corner = vec2(gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0,
-                       gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5 ? 1.0 : -1.0);
+    int vertex = gl_VertexID % 6;
+    vec2 corner = vec2(vertex == 1 || vertex == 2 || vertex == 4 ? 1.0 : -1.0,
+                       vertex == 2 || vertex == 4 || vertex == 5 ? 1.0 : -1.0);
     impostorPlace = 0.5 + 0.5 * corner;
     vec3 place = impostor.center.xyz + impostor.center.w * (corner.x * impostor.right.xyz + corner.y * impostor.up.xyz);
     vec3 c = vec3(dot(place, right.xyz), dot(place, up.xyz), dot(place, forward.xyz));

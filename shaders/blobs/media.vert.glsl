@@ -26,7 +26,7 @@ mat3 detailAxes(float seed, float periods)
 
 void main()
 {
-    int index = gl_InstanceID + int(pass.y); // a draw may begin in the middle of the order
+    int index = gl_InstanceID + gl_VertexID / 6 + int(pass.y); // a draw may begin in the middle of the order
     BlobInstance blob = blobs[index];
 #if FX_SMALL
     float depthOfTexel = rayOrigin.w > 0.5 ? 1.0 : length(blob.centerRadius.xyz);
@@ -48,5 +48,5 @@ void main()
     blobLit = blob.lit;
     blobEmission = blob.emission;
     blobDetailAxes = detailAxes(blob.medium.w, blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w);
-    gl_Position = blobQuadCorner(blob.centerRadius.xyz, blob.centerRadius.w, gl_VertexID);
+    gl_Position = blobQuadCorner(blob.centerRadius.xyz, blob.centerRadius.w, gl_VertexID % 6);
 }

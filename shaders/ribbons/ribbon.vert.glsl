@@ -33,8 +33,10 @@ vec3 acrossAt(int row)
 
 void main()
 {
-    int row = rowOfRank(rows.z + gl_InstanceID);
-    vec2 levelFactors = factorsOfRank(rows.z + gl_InstanceID);
+    int rank = rankOfQuad(gl_InstanceID, gl_VertexID);
+    int vertex = gl_VertexID % kQuadVertices;
+    int row = rowOfRank(rank);
+    vec2 levelFactors = factorsOfRank(rank);
     fragmentPlace = vec3(0.0);
     fragmentTexture = vec2(0.0);
     fragmentColor = vec4(0.0);
@@ -44,8 +46,8 @@ void main()
     gl_Position = clippedAway();
     if (!goesOn(row + 1) || levelFactors.x == 0.0)
         return;
-    bool isSecond = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-    float side = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0;
+    bool isSecond = vertex == 2 || vertex == 4 || vertex == 5;
+    float side = vertex == 1 || vertex == 2 || vertex == 4 ? 1.0 : -1.0;
     int at = isSecond ? row + 1 : row;
     // The way that lies after the moment of the frame is not seen yet: the piece in which the moment lies ends there.
     float later = 0.0;

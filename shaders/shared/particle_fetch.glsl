@@ -26,6 +26,14 @@ vec4 olderColor(int column, int row)
     return colorOfWords(olderWords[at], olderWords[at + 1]);
 }
 
+// Rank of the particle or of the ribbon's piece that a vertex belongs to. Quads are drawn in one instance where their number
+// is known to the processor: an instance of 6 vertices would leave most lanes of the hardware idle.
+const int kQuadVertices = 6;
+int rankOfQuad(int instance, int vertex)
+{
+    return rows.z + instance + vertex / kQuadVertices;
+}
+
 // The row that is drawn as number `rank`; strip.z is an OrderForm of rendering/particle_rows/particle_frame.h.
 int rowOfRank(int rank)
 {

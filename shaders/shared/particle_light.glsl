@@ -103,8 +103,10 @@ vec3 scatteredBySurface(vec4 ball, vec3 place, vec3 normal)
 // Light of a square or a ribbon at one of its corners, for its color.
 vec3 scatteredByCard(vec3 center, vec3 across, float radius, vec4 color)
 {
-    if (appearance.w > 1.5) // it hides
-        return shine.y * color.rgb * scatteredByBody(vec4(center, radius));
+#if FX_SOLID // a test of appearance.w would execute both forms on hardware without jumps
+    return shine.y * color.rgb * scatteredByBody(vec4(center, radius));
+#else
     float opacity = appearance.w < 0.5 ? color.a : 0.0; // what adds takes no light
     return scatteredByMedium(seenPlace(center, across, radius, opacity), color.rgb, shine.y);
+#endif
 }

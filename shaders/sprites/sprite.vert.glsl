@@ -55,7 +55,9 @@ vec2 grown(vec2 extent, float area)
 
 void main()
 {
-    Particle p = fetchParticle(rowOfRank(rows.z + gl_InstanceID));
+    int rank = rankOfQuad(gl_InstanceID, gl_VertexID);
+    int vertex = gl_VertexID % kQuadVertices;
+    Particle p = fetchParticle(rowOfRank(rank));
     fragmentPlace = vec3(0.0);
     fragmentTexture = vec2(0.0);
     fragmentColor = vec4(0.0);
@@ -65,7 +67,7 @@ void main()
     fragmentVelocity = p.drift;
 #endif
     gl_Position = clippedAway();
-    vec2 levelFactors = factorsOfRank(rows.z + gl_InstanceID);
+    vec2 levelFactors = factorsOfRank(rank);
     if (!p.alive || levelFactors.x == 0.0)
         return;
     vec3 horizontal;
@@ -78,8 +80,8 @@ void main()
     float least = moment.w * pixelSize(p.center);
     vec2 shown = max(extent, vec2(least)); // what is smaller than a pixel is widened to it and thinned as much
     float thinned = extent.x * extent.y / max(shown.x * shown.y, 1e-30);
-    vec2 corner = vec2(gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0,
-                       gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5 ? 1.0 : -1.0);
+    vec2 corner = vec2(vertex == 1 || vertex == 2 || vertex == 4 ? 1.0 : -1.0,
+                       vertex == 2 || vertex == 4 || vertex == 5 ? 1.0 : -1.0);
     vec3 across = horizontal * (corner.x * shown.x) + vertical * (corner.y * shown.y);
     fragmentPlace = p.center + across;
     fragmentTexture = 0.5 + 0.5 * corner;
