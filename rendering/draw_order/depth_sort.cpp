@@ -1,5 +1,6 @@
 #include "rendering/draw_order/depth_sort.h"
 
+#include "foundation/memory/amortized_vector.h"
 #include "rendering/draw_order/depth_keys.h"
 #include "rendering/draw_order/incremental_sort.h"
 
@@ -65,7 +66,7 @@ std::span<const uint32_t> DepthSort::sort(std::span<const float> distances, uint
     const size_t count = distances.size();
     if (keys_.size() != count || order_.empty()) { // another list
         order_.clear();
-        keys_.assign(count, kAbsentKey);
+        base::assignAmortized(keys_, count, kAbsentKey);
         changed_.resize((count + 63) / 64);
         arrived_.resize((count + 63) / 64);
     }

@@ -1,5 +1,6 @@
 #include "rendering/field/field_plan.h"
 
+#include "foundation/memory/amortized_vector.h"
 #include "rendering/frame/ball_window.h"
 #include "rendering/frame/view_volume.h"
 #include "shaders/formulas/formula.h"
@@ -145,7 +146,7 @@ void FieldPlan::chooseVoxels(const FieldPlanInputs& in)
     const CameraGeometry& camera = *in.camera;
     const float pixelsPerSlope = 0.5f * float(in.height) * std::abs(camera.clipScale.y);
     const float perRadius = float(std::clamp(in.resolution, kMinVoxels, kMaxVoxels)) / kRadii;
-    lattices_.assign(in.effects.size(), Lattice());
+    base::assignAmortized(lattices_, in.effects.size(), Lattice());
     for (size_t i = 0; i < in.effects.size(); ++i) {
         const BlobEffect& effect = in.effects[i];
         const float depth = camera.orthographic ? 1.0f : distanceToBox(effect.low, effect.high);
@@ -192,6 +193,7 @@ bool FieldPlan::placeField(Lattice& lattice, int detail, const CameraGeometry& c
     field.bricks.w = int(table_.size());
     field.limits.x = leastRadius(lattice.voxel);
     field.limits.z = float(detail + 1);
+    base::reserveAmortized(table_, table_.size() + size_t(count));
     table_.resize(table_.size() + size_t(count), 0u);
     lattice.field = uint32_t(fields_.size());
     fields_.push_back(field);
@@ -266,13 +268,14 @@ void FieldPlan::listBricks()
                     firstBall += count;
                 }
     }
+    base::reserveAmortized(balls_, firstBall);
     balls_.resize(firstBall);
-    peaks_.assign(bricks_.size(), 0.0f);
+    base::assignAmortized(peaks_, bricks_.size(), 0.0f);
 }
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
-    emitted_.assign(fields_.size(), 0.0f);
+    base::assignAmortized(emitted_, fields_.size(), 0.0f);
     for (size_t e = 0; e < in.effects.size(); ++e)
         for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
             const BlobInstance& ball = in.balls[i];
@@ -380,6 +383,7 @@ void FieldPlan::listTiles(const FieldPlanInputs& in)
         tiles_[tile].first = stamps_[tile] = first; // from here on: where its list goes on
         first += tiles_[tile].count;
     }
+    base::reserveAmortized(tileFields_, first);
     tileFields_.resize(first);
     for (size_t i = 0; i < seen_.size(); i += 2)
         tileFields_[stamps_[seen_[i]]++] = seen_[i + 1];

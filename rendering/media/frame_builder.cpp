@@ -1,5 +1,6 @@
 #include "rendering/media/frame_builder.h"
 
+#include "foundation/memory/amortized_vector.h"
 #include "rendering/frame/exposure.h"
 #include "rendering/optics/black_body.h"
 #include "shaders/formulas/formula.h"
@@ -39,10 +40,10 @@ BlobInstance shadeBlob(const GatheredBlob& blob, float exposure)
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
     : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), fields_(memory),
-      materials_(memory), marks_(memory), sortedMarks_(memory), effects_(memory), sorted_(memory),
-      distances_(memory), depthSort_(memory), impostors_(memory), impostorSort_(memory), takenSort_(memory),
-      sortedImpostors_(memory), taken_(memory), sortedTaken_(memory), takenDistances_(memory),
-      identity_(memory), takenTiles_(memory)
+      materials_(memory), marks_(memory), sortedMarks_(memory), effects_(memory), radii_(memory),
+      sorted_(memory), distances_(memory), depthSort_(memory), impostors_(memory), impostorSort_(memory),
+      takenSort_(memory), sortedImpostors_(memory), taken_(memory), sortedTaken_(memory),
+      takenDistances_(memory), identity_(memory), takenTiles_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
@@ -169,12 +170,12 @@ void FrameBuilder::add(const BlobInstance& blob, const ImpostorPlan& plan, const
 void FrameBuilder::sort(const CameraGeometry& camera, bool isSorted)
 {
     if (!isSorted) {
-        sorted_.assign(shaded_.begin(), shaded_.end());
-        sortedMarks_.assign(marks_.begin(), marks_.end());
+        base::assignAmortized(sorted_, shaded_);
+        base::assignAmortized(sortedMarks_, marks_);
         identity_.resize(shaded_.size());
         std::iota(identity_.begin(), identity_.end(), 0u);
         order_ = identity_;
-        distances_.assign(shaded_.size(), 0.0f);
+        base::assignAmortized(distances_, shaded_.size(), 0.0f);
         depthSort_.forget();
         return;
     }

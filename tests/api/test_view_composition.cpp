@@ -1,4 +1,5 @@
 // FX_COMPOSITION_AUTOMATIC, and what a budget makes of compositions, as a host sees it.
+#include "tests/api/counting_new.h"
 #include "tests/api/view_fixture.h"
 
 #include <algorithm>
@@ -214,7 +215,7 @@ TEST_F(ViewComposition, automaticScatteringIsWhatTheInstancesAskForAndTheViewHas
     EXPECT_LT(difference(drawnScattering(kAutomatic), drawnScattering(kClosedForm)), kAlike);
 }
 
-TEST_F(ViewComposition, aNetworkAtRestHasNoPassAndNoFrameThatIsWarmAllocates)
+TEST_F(ViewComposition, aNetworkAtRestHasNoPassAndAllocatesNothing)
 {
     constexpr uint32_t kClosedForm = 1, kNetwork = 2;
     add(ballsWith(R"("composition": "volume", "scattering": "network", )"));
@@ -231,17 +232,62 @@ TEST_F(ViewComposition, aNetworkAtRestHasNoPassAndNoFrameThatIsWarmAllocates)
         EXPECT_EQ(fx::test::passNamesOf(view_), plain) << "no pass of the network is left";
         EXPECT_EQ(statistics().allocations, 0u);
     }
-    constexpr int kFrames = 12, kWarm = 4;
-    uint64_t least[2] = {~uint64_t(0), ~uint64_t(0)}; // allocations of a warm frame
-    for (const uint32_t scattering : {kClosedForm, kNetwork}) {
-        (void)drawnScattering(scattering);
-        for (int i = 0; i < kFrames; ++i) {
-            update(1);
-            (void)drawn();
-            EXPECT_EQ(sweeps(), scattering == kNetwork ? 2u : 0u);
-            uint64_t& count = least[scattering == kNetwork];
-            count = i >= kWarm ? std::min(count, statistics().allocations) : count;
-        }
+}
+
+TEST_F(ViewComposition, listsOfGrowingMediaDoubleAndDoNotGrowInEachFrame)
+{
+    constexpr int kFirst = 10, kFrames = 40; // in the first second particles are born and none dies
+    choose(FX_COMPOSITION_VOLUME);
+    const FxFrameDef def = frame();
+    int growing = 0;
+    for (int i = 0; i < kFirst + kFrames; ++i) {
+        update(1);
+        const uint64_t before = fx::test::newCallsOfThisThread();
+        ASSERT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
+        const bool allocates = fx::test::newCallsOfThisThread() != before || statistics().allocations > 0;
+        growing += i >= kFirst && allocates ? 1 : 0;
     }
-    EXPECT_EQ(least[1], least[0]) << "a network adds no allocation to a frame that is warm";
+    EXPECT_LT(growing, kFrames / 2);
+}
+
+TEST_F(ViewComposition, movingMediaAllocateNothingOnceTheyAreWarm)
+{
+    // as many balls are born as die; they rise, so that bricks and tiles begin and end
+    add(R"({"version": 1, "ground": false, "emitters": [
+        {"layer": "smoke", "shape": "sphere", "size": 0.5, "emission": {"rate": 60}, "lifetime": 1, "radius": 0.4,
+         "crossSection": 0.3, "albedoOverLife": [0.5, 0.5, 0.5], "forces": {"gravity": -2}}]})");
+    constexpr int kWarm = 12, kFrames = 12;
+    update(70);
+    struct Case
+    {
+        const char* name;
+        uint32_t composition;
+        uint32_t scattering;
+        bool layers;
+    };
+    constexpr uint32_t kClosedForm = 1, kNetwork = 2;
+    for (const Case& one : {Case{"slabs", FX_COMPOSITION_SLABS, kClosedForm, false},
+                            Case{"volume", FX_COMPOSITION_VOLUME, kClosedForm, false},
+                            Case{"volume, network", FX_COMPOSITION_VOLUME, kNetwork, false},
+                            Case{"volume, layers", FX_COMPOSITION_VOLUME, kClosedForm, true}})
+    {
+        FxViewSettings settings = fxDefaultViewSettings();
+        settings.composition = one.composition;
+        settings.multipleScattering = one.scattering;
+        settings.layerOutputs = one.layers ? 1 : 0;
+        settings.voxels = 32;
+        ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK) << fxGetLastErrorMessage();
+        const FxFrameDef def = frame();
+        for (int i = 0; i < kWarm + kFrames; ++i) {
+            update(1);
+            const uint64_t before = fx::test::newCallsOfThisThread();
+            ASSERT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
+            if (i < kWarm)
+                continue;
+            EXPECT_EQ(fx::test::newCallsOfThisThread() - before, 0u) << one.name << ", frame " << i;
+            EXPECT_EQ(statistics().allocations, 0u) << one.name << ", frame " << i;
+        }
+        EXPECT_EQ(statistics().composition, one.composition);
+        EXPECT_EQ(sweeps(), one.scattering == kNetwork ? 2u : 0u);
+    }
 }

@@ -1,3 +1,4 @@
+#include "foundation/memory/amortized_vector.h"
 #include "foundation/memory/arena.h"
 #include "foundation/memory/column.h"
 #include "foundation/memory/host_memory.h"
@@ -207,6 +208,25 @@ TEST(Column, ofNothingAllocatesNothing)
     const Column<int> column(&memory, 0);
     EXPECT_EQ(column.data(), nullptr);
     EXPECT_EQ(memory.allocationCount(), 0u);
+}
+
+TEST(AmortizedVector, aListThatGrowsByOneAllocatesOnceForEachDoubling)
+{
+    HostMemory memory;
+    std::pmr::vector<int> values(&memory), copies(&memory), room(&memory);
+    for (int count = 1; count <= 1024; ++count) {
+        assignAmortized(values, size_t(count), count);
+        assignAmortized(copies, values);
+        reserveAmortized(room, size_t(count));
+        EXPECT_EQ(values, std::pmr::vector<int>(size_t(count), count));
+        EXPECT_EQ(copies, values);
+        EXPECT_TRUE(room.empty());
+        EXPECT_GE(room.capacity(), size_t(count));
+    }
+    EXPECT_EQ(memory.allocationCount(), 3u * 11u) << "1, 2, 4 .. 1024";
+    assignAmortized(values, 2, 7);
+    EXPECT_EQ(values, (std::pmr::vector<int>{7, 7}));
+    EXPECT_EQ(memory.allocationCount(), 3u * 11u);
 }
 
 TEST(SameBytes, compareBitsAndNotValues)

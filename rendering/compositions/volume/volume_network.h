@@ -22,7 +22,9 @@ namespace fx::render {
 class VolumeNetwork
 {
 public:
-    explicit VolumeNetwork(GlDevice& device) : device_(device) {}
+    VolumeNetwork(GlDevice& device, std::pmr::memory_resource* memory)
+        : device_(device), grids_(memory), known_(memory), now_(memory)
+    {}
 
     /// Sets the grids of a frame whose media differ from the last frame.
     /// @param cells number of cells along a side of a grid, a multiple of 8
@@ -61,9 +63,9 @@ private:
     GlDevice& device_;
     int cells_ = 0;
     int settled_ = 0; ///< number of sweeps since the last change
-    std::vector<FieldGlowBlock> grids_;
-    std::vector<Known> known_, now_;   ///< grids of the last frame, and of this frame
-    std::array<GlTexture, 7> volumes_; ///< textures in the order of the members of NetworkTextures
+    std::pmr::vector<FieldGlowBlock> grids_;
+    std::pmr::vector<Known> known_, now_; ///< grids of the last frame, and of this frame
+    std::array<GlTexture, 7> volumes_;    ///< textures in the order of the members of NetworkTextures
     GlBuffer buffer_;
     NetworkTextures textures_; ///< resource ids in this frame
     ResourceId gridsId_;       ///< grids in this frame

@@ -36,7 +36,7 @@ int networkCells(const ViewSettings& settings)
 
 VolumeView::VolumeView(const TechniqueSetup& setup)
     : device_(*setup.device), plan_(setup.memory), texels_(setup.memory), details_(setup.memory),
-      glow_(*setup.device), network_(*setup.device), loose_(setup), looseBlobs_(setup.memory)
+      glow_(*setup.device), network_(*setup.device, setup.memory), loose_(setup), looseBlobs_(setup.memory)
 {}
 
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)

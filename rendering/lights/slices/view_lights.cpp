@@ -1,6 +1,7 @@
 #include "rendering/lights/slices/view_lights.h"
 
 #include "foundation/math/hash.h"
+#include "foundation/memory/amortized_vector.h"
 #include "rendering/lights/slices/light_slices_pass.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ void ViewLights::hold(const LightListInputs& in, uint64_t revision)
 {
     held_.clear();
     if (in.settings->slices.refreshFrames > 1)
-        held_.assign(in.casters.begin(), in.casters.end());
+        base::assignAmortized(held_, in.casters);
     heldEye_ = in.eye;
     heldRevision_ = revision;
     age_ = 0;

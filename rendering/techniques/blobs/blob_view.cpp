@@ -1,5 +1,6 @@
 #include "rendering/techniques/blobs/blob_view.h"
 
+#include "foundation/memory/amortized_vector.h"
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/media/blob_estimate.h"
@@ -27,6 +28,7 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     io.marks = builder_.marks();
     io.materials = builder_.materials();
     io.details = builder_.details();
+    base::reserveAmortized(*io.casters, io.casters->size() + builder_.casters().size());
     io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());
     io.anyHeat = builder_.anyHeat();
     io.fragments = estimateFragments(builder_.blobs(), *in.camera, targets.width, targets.height);
