@@ -1,6 +1,7 @@
 #include "rendering/media/blob_gather.h"
 
 #include "foundation/math/bits.h"
+#include "foundation/math/hash.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/streak.h"
 #include "rendering/frame/ball_window.h"
@@ -97,6 +98,13 @@ float seedOf(uint64_t id)
     return float(x >> 40) * 0x1.0p-24f;
 }
 
+/// @param instance, id identity of the ball in the scene: ids are unique in an instance
+/// @param piece of its streak
+float listRank(uint64_t instance, uint64_t id, int piece)
+{
+    return float(base::hashWord(base::hashWord(instance, id), uint64_t(piece)) >> 40) * 0x1.0p-24f;
+}
+
 bool finite(const GatheredBlob& b, const glm::vec3& velocity)
 {
     const float values[] = {b.center.x, b.center.y, b.center.z, b.radius,     b.crossSection, b.temperature,
@@ -180,7 +188,7 @@ public:
                 continue;
             blob.crossSection *= shownWeight / share_;
             blob.velocity = place.rotation * (reader.velocity() * place.scale) + drift.at(reader.position());
-            add(blob, velocity * constants[constant::Shutter]);
+            add(blob, velocity * constants[constant::Shutter], newer.info().instance, reader.id());
         }
     }
 
@@ -233,7 +241,7 @@ private:
         return level_.ramp.isAll() ? 1.0f : level_.ramp.weight(rank) / level_.ramp.mean();
     }
 
-    void add(GatheredBlob blob, const glm::vec3& streak)
+    void add(GatheredBlob blob, const glm::vec3& streak, uint64_t instance, uint64_t id)
     {
         const float depth = camera_.orthographic ? 1.0f : glm::length(blob.center);
         const float pixel = depth / pixelsPerSlope_; // [m]
@@ -251,6 +259,7 @@ private:
         for (int k = 0; k < line.count; ++k) {
             blob.center = head - streak * (float(k) / float(line.count));
             blob.crossSection = section * line.shareOf(k);
+            blob.rank = listRank(instance, id, k);
             if (!isCulled_ || volume_.touches(blob.center, blob.radius))
                 visible_.push_back(blob);
             else

@@ -29,6 +29,7 @@ struct GatheredBlob
     float fireShare;          ///< [1]
     float heat;               ///< [K]
     float seed;               ///< [0, 1) seed of procedural detail, computed from the id of the blob
+    float rank;               ///< [0, 1) see BlobInstance::layer
     float detailAmount;       ///< [1]
     float detailScale;        ///< [1]
     float anisotropy;         ///< [1]

@@ -27,7 +27,7 @@ BlobInstance shadeBlob(const GatheredBlob& blob, float exposure)
     instance.centerRadius = {blob.center, blob.radius};
     instance.medium = {blob.crossSection, blob.heat, blob.detailAmount, blob.seed};
     instance.scatter = {blob.albedo, blob.anisotropy};
-    instance.layer = {float(blob.layer) * 2.0f + blob.fireShare, 0.0f, 0.0f, 0.0f};
+    instance.layer = {float(blob.layer) * 2.0f + blob.fireShare, blob.rank, 0.0f, 0.0f};
     const glm::vec3 share = (1.0f - blob.albedo) * thermal * exposure;
     const float total = emitted.x + emitted.y + emitted.z;
     const float thermalShare = total > 0.0f ? (share.x + share.y + share.z) / total : 0.0f;

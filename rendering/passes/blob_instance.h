@@ -15,9 +15,10 @@ struct BlobInstance
     glm::vec4 centerRadius; ///< xyz [m] position relative to the eye, along world axes; w radius [m]
     glm::vec4 medium;  ///< x cross section [m2]; y heat [K]; z detail amount [1]; w seed of the detail [0, 1)
     glm::vec4 scatter; ///< rgb albedo; w mean cosine of the phase function
-    glm::vec4 layer;   ///< x index of the layer times 2, plus the fraction of fire
-    /// rgb emitted light, exposed; w exponent for detail, which scales the emission by (temperature
-    /// factor)^w
+    /// x number of the layer times 2, plus the share of fire; y rank [0, 1) by which balls are chosen where a
+    /// list has no room for all: uniform, independent of other properties, and the same in all frames
+    glm::vec4 layer;
+    /// rgb emitted light, exposed; w exponent of the factor of detail (temperature factor)^w for the emission
     glm::vec4 emission;
     /// xyz [m] point at which the ball is lit, relative to the eye; w periods of noise per radius. For a
     /// ball in an impostor, w is -1 minus the number of periods, and the ball is lit at its center only.

@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 
 namespace fx::cli {
 namespace {
@@ -64,6 +67,45 @@ TEST(BlobSnapshot, boundsHoldEveryBlob)
             EXPECT_GE(group.info().bounds.max.x, x + radius);
         }
     }
+}
+
+/// Ids by the position of the ball along x.
+std::map<double, uint64_t> idsByPlace(std::span<const render::MediumBlob> blobs)
+{
+    const base::SnapshotSchema schema = blobSchema();
+    const base::FrameSnapshot snapshot = snapshotOfBlobs(blobs, schema, 1);
+    std::map<double, uint64_t> ids;
+    for (const render::MediumBlob& blob : render::mediumOf({&snapshot, nullptr}, 1.0).blobs)
+        ids[std::round(blob.center.x)] = blob.id;
+    return ids;
+}
+
+TEST(BlobSnapshot, aBallKeepsItsIdWhenOthersDieAndPiecesOfAStreakDiffer)
+{
+    std::vector<render::MediumBlob> blobs;
+    for (const uint64_t id : {uint64_t(3), uint64_t(7), uint64_t(7), uint64_t(7), uint64_t(1) << 40}) {
+        render::MediumBlob blob;
+        blob.center.x = double(blobs.size());
+        blob.radius = blob.crossSection = 1.0;
+        blob.id = id;
+        blobs.push_back(blob);
+    }
+    const std::map<double, uint64_t> all = idsByPlace(blobs);
+    std::set<uint64_t> distinct;
+    for (const auto& [place, id] : all)
+        distinct.insert(id);
+    EXPECT_EQ(distinct.size(), blobs.size());
+    blobs.erase(blobs.begin());
+    const std::map<double, uint64_t> left = idsByPlace(blobs);
+    EXPECT_EQ(left.size(), blobs.size());
+    for (const auto& [place, id] : left)
+        EXPECT_EQ(id, all.at(place));
+    for (render::MediumBlob& blob : blobs)
+        blob.id = 0; // a list without ids
+    distinct.clear();
+    for (const auto& [place, id] : idsByPlace(blobs))
+        distinct.insert(id);
+    EXPECT_EQ(distinct.size(), blobs.size());
 }
 
 TEST(BlobSnapshot, anEmptyListHasNoGroups)

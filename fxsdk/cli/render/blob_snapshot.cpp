@@ -13,6 +13,8 @@ namespace {
 namespace column = base::blob_column;
 namespace constant = base::blob_constant;
 
+constexpr int kPieceBits = 8; ///< of ids, below that of the ball: pieces of a streak have one id in a list
+
 /// Middle of the box around all centers.
 glm::dvec3 middleOf(std::span<const render::MediumBlob> blobs)
 {
@@ -69,9 +71,12 @@ base::FrameSnapshot snapshotOfBlobs(std::span<const render::MediumBlob> blobs,
     for (const auto& [properties, members] : groups) {
         const auto& [instance, anisotropy, layer] = properties;
         base::SnapshotGroup& group = snapshot.addGroup(schema.find(base::kBlobKind.name), members.size());
+        uint64_t piece = 0; // of a streak, or of a list without ids
         for (uint32_t row = 0; row < members.size(); ++row) {
             setRow(group, row, blobs[members[row]], origin);
-            group.editIds()[row] = members[row];
+            const uint64_t id = blobs[members[row]].id;
+            piece = row > 0 && blobs[members[row - 1]].id == id ? piece + 1 : 0;
+            group.editIds()[row] = (id << kPieceBits) + piece;
         }
         group.editInfo().count = uint32_t(members.size());
         group.editInfo().instance = instance;

@@ -31,11 +31,9 @@ std::pair<float, float> windowRange(const ViewBlock& view, int axis, const glm::
     return {std::min(a, b) - kMargin, std::max(a, b) + kMargin};
 }
 
-/// Evenly spread, and the same from frame to frame: from the seed, which follows from the particle.
-uint32_t rankOf(const BlobInstance& ball, size_t number)
+uint32_t rankOf(const BlobInstance& ball)
 {
-    const float seed = ball.medium.w;
-    return seed > 0.0f && seed < 1.0f ? uint32_t(seed * 0x1.0p24f) << 8 : uint32_t(number) * 0x9E3779B9u;
+    return uint32_t(ball.layer.y * 0x1.0p24f) << 8;
 }
 
 } // namespace
@@ -62,8 +60,8 @@ uint64_t findTiles(std::span<const BlobInstance> balls, const ViewBlock& view,
             outRects.push_back({1, 0, 1, 0, 0});
             continue;
         }
-        outRects.push_back({uint16_t(first[0]), uint16_t(last[0]), uint16_t(first[1]), uint16_t(last[1]),
-                            rankOf(ball, outRects.size())});
+        outRects.push_back(
+            {uint16_t(first[0]), uint16_t(last[0]), uint16_t(first[1]), uint16_t(last[1]), rankOf(ball)});
         all += uint64_t(last[0] - first[0] + 1) * uint64_t(last[1] - first[1] + 1);
     }
     return all;

@@ -21,8 +21,8 @@ struct TileRect
 {
     uint16_t left, right; ///< columns
     uint16_t low, high;   ///< rows, numbered upwards
-    /// Rank of the ball, constant from frame to frame. A tile with too many balls lists only the balls with
-    /// the lowest ranks.
+    /// Rank of the ball (BlobInstance::layer), times 2^32. A tile with too many balls lists those with the
+    /// lowest ranks.
     uint32_t rank;
 };
 static_assert(sizeof(TileRect) == 12);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 using namespace fx;
@@ -47,6 +48,18 @@ protected:
             group.editColumn(column::Age)[i] = elements[i].age;
         }
         return s;
+    }
+
+    std::pmr::vector<render::GatheredBlob> gathered(const base::FrameSnapshot& newer)
+    {
+        const base::SnapshotPair pair{&newer, nullptr};
+        std::pmr::vector<render::GatheredBlob> blobs;
+        const auto camera =
+            render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
+        std::pmr::vector<render::MediumCaster> medium;
+        std::pmr::vector<render::InstanceBlobs> instances;
+        render::gatherBlobs(pair, 1.0, camera, 720, blobs, medium, instances);
+        return blobs;
     }
 
     std::vector<float> gather(const base::FrameSnapshot* newer, const base::FrameSnapshot* older, double t)
@@ -129,6 +142,46 @@ TEST_F(FrameBuilderTest, aShutterDrawsAFastBlobOutAndKeepsItsMedium)
         sum += blob.crossSection;
     EXPECT_NEAR(sum, 1.0f, 1e-5f);
     EXPECT_LT(blobs.back().center.x, -1.0f);
+}
+
+TEST_F(FrameBuilderTest, ranksFollowInstanceAndParticleAndAreUniform)
+{
+    constexpr uint64_t kBalls = 4096;
+    std::vector<Element> elements;
+    for (uint64_t id = 0; id < kBalls; ++id)
+        elements.push_back({id, 0.0f});
+    const auto ranksOf = [this](uint64_t instance, const std::vector<Element>& of) {
+        base::FrameSnapshot one = snapshot(0, of);
+        one.editGroup(0).editInfo().instance = instance;
+        std::vector<float> ranks;
+        for (const render::GatheredBlob& blob : gathered(one))
+            ranks.push_back(blob.rank);
+        return ranks;
+    };
+    const std::vector<float> first = ranksOf(1, elements), second = ranksOf(2, elements);
+    ASSERT_EQ(first.size(), kBalls);
+    elements.erase(elements.begin(), elements.begin() + 100); // they die
+    const std::vector<float> left = ranksOf(1, elements);
+    EXPECT_TRUE(std::ranges::equal(left, std::span(first).subspan(100)));
+
+    // of quarters of both instances, each pair of ranks falls into one of 16 cells as often
+    std::vector<double> cells(16);
+    for (size_t i = 0; i < kBalls; ++i) {
+        ASSERT_GE(first[i], 0.0f);
+        ASSERT_LT(first[i], 1.0f);
+        ++cells[size_t(4.0f * first[i]) * 4 + size_t(4.0f * second[i])];
+    }
+    double chi2 = 0.0;
+    for (const double cell : cells)
+        chi2 += (cell - double(kBalls) / 16.0) * (cell - double(kBalls) / 16.0) / (double(kBalls) / 16.0);
+    EXPECT_LT(chi2, 37.7) << "15 degrees of freedom: 0.1 %";
+}
+
+TEST_F(FrameBuilderTest, piecesOfAStreakHaveRanksOfTheirOwn)
+{
+    const auto blobs = gathered(snapshot(0, {{1, 0.0f, 10.0f, 120.0f}}, 1.0f / 60.0f));
+    ASSERT_GT(blobs.size(), 2u);
+    EXPECT_NE(blobs[0].rank, blobs[1].rank);
 }
 
 TEST_F(FrameBuilderTest, aStreakOfAnyLengthHasNoGaps)

@@ -63,7 +63,7 @@ base::FrameSnapshot ViewTest::snapshotOf(const std::vector<TestBlob>& blobs, con
             set(column::CrossSection, b.crossSection);
             set(column::FireShare, b.fireShare);
             set(column::Heat, b.heat);
-            group.editIds()[count++] = i;
+            group.editIds()[count++] = b.id.value_or(i);
         }
         group.editInfo().count = count;
         group.editInfo().solver = layer;

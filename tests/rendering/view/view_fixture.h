@@ -31,6 +31,7 @@ struct TestBlob
     float fireShare = 0.0f;
     float heat = 0.0f;
     base::MediaLayer layer = base::MediaLayer::Smoke;
+    std::optional<uint64_t> id = {}; ///< empty: number in the list
 };
 
 /// RGBA of a picture, row by row from the bottom.
