@@ -200,8 +200,8 @@ void addMedia(SlabRay ray, Parts parts, inout Seen seen)
 {
     float own[kParts];
     for (int i = 0; i < tileList.y; ++i) {
-        uint ball = ballOfTile(i);
-        Chord chord = chordOfTile(ray, i);
+        uint entry = entryOfTile(i), ball = ballOfEntry(entry);
+        Chord chord = chordOf(ray, entry);
         float passed = fxKernelPassed(placeOn(chord, parts.edges[0]));
         float share = 0.0, moment = 0.0, next, part;
 #define FX_ADD_SEEN(k)                                             \

@@ -18,6 +18,10 @@ ivec2 ballTexel(uint ball, int texel)
     return ivec2(int(ball) % kBallColumns, int(ball) / kBallColumns * kBallTexels + texel);
 }
 
-// Lists of balls are texels too, kListColumns in a row.
+// Lists of balls are texels too, kListColumns in a row. An entry holds the number of a ball, below 2^24, and its weight in the list.
+const uint kWholeEntry = 256u; // units of a weight of 1
+uint listEntry(uint ball, uint weight) { return ball | (weight - 1u) << 24; } // weight 1 .. kWholeEntry
+uint ballOfEntry(uint entry) { return entry & 0xFFFFFFu; }
+float weightOfEntry(uint entry) { return float((entry >> 24) + 1u) / float(kWholeEntry); }
 const int kListColumns = 4096;
 ivec2 listTexel(int entry) { return ivec2(entry % kListColumns, entry / kListColumns); }

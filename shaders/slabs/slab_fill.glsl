@@ -133,9 +133,9 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout S
     float texel = 0.0; // of its detail, as in kCarried0
 #endif
     for (int i = 0; i < tileList.y + kAfterBalls; ++i) {
-        uint ball = ballOfTile(i);
+        uint entry = entryOfTile(i), ball = ballOfEntry(entry);
         vec4 medium = texelFetch(balls, ballTexel(ball, kMedium), 0);
-        Chord chord = chordOf(ray, texelFetch(balls, ballTexel(ball, kPlace), 0), medium);
+        Chord chord = chordOf(ray, entry);
 #if FX_FIELD_DETAIL
         bool isEnd = i == tileList.y; // one more turn, for the last field
         bool isMet = chord.depth > 0.0 && chord.tc - chord.w < edges[kGroup] && chord.tc + chord.w > edges[0];

@@ -4,7 +4,8 @@
 
 // Lists of balls, one for each tile of 16 x 16 texels, in the order of the balls; and the tiles that have a ball, a card or a
 // field, as a draw of one square each. Where a tile has more balls than its list may have, those with the lowest ranks are listed and
-// stand for all of them: ranks are even, and stay with the balls, so that the choice hardly changes from frame to frame. A workgroup is a tile. Layouts are those of rendering/compositions/slabs/slab_passes.h.
+// stand for all of them: ranks are uniform, and stay with the balls. The listed balls with the highest ranks have small weights, so that
+// they leave and enter the list smoothly as the number of balls changes. A workgroup is a tile. Layouts are those of rendering/compositions/slabs/slab_passes.h.
 layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform TileBlock
 {
@@ -17,11 +18,14 @@ layout(std430, binding = 2) buffer SlabTiles
 {
     uint drawVertices, drawTiles, drawReserved[2]; // arguments of the draw
     uint listed, spilled, slabReserved[2];         // entries of all lists, and balls that are not in them
-    uvec4 tiles[];                                 // x number of the tile; y first entry of its list; z entries; w balls an entry (float)
+    uvec4 tiles[];                                 // x number of the tile; y first entry of its list; z entries; w balls that a weight of 1 stands for (float)
 };
-layout(r32ui, binding = 0) uniform writeonly uimage2D lists; // numbers of balls
+layout(r32ui, binding = 0) uniform writeonly uimage2D lists; // see slab_balls.glsl
 
-shared uint total, chosen, most, first, entries, met[2];
+const float kFade = 0.2; // [1] share of the listed ranks over which weights fall from 1 to 0
+
+shared uint total, chosen, weights, first, entries, met[2];
+shared vec2 fade; // [1] ranks at which weights begin to fall, and at which they are 0
 
 bool meets(int ball, uvec2 tile)
 {
@@ -33,17 +37,21 @@ bool meets(int ball, uvec2 tile)
     return all(lessThanEqual(low, tile)) && all(lessThanEqual(tile, high));
 }
 
-bool isChosen(int ball, uvec2 tile)
+// Weight of a ball in the list, in units of 1 / kWholeEntry; 0: it is not listed.
+uint weightOf(int ball, uvec2 tile)
 {
-    return meets(ball, tile) && rects[3 * ball + 2] <= most;
+    float whole = float(kWholeEntry);
+    float rank = meets(ball, tile) ? float(rects[3 * ball + 2]) / 4294967296.0 : 2.0; // of 2^32
+    float weight = rank > 1.0 ? 0.0 : fade.x < 1.0 ? whole * (fade.y - rank) / (fade.y - fade.x) : whole;
+    return uint(clamp(ceil(weight), 0.0, whole));
 }
 
-// The largest rank of the balls that are listed. As ranks are as good as random, there is room for some more than are meant.
-uint mostRank()
+// As ranks are as good as random, there is room for some more than are meant.
+vec2 ranksThatFade()
 {
     float room = float(counts.z);
-    float share = max(room - 4.0 * sqrt(room), 0.5 * room) / float(max(total, 1u));
-    return total <= uint(counts.z) ? 0xFFFFFFFFu : uint(share * 4.29496e9); // of 2^32
+    float end = max(room - 4.0 * sqrt(room), 0.5 * room) / float(max(total, 1u));
+    return vec2((1.0 - kFade) * end, end);
 }
 
 bool hasFields(uvec2 tile)
@@ -68,7 +76,7 @@ void main()
     uvec2 tile = gl_WorkGroupID.xy;
     uint number = tile.y * uint(counts.y) + tile.x;
     if (lane == 0)
-        total = chosen = 0u;
+        total = chosen = weights = 0u;
     barrier();
     uint mine = 0u;
     for (int i = lane; i < counts.x; i += 64)
@@ -76,12 +84,18 @@ void main()
     atomicAdd(total, mine);
     barrier();
     if (lane == 0)
-        most = mostRank();
+        fade = ranksThatFade();
     barrier();
-    mine = total > uint(counts.z) ? 0u : mine;
-    for (int i = lane; i < (total > uint(counts.z) ? counts.x : 0); i += 64)
-        mine += isChosen(i, tile) ? 1u : 0u;
+    bool isThinned = fade.x < 1.0;
+    mine = isThinned ? 0u : mine;
+    uint weight = kWholeEntry * mine;
+    for (int i = lane; i < (isThinned ? counts.x : 0); i += 64) {
+        uint own = weightOf(i, tile);
+        mine += own > 0u ? 1u : 0u;
+        weight += own;
+    }
     atomicAdd(chosen, mine);
+    atomicAdd(weights, weight);
     barrier();
     if (lane == 0) {
         entries = min(chosen, uint(counts.z));
@@ -94,7 +108,7 @@ void main()
         if (window.w > 0.5)
             isSeen = isSeen || hasFields(tile);
         if (isSeen)
-            tiles[atomicAdd(drawTiles, 1u)] = uvec4(number, first, entries, floatBitsToUint(float(total) / float(max(entries, 1u))));
+            tiles[atomicAdd(drawTiles, 1u)] = uvec4(number, first, entries, floatBitsToUint(float(total) / max(float(weights) / float(kWholeEntry), 1e-6)));
     }
     barrier();
     uint before = 0u;
@@ -102,7 +116,8 @@ void main()
         if (lane < 2)
             met[lane] = 0u;
         barrier();
-        bool isListed = isChosen(batch + lane, tile);
+        uint own = weightOf(batch + lane, tile);
+        bool isListed = own > 0u;
         if (isListed)
             atomicOr(met[lane >> 5], 1u << (lane & 31));
         barrier();
@@ -110,7 +125,7 @@ void main()
         if (lane >= 32)
             place += uint(bitCount(met[0]));
         if (isListed && place < entries)
-            imageStore(lists, listTexel(int(first + place)), uvec4(batch + lane));
+            imageStore(lists, listTexel(int(first + place)), uvec4(listEntry(uint(batch + lane), own)));
         before += uint(bitCount(met[0]) + bitCount(met[1]));
         barrier();
     }

@@ -3,7 +3,7 @@
 layout(binding = 8) uniform sampler2D balls;
 layout(binding = 9) uniform usampler2D lists;
 flat in ivec2 tileList;    // first entry and entries
-flat in float tileWeight; // [1] balls of the tile over entries: each stands for as many
+flat in float tileWeight; // [1] balls of the tile over the weights of all entries: an entry of the weight 1 stands for as many
 
 const float kMinDepth = 0.002; // [1] before the window, and behind it
 const float kMinShare = 0.05;  // [1] likewise at most, of the depth of the whole ray
@@ -35,12 +35,13 @@ struct Chord
     float depth;   // [1] optical depth of the whole chord, 0 beside the ball
 };
 
-// Number of a ball of the tile.
-uint ballOfTile(int i) { return texelFetch(lists, listTexel(tileList.x + i), 0).r; }
+// A ball of the tile, see listEntry.
+uint entryOfTile(int i) { return texelFetch(lists, listTexel(tileList.x + i), 0).r; }
 
-// place, medium: texels of the ball
-Chord chordOf(SlabRay ray, vec4 place, vec4 medium)
+Chord chordOf(SlabRay ray, uint entry)
 {
+    uint ball = ballOfEntry(entry);
+    vec4 place = texelFetch(balls, ballTexel(ball, kPlace), 0), medium = texelFetch(balls, ballTexel(ball, kMedium), 0);
     Chord chord;
     vec3 toCenter = place.xyz - ray.origin;
     chord.tc = dot(toCenter, ray.direction);
@@ -50,15 +51,11 @@ Chord chordOf(SlabRay ray, vec4 place, vec4 medium)
     float q = sqrt(q2);
     chord.w = place.w * max(q, 1e-6);
     chord.perHalf = 1.0 / chord.w;
-    chord.depth = tileWeight * medium.x * q2 * q2 * q;
+    chord.depth = tileWeight * weightOfEntry(entry) * medium.x * q2 * q2 * q;
     return chord;
 }
 
-Chord chordOfTile(SlabRay ray, int i)
-{
-    uint ball = ballOfTile(i);
-    return chordOf(ray, texelFetch(balls, ballTexel(ball, kPlace), 0), texelFetch(balls, ballTexel(ball, kMedium), 0));
-}
+Chord chordOfTile(SlabRay ray, int i) { return chordOf(ray, entryOfTile(i)); }
 
 // Where on a chord a ray parameter lies, in units of half the chord.
 float placeOn(Chord chord, float t)

@@ -195,8 +195,9 @@ SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
         const int listRows = int(std::bit_ceil(uint32_t((room + kListColumns - 1) / kListColumns)));
         out.lists =
             builder.write(builder.create({"balls of tiles", int(kListColumns), listRows, Format::R32UI}));
-        const uint64_t most = std::min<uint64_t>(
-            in.maxOfTile, in.entries <= kMaxListedBalls ? in.rects.size() : kMaxListedBalls / tiles);
+        const uint64_t most = in.entries <= kMaxListedBalls
+                                  ? in.maxOfTile
+                                  : std::min<uint64_t>(in.maxOfTile, kMaxListedBalls / tiles);
         struct Block
         {
             glm::ivec4 counts;

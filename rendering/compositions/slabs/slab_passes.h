@@ -94,14 +94,15 @@ public:
 /// iterations.
 constexpr uint32_t kMaxLoopTurns = 60000;
 
-/// Lists the balls of each tile of 16 x 16 texels, in the order of balls. Also lists the tiles that are not
-/// empty. If a tile has more than `maxOfTile` balls, only the balls with the lowest ranks are listed. Each
-/// listed ball then represents (balls of the tile) / (listed balls) balls.
+/// Lists the balls of each tile of 16 x 16 texels, in the order of balls, and the tiles that are not empty.
+/// If a tile has more balls than about 3/4 of `maxOfTile`, it lists those with the lowest ranks, which
+/// represent all. The last fifth of the listed ranks have weights that fall to 0, so that balls enter and
+/// leave the list smoothly.
 ///
-/// reads   rects  tiles that each ball may cover
-///         cards, fieldTiles  tiles with cards, and tiles with fields
-/// writes  tiles  draw arguments (one square per tile), counters, and the range of each tile in `lists`
-///         lists  R32UI indices of balls
+/// reads   rects  which tiles each ball may cover
+///         cards, fieldTiles
+/// writes  tiles  arguments of a draw of one square per tile, counters, and the range of each tile in `lists`
+///         lists  R32UI entries, see listEntry in shaders/slabs/slab_balls.glsl
 class SlabTilePass
 {
 public:

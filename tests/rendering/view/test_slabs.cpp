@@ -329,6 +329,30 @@ TEST_F(Slabs, theChoiceOfACrowdedTileStaysInAnyOrderAndWhenOthersDie)
     EXPECT_LT(maxDifference(drawn(balls, camera()), all), 0.01) << "without one";
 }
 
+TEST_F(Slabs, ballsLeaveTheChoiceOfACrowdedTileSmoothly)
+{
+    // thousands of equal balls at one place, few of which send light: what is seen changes with their weights
+    makeTargets(4, 4);
+    view_->settings().slabs = 16;
+    constexpr size_t kFewest = 1500, kMost = 4000, kStep = 100;
+    TestBlob ball = kBall;
+    ball.center = glm::vec3(0.0f);
+    ball.crossSection = 1e-4f;
+    ball.emission = 0.0f;
+    double worst = 0.0, most = 0.0, last = -1.0;
+    for (size_t count = kFewest; count <= kMost; count += kStep) {
+        std::vector<TestBlob> balls(count, ball);
+        for (size_t id = 0; id < 8; ++id)
+            balls[id].emission = 1e4f;
+        const Picture picture = drawn(balls, camera());
+        const double light = double(picture.at(2, 2)[0]);
+        worst = last < 0.0 ? 0.0 : std::max(worst, std::abs(light - last));
+        most = std::max(most, light);
+        last = light;
+    }
+    EXPECT_LT(worst, 0.1 * most);
+}
+
 TEST_F(Slabs, picturesRepeatBitForBit)
 {
     const std::vector<TestBlob> blobs = cloud(100, 0.4f, 0.3f);
