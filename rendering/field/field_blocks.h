@@ -2,10 +2,13 @@
 /// Layouts of voxel fields on the GPU. shaders/field/field_blocks.glsl defines equal layouts.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace fx::render {
 
@@ -56,9 +59,22 @@ struct FieldGlowBlock
     /// `corner` of a grid of the last frame. The propagation starts from the light of that grid. w 0: the
     /// propagation starts without light.
     glm::vec4 before{0.0f};
-    glm::vec4 number{0.0f}; ///< x index of the grid of `before` in the last frame
+    /// xyz number of cells along each axis; w sum of the cells along z of the grids that precede this one.
+    glm::ivec4 cells{kGlowCells, kGlowCells, kGlowCells, 0};
+    glm::ivec4 cellsBefore{0}; ///< like `cells`, of the grid of `before` in the last frame
 };
-static_assert(sizeof(FieldGlowBlock) == 48);
+static_assert(sizeof(FieldGlowBlock) == 64);
+
+/// Size of a block of texels that holds all grids, one above the other along z: largest numbers of cells
+/// along x and y, sum of the numbers of cells along z.
+inline glm::ivec3 glowExtent(std::span<const FieldGlowBlock> grids)
+{
+    glm::ivec3 extent{0};
+    for (const FieldGlowBlock& grid : grids)
+        extent = {std::max(extent.x, grid.cells.x), std::max(extent.y, grid.cells.y),
+                  extent.z + grid.cells.z};
+    return extent;
+}
 
 /// A brick that contains medium. The index of a brick in the list gives its position in the textures.
 struct FieldBrickBlock

@@ -21,11 +21,10 @@ constexpr uint32_t kGroup[3] = {8, 4, 2}; ///< invocations, one a cell
 constexpr uint32_t kLineRows = 8;         ///< of a group of lines
 constexpr uint32_t kNeighbors = 27;       ///< directions, with that of the cell itself
 
-void setGroups(DispatchCall& ioCall, uint32_t grids, int cells = kGlowCells)
+void setGroups(DispatchCall& ioCall, const glm::ivec3& extent)
 {
-    ioCall.groups[0] = uint32_t(cells) / kGroup[0];
-    ioCall.groups[1] = uint32_t(cells) / kGroup[1];
-    ioCall.groups[2] = grids * uint32_t(cells) / kGroup[2];
+    for (int a = 0; a < 3; ++a)
+        ioCall.groups[a] = (uint32_t(extent[a]) + kGroup[a] - 1) / kGroup[a];
 }
 
 void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures& io)
@@ -39,7 +38,7 @@ void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures&
         io.cells = builder.write(io.cells);
         io.scatter = builder.write(io.scatter);
         return [in, io](Backend& backend) {
-            const glm::ivec4 counts(int(in.fieldCount), in.cells, 0, 0);
+            const glm::ivec4 counts(int(in.fieldCount), int(in.gridCount), 0, 0);
             const TextureBinding textures[] = {
                 {0, in.field.medium, Sampling::Linear},      {1, in.field.scatter, Sampling::Linear},
                 {kFieldTexelUnit, in.fieldTexels},           {kBrickTableUnit, in.field.table},
@@ -53,7 +52,7 @@ void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures&
             call.images = images;
             call.buffers = buffers;
             call.uniforms = asUniforms(counts);
-            setGroups(call, in.gridCount, in.cells);
+            setGroups(call, in.extent);
             backend.dispatch(call);
         };
     });
@@ -72,7 +71,7 @@ void addSourceAgain(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowText
             call.program = &kGlowSourceAgainProgram;
             call.textures = textures;
             call.images = images;
-            setGroups(call, in.gridCount);
+            setGroups(call, in.extent);
             backend.dispatch(call);
         };
     });
@@ -116,7 +115,7 @@ void addSum(FrameGraph& graph, const FieldGlowPass::Inputs& in, bool again, Glow
             call.program = &glowSumProgram(again);
             call.textures = std::span(textures).first(again ? 4 : 1);
             call.images = images;
-            setGroups(call, in.gridCount);
+            setGroups(call, in.extent);
             backend.dispatch(call);
         };
     });

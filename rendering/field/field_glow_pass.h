@@ -42,10 +42,9 @@ public:
         bool detail;         ///< true: a field has detail
         ResourceId grids;
         GlowTextures glow;
-        uint32_t fieldCount; ///< > 0
-        uint32_t gridCount;  ///< > 0
-        /// Number of cells along a side of a grid, a multiple of 8; addTo() requires kGlowCells.
-        int cells = kGlowCells;
+        uint32_t fieldCount;  ///< > 0
+        uint32_t gridCount;   ///< > 0
+        glm::ivec3 extent{0}; ///< glowExtent() of the grids; addTo() requires cubes of kGlowCells
     };
     struct Outputs
     {

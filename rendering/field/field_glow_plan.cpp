@@ -16,7 +16,6 @@ namespace {
 constexpr float kDarkest = 1e-4f;
 constexpr float kMargin =
     0.5f; ///< of a source's size, to each side: media farther away have its light as that of a point
-constexpr int kSpareCells = 2; ///< of a grid that its place and the rounding of its cells may take
 
 struct Box
 {
@@ -39,28 +38,55 @@ float sizeOf(const glm::vec3& extent)
     return std::max({extent.x, extent.y, extent.z});
 }
 
-/// [m] The next power of 2^(1/4).
-float roundedUp(float side)
+/// [m] 2 to the power of quarters / 4.
+float sideOf(float quarters)
 {
-    return std::exp2(std::ceil(4.0f * std::log2(side)) * 0.25f);
+    return std::exp2(0.25f * quarters);
+}
+
+/// Sides of cells are powers of 2^(1/4), so that they stay while a medium grows a little.
+float quartersAbove(float side)
+{
+    return std::ceil(4.0f * std::log2(side));
+}
+
+/// [m] side of the smallest cells of which a box of `extent` takes no more than networkCells cubed.
+float networkCellSide(const glm::vec3& extent, int networkCells)
+{
+    const auto fits = [&](float side) {
+        const glm::vec3 count = extent / side + float(kSpareGlowCells);
+        if (sizeOf(count) > float(kMaxNetworkSide))
+            return false;
+        const glm::ivec3 sides = networkSides(extent, side);
+        return int64_t(sides.x) * sides.y * sides.z <= int64_t(networkCells) * networkCells * networkCells;
+    };
+    // Cells that fit in a cube around the box, then smaller ones as far as they fit around the box.
+    float quarters = quartersAbove(sizeOf(extent) / float(networkCells - kSpareGlowCells));
+    while (fits(sideOf(quarters - 1.0f)))
+        --quarters;
+    return sideOf(quarters);
 }
 
 } // namespace
+
+glm::ivec3 networkSides(const glm::vec3& extent, float side)
+{
+    const glm::vec3 rounded = glm::ceil((extent / side + float(kSpareGlowCells)) / float(kNetworkRound));
+    return glm::clamp(kNetworkRound * glm::ivec3(rounded), kMinNetworkSide, kMaxNetworkSide);
+}
 
 bool FieldGlowPlan::brighter(const Source& a, const Source& b)
 {
     return std::tie(a.emitted, a.low.x, a.low.y, a.low.z) > std::tie(b.emitted, b.low.x, b.low.y, b.low.z);
 }
 
-FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory)
-    : cells_(kGlowCells), sources_(memory), grids_(memory)
-{}
+FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory) : sources_(memory), grids_(memory) {}
 
 void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float> emitted,
                           const glm::dvec3& eye, int networkCells)
 {
     grids_.clear();
-    cells_ = networkCells > 0 ? networkCells : kGlowCells;
+    networkCells_ = networkCells;
     for (FieldBlock& field : ioFields)
         field.limits.w = 0.0f;
     listSources(ioFields, emitted, networkCells > 0);
@@ -111,10 +137,14 @@ void FieldGlowPlan::placeGrid(const Source& source, std::span<FieldBlock> ioFiel
     const glm::vec3 margin(kMargin * sizeOf(source.high - source.low));
     all = {glm::max(all.low, source.low - margin), glm::min(all.high, source.high + margin)};
     const glm::vec3 extent = all.high - all.low;
-    const float side = roundedUp(sizeOf(extent) / float(cells_ - kSpareCells));
+    const float side = networkCells_ > 0
+                           ? networkCellSide(extent, networkCells_)
+                           : sideOf(quartersAbove(sizeOf(extent) / float(kGlowCells - kSpareGlowCells)));
     FieldGlowBlock grid;
+    grid.cells = glm::ivec4(networkCells_ > 0 ? networkSides(extent, side) : glm::ivec3(kGlowCells),
+                            glowExtent(grids_).z);
     for (int a = 0; a < 3; ++a) { // in the middle of its cells, at a multiple of them
-        const double first = 0.5 * double(all.low[a] + all.high[a] - float(cells_) * side);
+        const double first = 0.5 * double(all.low[a] + all.high[a] - float(grid.cells[a]) * side);
         grid.corner[a] = float(std::round((eye[a] + first) / double(side)) * double(side) - eye[a]);
     }
     grid.corner.w = side;

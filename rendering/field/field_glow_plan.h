@@ -16,7 +16,17 @@
 
 namespace fx::render {
 
-/// Largest number of grids per view. If more grids are needed, the fields that emit least get no grid.
+/// Numbers of cells along the sides of the grid of a network: multiples of kNetworkRound in this range.
+constexpr int kNetworkRound = 4, kMinNetworkSide = 8, kMaxNetworkSide = 96;
+
+/// Number of cells along each side of the grid of a network: enough cells of side `side` [m] for a box of
+/// `extent` [m] and kSpareGlowCells.
+glm::ivec3 networkSides(const glm::vec3& extent, float side);
+
+/// Number of cells of a grid along a side that its place and the rounding of its cells may take.
+constexpr int kSpareGlowCells = 2;
+
+/// Largest number of grids per view; the fields that emit least get no grid.
 constexpr size_t kMaxGlowGrids = 4;
 
 /// Builds the list of grids of a frame. The memory is kept from frame to frame. Threads: one at a time.
@@ -29,9 +39,9 @@ public:
     /// 0 if the field has no grid.
     /// @param emitted [exposed m2] for each field: the sum of cross section times emitted light of its balls
     /// @param eye [m] world position to which fields are relative
-    /// @param networkCells number of cells along a side of the grid of an illumination network. If it is not
-    ///     0, all fields get grids, the largest fields on the picture first. If it is 0, only fields that
-    ///     emit light get grids, of kGlowCells cells
+    /// @param networkCells side of the cube whose number of cells the grid of an illumination network does
+    ///         not exceed; all fields get grids, in the order of their size on the picture. 0: no networks;
+    ///         fields that emit light get cubes of kGlowCells
     void build(std::span<FieldBlock> ioFields, std::span<const float> emitted, const glm::dvec3& eye,
                int networkCells = 0);
     void clear() { grids_.clear(); }
@@ -52,7 +62,7 @@ private:
     void listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all);
     void placeGrid(const Source& source, std::span<FieldBlock> ioFields, const glm::dvec3& eye);
 
-    int cells_; ///< number of cells along a side of a grid
+    int networkCells_ = 0; ///< as in build()
     std::pmr::vector<Source> sources_;
     std::pmr::vector<FieldGlowBlock> grids_;
 };

@@ -19,7 +19,7 @@ constexpr ProgramDesc kPrograms[] = {
 struct Uniforms
 {
     glm::vec4 axis;     ///< xyz in which the eye looks; w 1 orthographic
-    glm::ivec4 network; ///< x cells along a side of a grid
+    glm::ivec4 network; ///< x size of a block of moments along x [texel]
 };
 
 } // namespace
@@ -44,7 +44,7 @@ FieldLightPass::Outputs FieldLightPass::addTo(FrameGraph& graph, const Inputs& i
         out.textures.medium = builder.write(in.textures.medium);
         out.textures.scatter = builder.write(in.textures.scatter);
         const Uniforms uniforms{glm::vec4(glm::vec3(in.view->forward), in.view->rayOrigin.w),
-                                glm::ivec4(in.networkCells, 0, 0, 0)};
+                                glm::ivec4(in.networkBlock, 0, 0, 0)};
         return [in, uniforms, textures = out.textures](Backend& backend) {
             TextureBinding planes[3];
             size_t count = 0;

@@ -35,7 +35,7 @@ public:
         /// Moments of the light in illumination networks on `grids`, from NetworkPasses. If valid, they
         /// replace `glow`.
         ResourceId network = {};
-        int networkCells = 0; ///< number of cells along a side of the network's grids
+        int networkBlock = 0; ///< [texel] size of a block of moments along x
     };
     struct Outputs
     {

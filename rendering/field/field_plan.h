@@ -34,7 +34,7 @@ struct FieldPlanInputs
     /// voxels along a side.
     uint32_t mostBricks = 0;
     bool glows = true; ///< true: emitted light is propagated in grids, see FieldPlan::glows()
-    /// Number of cells along a side of each grid of an illumination network, for all fields; 0: no networks.
+    /// Side of the cube of as many cells as the grid of an illumination network may have; 0: no networks.
     int networkCells = 0;
 };
 

@@ -2,31 +2,43 @@
 
 #include <glm/vec4.hpp>
 
+#include <algorithm>
+
 namespace fx::render {
 
 namespace {
 
 constexpr uint32_t kGroup[3] = {8, 4, 2}; // invocations, one a cell
-constexpr uint32_t kLineGroup = 8;        // lines along both sides of a group
+constexpr uint32_t kLineGroup = 64;       // invocations, one a line
 constexpr uint32_t kDirections = 26;
+
+uint32_t groupsFor(uint32_t count, uint32_t group)
+{
+    return (count + group - 1) / group;
+}
 
 void setGroups(DispatchCall& ioCall, const NetworkPasses::Inputs& in)
 {
-    ioCall.groups[0] = uint32_t(in.cells) / kGroup[0];
-    ioCall.groups[1] = uint32_t(in.cells) / kGroup[1];
-    ioCall.groups[2] = in.gridCount * uint32_t(in.cells) / kGroup[2];
+    for (int a = 0; a < 3; ++a)
+        ioCall.groups[a] = groupsFor(uint32_t(in.extent[a]), kGroup[a]);
+}
+
+/// NetworkBlock of the shaders.
+glm::ivec4 networkBlock(const NetworkPasses::Inputs& in)
+{
+    return {in.block.x, in.block.y, int(in.gridCount), 0};
 }
 
 void addPrepare(FrameGraph& graph, const NetworkPasses::Inputs& in, NetworkTextures& io)
 {
     graph.addPass("network prepare", [&](FrameGraph::Builder& builder) {
-        for (const ResourceId id : {in.grids, io.cells, io.scatter, io.moments})
+        for (const ResourceId id : {in.grids, io.cells, io.scatter, io.before})
             builder.read(id);
         in.lights.read(builder);
         for (ResourceId* id : {&io.medium, &io.unswept, &io.sources})
             *id = builder.write(*id);
         return [in, io](Backend& backend) {
-            TextureBinding textures[5] = {{0, io.cells}, {1, io.scatter}, {2, io.moments, Sampling::Linear}};
+            TextureBinding textures[5] = {{0, io.cells}, {1, io.scatter}, {2, io.before, Sampling::Linear}};
             size_t count = 3;
             if (in.lights.planes.valid())
                 textures[count++] = in.lights.textureBinding();
@@ -34,7 +46,7 @@ void addPrepare(FrameGraph& graph, const NetworkPasses::Inputs& in, NetworkTextu
                 textures[count++] = in.lights.hostShadowBinding();
             const ImageBinding images[] = {{0, io.medium}, {1, io.unswept}, {2, io.sources}};
             const BufferBinding buffers[] = {in.lights.bufferBinding(), {3, in.grids}};
-            const glm::ivec4 network(in.cells, 0, 0, 0);
+            const glm::ivec4 network = networkBlock(in);
             DispatchCall call;
             call.program = &kNetworkPrepareProgram;
             call.textures = {textures, count};
@@ -57,15 +69,14 @@ void addRays(FrameGraph& graph, const NetworkPasses::Inputs& in, NetworkTextures
             const TextureBinding textures[] = {{0, io.medium}, {1, io.sources}};
             const ImageBinding images[] = {{0, io.rays}};
             const BufferBinding buffers[] = {in.lights.bufferBinding(), {3, in.grids}};
-            const glm::ivec4 network(in.cells, 0, 0, 0);
+            const glm::ivec4 network = networkBlock(in);
             DispatchCall call;
             call.program = &kNetworkRaysProgram;
             call.textures = textures;
             call.images = images;
             call.buffers = buffers;
             call.uniforms = asUniforms(network);
-            call.groups[0] = uint32_t(in.cells) / kLineGroup;
-            call.groups[1] = 3 * uint32_t(in.cells) / kLineGroup;
+            call.groups[0] = groupsFor(in.mostLines, kLineGroup);
             call.groups[2] = in.gridCount * kDirections;
             backend.dispatch(call);
         };
@@ -75,18 +86,20 @@ void addRays(FrameGraph& graph, const NetworkPasses::Inputs& in, NetworkTextures
 void addSum(FrameGraph& graph, const NetworkPasses::Inputs& in, NetworkTextures& io)
 {
     graph.addPass("network sum", [&](FrameGraph::Builder& builder) {
-        for (const ResourceId id : {io.rays, io.medium, io.unswept})
+        for (const ResourceId id : {in.grids, io.rays, io.medium, io.unswept})
             builder.read(id);
         io.moments = builder.write(io.moments);
         io.sources = builder.write(io.sources);
         return [in, io](Backend& backend) {
             const TextureBinding textures[] = {{0, io.rays}, {1, io.medium}, {2, io.unswept}};
             const ImageBinding images[] = {{0, io.moments}, {1, io.sources}};
-            const glm::ivec4 network(in.cells, 0, 0, 0);
+            const BufferBinding buffers[] = {{3, in.grids}};
+            const glm::ivec4 network = networkBlock(in);
             DispatchCall call;
             call.program = &kNetworkSumProgram;
             call.textures = textures;
             call.images = images;
+            call.buffers = buffers;
             call.uniforms = asUniforms(network);
             setGroups(call, in);
             backend.dispatch(call);
@@ -102,6 +115,16 @@ constexpr ProgramDesc kNetworkRaysProgram{"network rays", nullptr, nullptr, "net
                                           nullptr};
 constexpr ProgramDesc kNetworkSumProgram{"network sum", nullptr, nullptr, "network/network_sum.comp.glsl",
                                          nullptr};
+
+uint32_t mostNetworkLines(std::span<const FieldGlowBlock> grids)
+{
+    int most = 0;
+    for (const FieldGlowBlock& grid : grids) {
+        const glm::ivec4& c = grid.cells;
+        most = std::max(most, c.x * c.y + c.x * c.z + c.y * c.z);
+    }
+    return uint32_t(most);
+}
 
 NetworkPasses::Outputs NetworkPasses::addTo(FrameGraph& graph, const Inputs& in)
 {

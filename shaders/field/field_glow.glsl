@@ -4,9 +4,19 @@ struct FieldGlow
 {
     vec4 corner; // xyz [m] of the grid relative to the eye; w side of a cell [m]
     vec4 before; // the same of the grid whose light it goes on from; w 0: none
-    vec4 number; // x of that grid
+    ivec4 cells; // xyz along each axis; w along z of all grids before this one
+    ivec4 cellsBefore; // the same of the grid of `before`
 };
 layout(std430, binding = 3) readonly buffer FieldGlows { FieldGlow glows[]; };
+
+// Number of the grid whose cells lie in layer z of a texture of `count` grids.
+int glowOfLayer(int z, int count)
+{
+    int number = 0;
+    while (number + 1 < count && z >= glows[number + 1].cells.w)
+        ++number;
+    return number;
+}
 
 const int kGlowCells = 32; // along a side of a grid
 const int kGlowColumns = 8; // of the rays of all directions, along x; along y there are 4

@@ -21,7 +21,7 @@ layout(binding = 3) uniform sampler3D glowLight; // rgb logarithm of the mean ra
 layout(std140, binding = 0) uniform FieldLightBlock
 {
     vec4 viewAxis; // xyz in which the eye looks; w 1 orthographic
-    ivec4 network; // x cells along a side of a grid
+    ivec4 network; // x [texel] of a block of moments along x
 };
 
 #if FX_NETWORK
@@ -36,7 +36,7 @@ vec3 glowAt(int grid, vec3 p, out GlowBox box)
     vec3 cell = (p - glow.corner.xyz) / glow.corner.w;
     vec3 fromFace = min(cell, float(kGlowCells) - cell);
     float inside = clamp(min(min(fromFace.x, fromFace.y), fromFace.z) / kGlowRim, 0.0, 1.0);
-    box = GlowBox(glow.corner.xyz, glow.corner.w * float(kGlowCells), 1.0 - inside);
+    box = GlowBox(glow.corner.xyz, vec3(glow.corner.w * float(kGlowCells)), 1.0 - inside);
     vec3 texel = clamp(cell, vec3(0.5), vec3(float(kGlowCells) - 0.5)) + vec3(0.0, 0.0, float(kGlowCells * grid));
     return inside * exp(textureLod(glowLight, texel / vec3(textureSize(glowLight, 0)), 0.0).rgb);
 }
@@ -51,7 +51,7 @@ vec3 lightOf(VoxelField field, vec3 p, vec3 toEye, vec4 own)
     vec3 source = vec3(0.0);
 #if FX_NETWORK
     if (turns > 0) {
-        box = GlowBox(glows[grid].corner.xyz, glows[grid].corner.w * float(network.x), 0.0);
+        box = GlowBox(glows[grid].corner.xyz, glows[grid].corner.w * vec3(glows[grid].cells.xyz), 0.0);
         source = networkScattered(grid, network.x, p, toEye, own.rgb, own.a) +
                  networkScatteredOnce(p, toEye, own.rgb, own.a, box);
     }

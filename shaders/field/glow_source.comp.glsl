@@ -20,7 +20,7 @@ layout(binding = 1) uniform sampler3D fieldScatter;
 layout(binding = 2) uniform sampler3D fieldMaterial0;
 layout(binding = 3) uniform sampler3D fieldMaterial1;
 #endif
-layout(std140, binding = 0) uniform GlowSourceBlock { ivec4 fieldCount; }; // x fields; y cells along a side of a grid
+layout(std140, binding = 0) uniform GlowSourceBlock { ivec4 fieldCount; }; // x fields; y grids
 
 const int kMaxPoints = 3; // along a side of a cell
 
@@ -68,9 +68,12 @@ void main()
     medium.rgb += texelFetch(glowScatter, id, 0).rgb * texelFetch(glowLight, id, 0).rgb;
     imageStore(cells, id, medium);
 #else
-    int grid = id.z / fieldCount.y;
-    vec3 cell = vec3(id.xy, id.z - fieldCount.y * grid);
+    int grid = glowOfLayer(id.z, fieldCount.y);
     FieldGlow glow = glows[grid];
+    ivec3 place = id - ivec3(0, 0, glow.cells.w);
+    if (any(greaterThanEqual(place, glow.cells.xyz)))
+        return;
+    vec3 cell = vec3(place);
     vec4 medium = vec4(0.0);
     vec4 scatter = vec4(0.0); // a cosine times the sum of rgb
     for (int f = 0; f < fieldCount.x; ++f) {

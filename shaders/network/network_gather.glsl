@@ -2,16 +2,16 @@
 // field/field_glow.glsl, network/network_grid.glsl, shared/scattered_light.glsl and formulas/network_cell.fx.h.
 layout(binding = 3) uniform sampler3D networkMoments;
 
-// Light that the network carries, all orders of all sources, per unit of extinction. cells: along a side of the grid
-vec3 networkScattered(int number, int cells, vec3 p, vec3 toEye, vec3 albedo, float g)
+// Light that the network carries, all orders of all sources, per unit of extinction. block [texel]: of moments along x
+vec3 networkScattered(int number, int block, vec3 p, vec3 toEye, vec3 albedo, float g)
 {
     FieldGlow grid = glows[number];
-    vec3 texel = clamp((p - grid.corner.xyz) / grid.corner.w, vec3(0.5), vec3(float(cells) - 0.5));
-    texel.z += float(cells * number);
+    vec3 texel = clamp((p - grid.corner.xyz) / grid.corner.w, vec3(0.5), vec3(grid.cells.xyz) - 0.5);
+    texel.z += float(grid.cells.w);
     vec3 perTexel = 1.0 / vec3(textureSize(networkMoments, 0));
     vec3 source;
     for (int c = 0; c < 3; ++c) {
-        vec4 light = textureLod(networkMoments, (texel + vec3(cells * c, 0.0, 0.0)) * perTexel, 0.0);
+        vec4 light = textureLod(networkMoments, (texel + vec3(block * c, 0.0, 0.0)) * perTexel, 0.0);
         source[c] = fxNetworkSource(albedo[c], clamp(g, -0.3, 0.98), light.x, dot(light.yzw, toEye.yzx));
     }
     return source;

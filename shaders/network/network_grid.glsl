@@ -1,5 +1,5 @@
 // The light in the cells of illumination networks. Needs field/field_glow.glsl for the grids. In textures all grids lie above each other
-// along z, and blocks of one grid's side beside each other along x.
+// along z, in blocks that hold the widest of them, beside each other along x. NetworkBlock: xy size of a block [texel]; z number of grids.
 //
 // Moments of light and of sources: 3 blocks, one a color, each texel with the harmonics of bands 0 and 1.
 // Medium: 2 blocks. rgb extinction without the forward peak [1/m]; rgb albedo without it, a factor of band 1 of what is left.
@@ -21,7 +21,7 @@ ivec3 networkStep(int i)
 }
 
 // Where the light of a direction lies in its texture.
-ivec3 networkRayCorner(int i, int cells)
+ivec3 networkRayCorner(int i, ivec2 block)
 {
-    return cells * ivec3(i % kNetworkColumns, i / kNetworkColumns, 0);
+    return ivec3(block * ivec2(i % kNetworkColumns, i / kNetworkColumns), 0);
 }

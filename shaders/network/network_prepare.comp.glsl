@@ -15,7 +15,7 @@ layout(binding = 2) uniform sampler3D moments; // of the frame before
 layout(rgba32f, binding = 0) uniform writeonly image3D medium;
 layout(rgba32f, binding = 1) uniform writeonly image3D unswept;
 layout(rgba32f, binding = 2) uniform writeonly image3D sources;
-layout(std140, binding = 0) uniform NetworkBlock { ivec4 network; }; // x cells along a side
+layout(std140, binding = 0) uniform NetworkBlock { ivec4 network; };
 
 const int kSamples = 2; // of light, along a side of a cell
 const float kLeastWeight = 1e-3; // of a part of the cell, in units of the cell's mean extinction: light slices may lack its medium
@@ -45,19 +45,20 @@ void addWay(vec3 arriving, vec3 towards, vec2 depths, vec3 straight, float least
 // The light that the cell had, moments of a color.
 vec4 momentsBefore(FieldGlow grid, vec3 p, int c)
 {
-    int side = network.x;
-    vec3 texel = clamp((p - grid.before.xyz) / grid.before.w, vec3(0.5), vec3(float(side) - 0.5));
-    texel += float(side) * vec3(c, 0.0, grid.number.x);
-    return textureLod(moments, texel / vec3(textureSize(moments, 0)), 0.0);
+    vec3 size = vec3(textureSize(moments, 0)); // its blocks may be larger or smaller than those of this frame
+    vec3 texel = clamp((p - grid.before.xyz) / grid.before.w, vec3(0.5), vec3(grid.cellsBefore.xyz) - 0.5);
+    texel += vec3(float(c) * size.x / 3.0, 0.0, float(grid.cellsBefore.w));
+    return textureLod(moments, texel / size, 0.0);
 }
 
 void main()
 {
-    int side = network.x;
     ivec3 id = ivec3(gl_GlobalInvocationID);
-    int number = id.z / side;
-    FieldGlow grid = glows[number];
-    vec3 cell = vec3(id.xy, id.z - side * number);
+    FieldGlow grid = glows[glowOfLayer(id.z, network.z)];
+    ivec3 place = id - ivec3(0, 0, grid.cells.w);
+    if (any(greaterThanEqual(place, grid.cells.xyz)))
+        return;
+    vec3 cell = vec3(place);
     vec4 own = texelFetch(cells, id, 0);
     vec4 scattering = texelFetch(scatter, id, 0);
     float g = clamp(scattering.a, -0.3, 0.98);
@@ -66,7 +67,7 @@ void main()
     vec3 straight = 1.0 - albedo * f;
     vec3 share = albedo * (1.0 - f) / max(straight, vec3(1e-20));
     float g1 = (g - f) / (1.0 - f);
-    GlowBox box = GlowBox(grid.corner.xyz, grid.corner.w * float(side), 0.0); // its media send their own light
+    GlowBox box = GlowBox(grid.corner.xyz, grid.corner.w * vec3(grid.cells.xyz), 0.0); // its media send their own light
     vec4 light[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
     int count = scattering.r + scattering.g + scattering.b > 0.0 ? lightCounts.x : 0;
     float reach = 0.5 * grid.corner.w / float(kSamples); // [m] of a way
@@ -86,7 +87,7 @@ void main()
     }
     vec3 middle = grid.corner.xyz + grid.corner.w * (cell + 0.5);
     vec4 bands = vec4(1.0, g1, g1, g1);
-    int block = side;
+    int block = network.x;
     imageStore(medium, id, vec4(own.a * straight, 0.0));
     imageStore(medium, id + ivec3(block, 0, 0), vec4(share, g1));
     for (int c = 0; c < 3; ++c) {

@@ -5,11 +5,11 @@
 
 // Light along the lines of cells: formula network-sweep (2). One invocation a line, from the face where it enters. Sky and ground shine
 // in from outside.
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler3D medium;
 layout(binding = 1) uniform sampler3D sources;
 layout(rgba32f, binding = 0) uniform writeonly image3D rays; // rgb mean radiance in a cell [exposed], of each direction
-layout(std140, binding = 0) uniform NetworkBlock { ivec4 network; }; // x cells along a side
+layout(std140, binding = 0) uniform NetworkBlock { ivec4 network; };
 
 vec3 enteringLight(ivec3 direction)
 {
@@ -18,32 +18,37 @@ vec3 enteringLight(ivec3 direction)
 
 void main()
 {
-    int side = network.x;
     int grid = int(gl_WorkGroupID.z) / kNetworkDirections, number = int(gl_WorkGroupID.z) % kNetworkDirections;
     ivec3 direction = networkStep(number);
-    int axis = int(gl_GlobalInvocationID.y) / side;
-    ivec2 across = ivec2(gl_GlobalInvocationID.x, int(gl_GlobalInvocationID.y) % side);
-    ivec3 enter = ivec3(direction.x > 0 ? 0 : side - 1, direction.y > 0 ? 0 : side - 1, direction.z > 0 ? 0 : side - 1);
+    ivec3 cells = glows[grid].cells.xyz;
+    ivec3 enter = ivec3(direction.x > 0 ? 0 : cells.x - 1, direction.y > 0 ? 0 : cells.y - 1, direction.z > 0 ? 0 : cells.z - 1);
+    // One line for each cell of three faces: first those across x, then those across y and z.
+    ivec2 faces = ivec2(cells.y * cells.z, cells.x * cells.z);
+    int line = int(gl_GlobalInvocationID.x);
+    int axis = line < faces.x ? 0 : line < faces.x + faces.y ? 1 : 2;
+    line -= axis == 0 ? 0 : axis == 1 ? faces.x : faces.x + faces.y;
+    int row = axis == 0 ? cells.y : cells.x;
+    ivec2 across = ivec2(line % row, line / row);
     ivec3 cell = axis == 0 ? ivec3(enter.x, across) : axis == 1 ? ivec3(across.x, enter.y, across.y) : ivec3(across, enter.z);
-    bool isLine = direction[axis] != 0;
+    bool isLine = direction[axis] != 0 && cell.y < cells.y; // others have more lines
     for (int other = 0; other < axis; ++other) // it enters at the edge of two faces: the first has it
         isLine = isLine && !(direction[other] != 0 && cell[other] == enter[other]);
     float way = glows[grid].corner.w * length(vec3(direction));
     vec4 y = networkHarmonics(normalize(vec3(direction)));
-    ivec3 above = ivec3(0, 0, side * grid);
-    ivec3 corner = networkRayCorner(number, side) + above;
+    ivec3 above = ivec3(0, 0, glows[grid].cells.w);
+    ivec3 corner = networkRayCorner(number, network.xy) + above;
     vec3 radiance = enteringLight(direction);
-    int count = isLine ? side : 0;
+    int count = isLine ? cells[axis] : 0;
     for (int a = 0; a < 3; ++a)
-        count = min(count, direction[a] > 0 ? side - cell[a] : direction[a] < 0 ? cell[a] + 1 : side);
+        count = min(count, direction[a] > 0 ? cells[a] - cell[a] : direction[a] < 0 ? cell[a] + 1 : count);
     for (int i = 0; i < count; ++i) {
         ivec3 at = cell + above;
         vec3 tau = texelFetch(medium, at, 0).rgb * way;
         vec3 mean = radiance;
         if (tau.r > 0.0) {
             vec3 passing = exp(-tau);
-            vec3 more = vec3(dot(texelFetch(sources, at, 0), y), dot(texelFetch(sources, at + ivec3(side, 0, 0), 0), y),
-                             dot(texelFetch(sources, at + ivec3(2 * side, 0, 0), 0), y)) -
+            vec3 more = vec3(dot(texelFetch(sources, at, 0), y), dot(texelFetch(sources, at + ivec3(network.x, 0, 0), 0), y),
+                             dot(texelFetch(sources, at + ivec3(2 * network.x, 0, 0), 0), y)) -
                         radiance;
             vec3 u = vec3(fxNetworkMean(tau.r, passing.r));
             vec3 a = vec3(fxNetworkTaken(tau.r, passing.r));

@@ -26,19 +26,19 @@ vec3 sunScatteredAgain(vec3 p, vec3 toEye, vec3 albedo, float g, vec2 depth)
 }
 
 // Where the light of glowing media is known better than as that of a point: lights that stand for media in the box from `low` on
-// of this side [m] count by `share`.
+// of this size [m] count by `share`.
 struct GlowBox
 {
     vec3 low;
-    float side;
+    vec3 size;
     float share;
 };
-const GlowBox kNoGlowBox = GlowBox(vec3(0.0), -1.0, 1.0);
+const GlowBox kNoGlowBox = GlowBox(vec3(0.0), vec3(-1.0), 1.0);
 
 float shareOf(SliceLight light, GlowBox box)
 {
     vec3 place = light.place.xyz - box.low;
-    bool isIn = light.color.w > 1.5 && all(greaterThan(place, vec3(0.0))) && all(lessThan(place, vec3(box.side)));
+    bool isIn = light.color.w > 1.5 && all(greaterThan(place, vec3(0.0))) && all(lessThan(place, box.size));
     return isIn ? box.share : 1.0;
 }
 

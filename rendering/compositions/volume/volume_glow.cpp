@@ -61,6 +61,7 @@ void VolumeGlow::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::spa
     in.grids = grids_;
     in.glow = textures_;
     in.gridCount = uint32_t(grids.size());
+    in.extent = glowExtent(grids);
     textures_ = FieldGlowPass::addTo(graph, in).glow;
 }
 

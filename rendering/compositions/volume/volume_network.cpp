@@ -25,21 +25,23 @@ constexpr Volume kVolumes[] = {{"network cells", Format::RGBA32F, 1, 1},
                                {"network moments", Format::RGBA32F, kNetworkMoments, 1},
                                {"network rays", Format::RGBA32F, kNetworkRays[0], kNetworkRays[1]}};
 
+constexpr size_t kMoments = 5; ///< index of the texture of moments
+
+constexpr int64_t kMostSpare = 4; ///< most texels of a block, in units of those that grids take
+
 } // namespace
 
-base::Status VolumeNetwork::makeRoom(std::span<const FieldGlowBlock> grids, int cells, const glm::dvec3& eye)
+base::Status VolumeNetwork::makeRoom(std::span<const FieldGlowBlock> grids, const glm::dvec3& eye)
 {
+    outgrown_ = {};
     grids_.assign(grids.begin(), grids.end());
     if (grids_.empty()) {
         known_.clear();
         return {};
     }
-    if (cells != cells_ || volumes_.back().name() == 0 ||
-        volumes_.front().depth() < cells * int(grids_.size())) {
-        cells_ = cells;
+    if (base::Status status = makeTextures(glowExtent(grids_)); !status) {
         known_.clear();
-        if (base::Status status = makeTextures(); !status)
-            return status;
+        return status;
     }
     matchGrids(eye);
     settled_ = 0;
@@ -51,35 +53,45 @@ void VolumeNetwork::matchGrids(const glm::dvec3& eye)
 {
     now_.clear();
     for (FieldGlowBlock& grid : grids_) {
-        const Known own{glm::dvec3(grid.corner) + eye, grid.corner.w};
+        const Known own{glm::dvec3(grid.corner) + eye, grid.corner.w, grid.cells};
         now_.push_back(own);
         for (size_t i = 0; i < known_.size(); ++i) {
             const Known& other = known_[i];
             const glm::dvec3 middle = (other.corner - own.corner) / double(own.side) +
-                                      0.5 * double(cells_) * double(other.side) / double(own.side);
+                                      0.5 * double(other.side) / double(own.side) * glm::dvec3(other.cells);
             if (glm::any(glm::lessThan(middle, glm::dvec3(0.0))) ||
-                glm::any(glm::greaterThan(middle, glm::dvec3(cells_))))
+                glm::any(glm::greaterThan(middle, glm::dvec3(own.cells))))
                 continue;
             grid.before = glm::vec4(glm::vec3(other.corner - eye), other.side);
-            grid.number.x = float(i);
+            grid.cellsBefore = other.cells;
             break;
         }
     }
     known_.swap(now_);
 }
 
-base::Status VolumeNetwork::makeTextures()
+/// Blocks do not shrink while grids take a quarter of them, so that a grid that grows and shrinks does not
+/// create textures in each frame.
+base::Status VolumeNetwork::makeTextures(const glm::ivec3& extent)
 {
-    const int layers = int(std::bit_ceil(grids_.size()));
+    const glm::ivec3 wide = glm::max(block_, extent);
+    const auto texels = [](const glm::ivec3& size) { return int64_t(size.x) * size.y * size.z; };
+    const glm::ivec3 wanted = texels(wide) > kMostSpare * texels(extent) ? extent : wide;
+    if (wanted == block_)
+        return {};
+    if (!known_.empty())
+        outgrown_ = std::move(volumes_[kMoments]);
+    block_ = {};
     for (size_t i = 0; i < volumes_.size(); ++i) {
         volumes_[i] = {};
         auto created =
-            GlTexture::createVolume(device_, kVolumes[i].across * cells_, kVolumes[i].up * cells_,
-                                    layers * cells_, glInternalFormat(kVolumes[i].format), kVolumes[i].name);
+            GlTexture::createVolume(device_, kVolumes[i].across * wanted.x, kVolumes[i].up * wanted.y,
+                                    wanted.z, glInternalFormat(kVolumes[i].format), kVolumes[i].name);
         if (!created)
             return created.status();
         volumes_[i] = std::move(*created);
     }
+    block_ = wanted;
     return {};
 }
 
@@ -97,6 +109,11 @@ void VolumeNetwork::importAll(FrameGraph& graph)
         *ids[i] = graph.importTexture(
             {kVolumes[i].name, volumes_[i].width(), volumes_[i].height(), kVolumes[i].format},
             volumes_[i].name());
+    textures_.before = outgrown_.name() == 0
+                           ? textures_.moments
+                           : graph.importTexture({"network moments before", outgrown_.width(),
+                                                  outgrown_.height(), kVolumes[kMoments].format},
+                                                 outgrown_.name());
 }
 
 void VolumeNetwork::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const LightBindings& lights,
@@ -105,11 +122,13 @@ void VolumeNetwork::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const
     if (grids_.empty())
         return;
     const bool prepares = !isKept || lights.hostShadow.valid();
-    if (isKept && prepares)
-        for (size_t i = 0; i < grids_.size(); ++i) { // they have not moved
-            grids_[i].before = grids_[i].corner;
-            grids_[i].number.x = float(i);
+    if (isKept && prepares) {
+        for (FieldGlowBlock& grid : grids_) { // they have not moved
+            grid.before = grid.corner;
+            grid.cellsBefore = grid.cells;
         }
+        textures_.before = textures_.moments;
+    }
     const bool begins = std::ranges::any_of(grids_, [](const auto& grid) { return grid.before.w == 0.0f; });
     if (prepares) {
         graph.addPass("network upload", [&](FrameGraph::Builder& builder) {
@@ -120,7 +139,7 @@ void VolumeNetwork::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const
         });
         in.grids = gridsId_;
         in.gridCount = uint32_t(grids_.size());
-        in.cells = cells_;
+        in.extent = glowExtent(grids_);
         in.glow.cells = textures_.cells;
         in.glow.scatter = textures_.scatter;
         const GlowTextures sources = FieldGlowPass::addSourcesTo(graph, in);
@@ -129,14 +148,17 @@ void VolumeNetwork::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const
     }
     const int sweeps = !prepares && isSettled() ? 0 : begins && prepares ? kSettledSweeps : kSweeps;
     settled_ += sweeps;
-    textures_ = NetworkPasses::addTo(
-                    graph, {gridsId_, textures_, lights, cells_, uint32_t(grids_.size()), sweeps, prepares})
-                    .textures;
+    textures_ =
+        NetworkPasses::addTo(graph, {gridsId_, textures_, lights, block_, glowExtent(grids_),
+                                     mostNetworkLines(grids_), uint32_t(grids_.size()), sweeps, prepares})
+            .textures;
 }
 
 void VolumeNetwork::release()
 {
     volumes_ = {};
+    outgrown_ = {};
+    block_ = {};
     buffer_ = {};
     grids_.clear();
     known_.clear();
@@ -144,7 +166,7 @@ void VolumeNetwork::release()
 
 uint64_t VolumeNetwork::bytes() const
 {
-    uint64_t sum = buffer_.bytes();
+    uint64_t sum = buffer_.bytes() + (outgrown_.name() != 0 ? outgrown_.bytes() : 0);
     for (const GlTexture& volume : volumes_)
         sum += volume.name() != 0 ? volume.bytes() : 0;
     return sum;

@@ -27,10 +27,9 @@ public:
     {}
 
     /// Sets the grids of a frame whose media differ from the last frame.
-    /// @param cells number of cells along a side of a grid, a multiple of 8
     /// @param eye [m] world position to which the grids are relative
     /// @return OutOfMemory
-    base::Status makeRoom(std::span<const FieldGlowBlock> grids, int cells, const glm::dvec3& eye);
+    base::Status makeRoom(std::span<const FieldGlowBlock> grids, const glm::dvec3& eye);
     void importAll(FrameGraph& graph);
     /// Uploads the grids and adds the passes.
     /// @param in inputs of the passes; this function sets the members for grids and their textures
@@ -39,7 +38,7 @@ public:
 
     bool isEmpty() const { return grids_.empty(); }
     bool isSettled() const { return settled_ >= kSettledSweeps; } ///< true if no more sweeps are needed
-    int cells() const { return cells_; }
+    int block() const { return block_.x; } ///< [texel] size of a block of moments along x
     /// Moments of the light in this frame; invalid without grids.
     ResourceId moments() const { return textures_.moments; }
     ResourceId buffer() const { return gridsId_; } ///< buffer of FieldGlowBlock
@@ -56,16 +55,18 @@ private:
     {
         glm::dvec3 corner; ///< [m] world
         float side;        ///< [m] side of a cell
+        glm::ivec4 cells;  ///< as FieldGlowBlock::cells
     };
     void matchGrids(const glm::dvec3& eye);
-    base::Status makeTextures();
+    base::Status makeTextures(const glm::ivec3& extent);
 
     GlDevice& device_;
-    int cells_ = 0;
-    int settled_ = 0; ///< number of sweeps since the last change
+    glm::ivec3 block_{0}; ///< [texel] size of a block in the textures
+    int settled_ = 0;     ///< number of sweeps since the last change
     std::pmr::vector<FieldGlowBlock> grids_;
     std::pmr::vector<Known> known_, now_; ///< grids of the last frame, and of this frame
     std::array<GlTexture, 7> volumes_;    ///< textures in the order of the members of NetworkTextures
+    GlTexture outgrown_; ///< moments of the last frame, if the textures of this frame are new
     GlBuffer buffer_;
     NetworkTextures textures_; ///< resource ids in this frame
     ResourceId gridsId_;       ///< grids in this frame

@@ -21,7 +21,8 @@ constexpr std::string_view kTextureNames[] = {"field medium",     "field scatter
 
 constexpr int kCoarseVoxels = 96; ///< fields of fewer voxels have kCoarseOctaves of detail
 
-/// Along a side of a network's grid; 0: light is scattered again by a formula, or once.
+/// Side of the cube of as many cells as a network's grid may have; 0: light is scattered again by a formula,
+/// or once.
 int networkCells(const ViewSettings& settings)
 {
     constexpr int kVoxelsPerCell = 3, kRound = 8, kFewest = 24, kMost = 64;
@@ -112,8 +113,8 @@ base::Status VolumeView::makeRoom(bool layers)
     if (status)
         status = glow_.makeRoom(glows());
     if (status)
-        status = network_.makeRoom(networkCells_ > 0 ? plan_.glows() : std::span<const FieldGlowBlock>(),
-                                   networkCells_, eye_);
+        status =
+            network_.makeRoom(networkCells_ > 0 ? plan_.glows() : std::span<const FieldGlowBlock>(), eye_);
     if (status && !plan_.isEmpty())
         status = makeTexels(texelTexture_, texels_.texels().size(), kFieldColumns, Format::RGBA32F,
                             "field texels");
@@ -313,7 +314,8 @@ void VolumeView::addFieldLight(FrameGraph& graph, const PassFrame& frame)
                                        .grids = {},
                                        .glow = {},
                                        .fieldCount = uint32_t(plan_.fields().size()),
-                                       .gridCount = 0};
+                                       .gridCount = 0,
+                                       .extent = {}};
         glow_.addPasses(graph, in, glows());
         network_.addPasses(graph, in, frame.lights, isKept_);
     }
@@ -321,7 +323,7 @@ void VolumeView::addFieldLight(FrameGraph& graph, const PassFrame& frame)
     light.textures = march_.textures;
     light.glow = glow_.light();
     light.network = network_.moments();
-    light.networkCells = network_.cells();
+    light.networkBlock = network_.block();
     light.grids = network_.isEmpty() ? glow_.grids() : network_.buffer();
     march_.textures = FieldLightPass::addTo(graph, light).textures;
 }

@@ -94,9 +94,9 @@ private:
     uint64_t corrected_ = 0;
     std::span<const BlobMaterial> materials_; ///< materials of the balls in this frame
     VolumeGlow glow_;
-    VolumeNetwork network_; ///< replaces glow_ if the settings request illumination networks
-    int networkCells_ = 0; ///< number of cells along a side of a network's grid in this frame; 0: no networks
-    std::span<const BlobInstance> blobs_; ///< balls of this frame; empty if no ball has detail
+    VolumeNetwork network_;               ///< used instead of glow_ if the settings request it
+    int networkCells_ = 0;                ///< as FieldPlanInputs::networkCells in this frame; 0: no networks
+    std::span<const BlobInstance> blobs_; ///< balls of this frame; empty if none has detail
     bool layers_ = false;                 ///< true: the frame has layer outputs
     glm::dvec3 eye_{0.0};                 ///< [m] world position of the eye of the frame
     /// Graph whose passes fill the textures with fields before the fields are lit.

@@ -73,6 +73,7 @@ protected:
         in.field = importTextures();
         in.fieldCount = uint32_t(plan_.fields().size());
         in.gridCount = 1;
+        in.extent = glowExtent(plan_.glows());
         ResourceId* const ids[] = {&in.glow.cells, &in.glow.scatter, &in.glow.rays, &in.glow.first,
                                    &in.glow.light};
         for (size_t i = 0; i < 5; ++i)

@@ -259,6 +259,51 @@ TEST(FieldPlan, nothingIsTakenOutOfFieldsFarFromTheEyeOfLargeBallsOrInParallelVi
     EXPECT_TRUE(planOf(FieldScene(balls, parallel), 32).near().balls().empty());
 }
 
+TEST(FieldPlan, gridsOfNetworksFollowTheirMediaInCubicCells)
+{
+    constexpr int kCells = 32;
+    const glm::dvec3 spreads[3] = {{1.0, 1.0, 1.0}, {0.25, 2.5, 0.25}, {3.0, 0.2, 1.0}};
+    for (size_t i = 0; i < 3; ++i) {
+        std::vector<FieldBall> balls = randomBalls(150, 5, glm::dvec3(0.0));
+        for (FieldBall& ball : balls) {
+            ball.center *= spreads[i];
+            ball.radius *= 0.5f;
+        }
+        FieldScene scene(balls, cameraAt({0, 0, 20}, {0, 0, 0}));
+        FieldPlan plan(std::pmr::new_delete_resource());
+        FieldPlanInputs in = scene.inputs(kWidth, kHeight, 64);
+        in.networkCells = kCells;
+        plan.build(in);
+        ASSERT_EQ(plan.glows().size(), 1u);
+        const FieldGlowBlock& grid = plan.glows()[0];
+        const glm::vec3 low(grid.corner), high = low + grid.corner.w * glm::vec3(grid.cells);
+        EXPECT_LE(grid.cells.x * grid.cells.y * grid.cells.z, kCells * kCells * kCells);
+        glm::vec3 widest(0.0f);
+        for (const FieldBlock& field : plan.fields()) {
+            const glm::vec3 corner(field.corner);
+            const glm::vec3 size = field.corner.w * float(kBrickCells) * glm::vec3(field.bricks);
+            widest = glm::max(widest, size);
+            for (int a = 0; a < 3; ++a) {
+                EXPECT_LE(low[a], corner[a]) << i;
+                EXPECT_GE(high[a], corner[a] + size[a]) << i;
+            }
+        }
+        for (int a = 0; a < 3; ++a) {
+            EXPECT_EQ(grid.cells[a] % kNetworkRound, 0);
+            EXPECT_GE(grid.cells[a], kMinNetworkSide);
+            EXPECT_LE(grid.cells[a], kMaxNetworkSide);
+            EXPECT_TRUE(grid.cells[a] == kMinNetworkSide ||
+                        float(grid.cells[a] - kSpareGlowCells - kNetworkRound) * grid.corner.w < widest[a])
+                << "no layers of cells without medium";
+        }
+        if (i > 0) {
+            const float cube =
+                *std::max_element(&widest[0], &widest[0] + 3) / float(kCells - kSpareGlowCells);
+            EXPECT_LT(grid.corner.w, cube) << "smaller cells than in a cube: " << i;
+        }
+    }
+}
+
 TEST(FieldPlan, equalInputsGiveEqualPlans)
 {
     const FieldScene scene(randomBalls(150, 5, glm::dvec3(0.0)), cameraAt({0, 0, 9}, {0, 0, 0}));

@@ -20,23 +20,26 @@ using namespace fx::test;
 
 namespace {
 
-constexpr int kSide = 16; ///< cells along a side
+constexpr int kSide = 16; ///< cells along a side of a cube
 constexpr size_t kCount = size_t(kSide) * kSide * kSide;
 const float kRootSphere = std::sqrt(4.0f * std::numbers::pi_v<float>);
 
 /// What fills a grid, and what shines on it.
 struct Scene
 {
-    std::vector<float> cells = std::vector<float>(4 * kCount, 0.0f);   ///< emitted light, extinction
-    std::vector<float> scatter = std::vector<float>(4 * kCount, 0.0f); ///< extinction times albedo, cosine
+    std::vector<float> cells, scatter; ///< emitted light, extinction; extinction times albedo, cosine
     FieldGlowBlock grid{glm::vec4(-0.5f, -0.5f, -0.5f, 1.0f / kSide)};
     LightListBlock lights{};
 
-    Scene()
+    explicit Scene(const glm::ivec3& sides = glm::ivec3(kSide))
     {
+        grid.cells = glm::ivec4(sides, 0);
+        cells.assign(4 * count(), 0.0f);
+        scatter.assign(4 * count(), 0.0f);
         lights.counts = {1, 0, 1, 0};
         lights.lights[0].place = {0.0f, 1.0f, 0.0f, 0.0f};
     }
+    size_t count() const { return size_t(grid.cells.x) * size_t(grid.cells.y) * size_t(grid.cells.z); }
     void set(size_t i, float extinction, const glm::vec3& albedo, const glm::vec3& emitted, float cosine)
     {
         for (int c = 0; c < 3; ++c) {
@@ -49,10 +52,10 @@ struct Scene
 };
 
 /// Cells of any kind, a quarter of them empty.
-Scene randomScene(uint64_t seed, float cosine)
+Scene randomScene(uint64_t seed, float cosine, const glm::ivec3& sides = glm::ivec3(kSide))
 {
-    Scene scene;
-    for (size_t i = 0; i < kCount; ++i) {
+    Scene scene(sides);
+    for (size_t i = 0; i < scene.count(); ++i) {
         const auto u = [&](uint32_t k) {
             return base::toUnitFloat(base::philox({uint32_t(i), k, 0, 0}, seed)[0]);
         };
@@ -76,9 +79,10 @@ struct Processor
 
     Processor(const Scene& scene, size_t color)
     {
-        NetworkGrid grid{glm::dvec3(scene.grid.corner), double(scene.grid.corner.w), glm::ivec3(kSide)};
-        std::vector<float> extinction(kCount), albedo(kCount), emission(kCount);
-        for (size_t i = 0; i < kCount; ++i) {
+        NetworkGrid grid{glm::dvec3(scene.grid.corner), double(scene.grid.corner.w),
+                         glm::ivec3(scene.grid.cells)};
+        std::vector<float> extinction(scene.count()), albedo(scene.count()), emission(scene.count());
+        for (size_t i = 0; i < scene.count(); ++i) {
             extinction[i] = scene.cells[4 * i + 3];
             if (extinction[i] > 0.0f) {
                 albedo[i] = scene.scatter[4 * i + color] / extinction[i];
@@ -96,7 +100,7 @@ struct Processor
         auto sun = harmonics(-glm::dvec3(scene.lights.lights[0].place));
         for (double& moment : sun)
             moment *= double(scene.lights.lights[0].color[int(color)]);
-        for (size_t i = 0; i < kCount; ++i)
+        for (size_t i = 0; i < scene.count(); ++i)
             if (albedo[i] > 0.0f)
                 network.addDirect(i, sun);
     }
@@ -115,9 +119,17 @@ struct Processor
 class NetworkPassesTest : public PostPass
 {
 protected:
-    void begin(const Scene& scene)
+    void begin(const Scene& scene) { begin(std::vector<Scene>{scene}); }
+    /// Scenes whose grids lie above each other in the textures, in the light of the first.
+    void begin(const std::vector<Scene>& scenes)
     {
-        scene_ = scene;
+        scene_ = scenes[0];
+        grids_.clear();
+        for (const Scene& scene : scenes) {
+            const int layers = glowExtent(grids_).z;
+            grids_.push_back(scene.grid);
+            grids_.back().cells.w = layers;
+        }
         volumes_.clear();
         const int blocks[][2] = {{1, 1},
                                  {1, 1},
@@ -126,26 +138,29 @@ protected:
                                  {kNetworkMoments, 1},
                                  {kNetworkMoments, 1},
                                  {kNetworkRays[0], kNetworkRays[1]}};
+        block_ = glowExtent(grids_) + spare_;
         for (const auto& b : blocks) {
-            auto made = GlTexture::createVolume(*device_, b[0] * kSide, b[1] * kSide, kSide,
+            auto made = GlTexture::createVolume(*device_, b[0] * block_.x, b[1] * block_.y, block_.z,
                                                 glInternalFormat(Format::RGBA32F), "network");
             ASSERT_TRUE(made.ok()) << made.status().message();
             volumes_.push_back(std::move(*made));
         }
-        fill(0, scene.cells);
-        fill(1, scene.scatter);
+        for (size_t i = 0; i < scenes.size(); ++i)
+            fill(scenes[i], i);
     }
-    void fill(size_t texture, const std::vector<float>& texels)
+    void fill(const Scene& scene, size_t grid = 0)
     {
-        device_->gl.TextureSubImage3D(volumes_[texture].name(), 0, 0, 0, 0, volumes_[texture].width(),
-                                      volumes_[texture].height(), volumes_[texture].depth(), GL_RGBA,
-                                      GL_FLOAT, texels.data());
+        const glm::ivec4 cells = grids_[grid].cells;
+        for (size_t texture : {0u, 1u})
+            device_->gl.TextureSubImage3D(volumes_[texture].name(), 0, 0, 0, cells.w, cells.x, cells.y,
+                                          cells.z, GL_RGBA, GL_FLOAT,
+                                          (texture == 0 ? scene.cells : scene.scatter).data());
     }
     void sweep(int sweeps, bool prepares = true)
     {
         graph_->begin();
         NetworkPasses::Inputs in{};
-        in.grids = importBytes(std::as_bytes(std::span(&scene_.grid, 1)));
+        in.grids = importBytes(std::as_bytes(std::span(grids_)));
         in.lights = {.lights = importBytes(std::as_bytes(std::span(&scene_.lights, 1)))};
         if (!planes_.empty())
             in.lights.planes = importTexels(kPlaneColumns * kPlaneTexels,
@@ -154,11 +169,17 @@ protected:
         ResourceId* const ids[] = {&in.textures.cells,   &in.textures.scatter, &in.textures.medium,
                                    &in.textures.unswept, &in.textures.sources, &in.textures.moments,
                                    &in.textures.rays};
+        const auto import = [&](const GlTexture& volume) {
+            return graph_->importTexture({"network", volume.width(), volume.height(), Format::RGBA32F},
+                                         volume.name());
+        };
         for (size_t i = 0; i < volumes_.size(); ++i)
-            *ids[i] = graph_->importTexture(
-                {"network", volumes_[i].width(), volumes_[i].height(), Format::RGBA32F}, volumes_[i].name());
-        in.cells = kSide;
-        in.gridCount = 1;
+            *ids[i] = import(volumes_[i]);
+        in.textures.before = before_.name() == 0 ? in.textures.moments : import(before_);
+        in.block = block_;
+        in.extent = glowExtent(grids_);
+        in.mostLines = mostNetworkLines(grids_);
+        in.gridCount = uint32_t(grids_.size());
         in.sweeps = sweeps;
         in.prepares = prepares;
         const NetworkTextures out = NetworkPasses::addTo(*graph_, in).textures;
@@ -171,15 +192,39 @@ protected:
         return readTexture(*device_, v.name(), v.width(), v.height() * v.depth(), 4);
     }
     /// As NetworkState::light of one color.
-    std::vector<float> light(size_t color) { return ofColor(texels(5), color); }
-    static std::vector<float> ofColor(const std::vector<float>& all, size_t color)
+    std::vector<float> light(size_t color, size_t grid = 0) { return ofColor(texels(5), color, grid); }
+    std::vector<float> ofColor(const std::vector<float>& all, size_t color, size_t grid = 0) const
     {
-        std::vector<float> out(4 * kCount);
-        for (size_t i = 0; i < kCount; ++i)
+        const glm::ivec4 cells = grids_[grid].cells;
+        const size_t count = size_t(cells.x) * size_t(cells.y) * size_t(cells.z);
+        std::vector<float> out(4 * count);
+        for (size_t i = 0; i < count; ++i) {
+            const size_t x = i % size_t(cells.x), y = i / size_t(cells.x) % size_t(cells.y);
+            const size_t z = i / size_t(cells.x * cells.y) + size_t(cells.w);
+            const size_t texel =
+                x + size_t(block_.x) * (color + kNetworkMoments * (y + size_t(block_.y) * z));
             for (size_t k = 0; k < 4; ++k)
-                out[k * kCount + i] =
-                    all[4 * (i % kSide + kSide * (color + kNetworkMoments * (i / kSide))) + k];
+                out[k * count + i] = all[4 * texel + k];
+        }
         return out;
+    }
+
+    /// [1] Largest difference of a moment of a cell to that of the processor, relative to the cell's light.
+    double differenceToProcessor(const Scene& scene, int sweeps, size_t color, size_t grid = 0)
+    {
+        const std::vector<float> expected = Processor(scene, color).swept(sweeps);
+        const std::vector<float> there = light(color, grid);
+        double worst = 0.0, most = 0.0;
+        for (size_t i = 0; i < scene.count(); ++i) {
+            const float whole = expected[i]; // the moments of a cell are sums of the same lights
+            most = std::max(most, double(whole));
+            for (size_t k = 0; k < 4; ++k) {
+                const size_t at = k * scene.count() + i;
+                worst = std::max(worst, std::abs(double(there[at]) - double(expected[at])) / double(whole));
+            }
+        }
+        EXPECT_GT(most, 0.1);
+        return worst;
     }
 
     /// Light slices of a sun at +y over a medium whose optical depth below the top of the grid is depth(way
@@ -211,7 +256,11 @@ protected:
     static constexpr int kPlaneColumns = 8; ///< as shaders/shared/light_slices.glsl
     static constexpr int kPlanes = 4 * kSide + 1;
     Scene scene_;
+    std::vector<FieldGlowBlock> grids_;
+    glm::ivec3 block_{0}; ///< [texel] size of a block
+    glm::ivec3 spare_{0}; ///< [texel] of a block that the grids do not take
     std::vector<GlTexture> volumes_;
+    GlTexture before_;          ///< moments of the last frame, if not those of volumes_
     std::vector<float> planes_; ///< optical depths of the sun; empty: media cast no shadow
 };
 
@@ -242,38 +291,77 @@ TEST_F(NetworkPassesTest, haveTheLightOfTheProcessor)
             const Scene scene = randomScene(uint64_t(17 + sweeps), cosine);
             begin(scene);
             sweep(sweeps);
-            for (size_t color = 0; color < 3; ++color) {
-                const std::vector<float> expected = Processor(scene, color).swept(sweeps);
-                const std::vector<float> there = light(color);
-                double worst = 0.0, most = 0.0;
-                for (size_t i = 0; i < kCount; ++i) {
-                    const float whole = expected[i]; // the moments of a cell are sums of the same lights
-                    most = std::max(most, double(whole));
-                    for (size_t k = 0; k < 4; ++k)
-                        worst = std::max(worst, std::abs(double(there[k * kCount + i]) -
-                                                         double(expected[k * kCount + i])) /
-                                                    double(whole));
-                }
-                EXPECT_LT(worst, 1e-5) << "g " << cosine << ", sweeps " << sweeps << ", color " << color;
-                EXPECT_GT(most, 0.1);
-            }
+            for (size_t color = 0; color < 3; ++color)
+                EXPECT_LT(differenceToProcessor(scene, sweeps, color), 1e-5)
+                    << "g " << cosine << ", sweeps " << sweeps << ", color " << color;
         }
+}
+
+TEST_F(NetworkPassesTest, gridsOfAnySidesHaveTheLightOfTheProcessor)
+{
+    const glm::ivec3 sides[] = {{8, 28, 12}, {20, 8, 8}, {12, 16, 36}, {8, 8, 8}};
+    std::vector<Scene> scenes;
+    for (size_t i = 0; i < std::size(sides); ++i) {
+        scenes.push_back(randomScene(31 + i, 0.5f, sides[i]));
+        scenes.back().grid.corner.w = 0.02f * float(i + 1);
+    }
+    for (const glm::ivec3& spare : {glm::ivec3(0), glm::ivec3(4, 8, 20)}) {
+        spare_ = spare;
+        begin(scenes);
+        sweep(3);
+        for (size_t i = 0; i < scenes.size(); ++i)
+            for (size_t color = 0; color < 3; ++color)
+                EXPECT_LT(differenceToProcessor(scenes[i], 3, color, i), 1e-5) << i << ", color " << color;
+    }
+}
+
+TEST_F(NetworkPassesTest, emptyCellsAroundAMediumChangeNoLight)
+{
+    // A tall medium in its own grid and in a cube of cells of the same size.
+    const glm::ivec3 sides(8, kSide, 12), corner(4, 0, 2);
+    Scene tall = randomScene(41, 0.5f, sides);
+    tall.lights.sky = tall.lights.ground = glm::vec4(0.0f); // empty cells would average it
+    Scene cube;
+    cube.lights = tall.lights;
+    std::vector<size_t> places;
+    for (size_t i = 0; i < tall.count(); ++i) {
+        const glm::ivec3 cell =
+            corner + glm::ivec3(int(i) % sides.x, int(i) / sides.x % sides.y, int(i) / (sides.x * sides.y));
+        places.push_back(size_t(cell.x + kSide * (cell.y + kSide * cell.z)));
+        std::copy_n(&tall.cells[4 * i], 4, &cube.cells[4 * places[i]]);
+        std::copy_n(&tall.scatter[4 * i], 4, &cube.scatter[4 * places[i]]);
+    }
+    begin(tall);
+    sweep(20);
+    const std::vector<float> own = light(0);
+    begin(cube);
+    sweep(20);
+    const std::vector<float> inCube = light(0);
+    double most = 0.0;
+    for (size_t i = 0; i < tall.count(); ++i) {
+        for (size_t k = 0; k < 4; ++k)
+            ASSERT_NEAR(own[k * tall.count() + i], inCube[k * kCount + places[i]], 1e-5f * own[i] + 1e-9f)
+                << i << " " << k;
+        most = std::max(most, double(own[i]));
+    }
+    EXPECT_GT(most, 0.1);
 }
 
 TEST_F(NetworkPassesTest, aWhiteMediumInARoomOfOneLightHasThatLight)
 {
     for (const float cosine : {0.0f, 0.8f}) {
-        Scene scene;
-        for (size_t i = 0; i < kCount; ++i)
+        Scene scene(cosine > 0.0f ? glm::ivec3(8, 28, 16) : glm::ivec3(kSide));
+        const size_t count = scene.count();
+        for (size_t i = 0; i < count; ++i)
             scene.set(i, float(i % 7) * 2.0f, glm::vec3(1.0f), glm::vec3(0.0f), cosine);
         scene.lights.sky = scene.lights.ground = {1.0f, 1.0f, 1.0f, 1.0f};
         begin(scene);
         sweep(400);
         const std::vector<float> there = light(1);
-        for (size_t i = 0; i < kCount; ++i) {
+        for (size_t i = 0; i < count; ++i) {
             ASSERT_NEAR(there[i] / kRootSphere, 1.0f, 1e-4f) << cosine << " " << i;
-            ASSERT_NEAR(there[kCount + i], 0.0f, 2e-4f) << "from all sides alike";
-            const float seen = formula::fxNetworkSource(1.0f, cosine, there[i], there[2 * kCount + i]);
+            ASSERT_NEAR(there[count + i], 0.0f, 2e-4f) << "from all sides alike";
+            const float seen = formula::fxNetworkSource(1.0f, cosine, there[i], there[2 * count + i]);
             ASSERT_NEAR(seen, 1.0f, 2e-4f) << "and so has the eye";
         }
     }
@@ -358,17 +446,18 @@ TEST_F(NetworkPassesTest, aGridThatMovesKeepsTheLightOfItsPlaces)
             }
         return difference / sum;
     };
-    scene_ = moved;
-    fill(0, moved.cells);
-    fill(1, moved.scatter);
-    sweep(1);
-    const double warm = error(light(0));
-    begin(moved);
-    scene_.grid.before.w = 0.0f;
-    sweep(1);
-    const double cold = error(light(0));
-    EXPECT_LT(warm, 1e-3) << "a sweep from the light of before";
-    EXPECT_GT(cold, 0.1) << "from darkness";
+    moved.grid.cellsBefore = scene.grid.cells;
+    before_ = std::move(volumes_[5]); // the light of before may be in textures of another size
+    const auto sweptAnew = [&](const Scene& from) {
+        begin(from);
+        sweep(1);
+        return error(light(0));
+    };
+    EXPECT_LT(sweptAnew(moved), 1e-3) << "a sweep from the light of before";
+    spare_ = {4, 12, 8};
+    EXPECT_LT(sweptAnew(moved), 1e-3) << "in wider blocks";
+    moved.grid.before.w = 0.0f;
+    EXPECT_GT(sweptAnew(moved), 0.1) << "from darkness";
 }
 
 TEST_F(NetworkPassesTest, aBeamLosesWhatTheCellsScatterAndAbsorb)
