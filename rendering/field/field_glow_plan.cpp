@@ -67,6 +67,12 @@ float networkCellSide(const glm::vec3& extent, int networkCells)
     return sideOf(quarters);
 }
 
+bool gains(const MediumMoments& medium, const FieldGlowPlan::Choice& choice)
+{
+    const double distance = choice.orthographic ? 1.0 : glm::length(medium.center());
+    return networkUse(medium, distance / double(choice.pixelsPerSlope)) == NetworkUse::Network;
+}
+
 } // namespace
 
 glm::ivec3 networkSides(const glm::vec3& extent, float side)
@@ -83,13 +89,15 @@ bool FieldGlowPlan::brighter(const Source& a, const Source& b)
 FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory) : sources_(memory), grids_(memory) {}
 
 void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float> emitted,
-                          const glm::dvec3& eye, int networkCells)
+                          const glm::dvec3& eye, int networkCells, const Choice* choice)
 {
     grids_.clear();
     networkCells_ = networkCells;
     for (FieldBlock& field : ioFields)
         field.limits.w = 0.0f;
-    listSources(ioFields, emitted, networkCells > 0);
+    listSources(ioFields, emitted, networkCells > 0, choice);
+    if (choice)
+        std::erase_if(sources_, [&](const Source& source) { return !gains(source.medium, *choice); });
     std::ranges::sort(sources_, brighter);
     sources_.resize(std::min(sources_.size(), kMaxGlowGrids));
     for (const Source& source : sources_)
@@ -97,7 +105,8 @@ void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float>
 }
 
 /// Fields that emit enough to be seen, or all; those that overlap are one.
-void FieldGlowPlan::listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all)
+void FieldGlowPlan::listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all,
+                                const Choice* choice)
 {
     sources_.clear();
     for (size_t f = 0; f < fields.size(); ++f) {
@@ -107,15 +116,18 @@ void FieldGlowPlan::listSources(std::span<const FieldBlock> fields, std::span<co
             continue;
         const float away = glm::length(0.5f * (box.low + box.high));
         const float seen = size * size / std::max(away * away, size * size);
-        Source merged{box.low, box.high, all ? seen : emitted[f]};
+        Source merged{box.low, box.high, all ? seen : emitted[f],
+                      choice ? choice->media[f] : MediumMoments()};
         for (size_t s = 0; s < sources_.size();) {
             const Source& other = sources_[s];
             if (!overlap({merged.low, merged.high}, {other.low, other.high})) {
                 ++s;
                 continue;
             }
-            merged = {glm::min(merged.low, other.low), glm::max(merged.high, other.high),
-                      merged.emitted + other.emitted};
+            merged.low = glm::min(merged.low, other.low);
+            merged.high = glm::max(merged.high, other.high);
+            merged.emitted += other.emitted;
+            merged.medium.add(other.medium);
             sources_.erase(sources_.begin() + std::ptrdiff_t(s));
             s = 0; // what it did not reach before
         }

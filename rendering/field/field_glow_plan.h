@@ -6,6 +6,7 @@
 #pragma once
 
 #include "rendering/field/field_blocks.h"
+#include "rendering/field/network_choice.h"
 
 #include <glm/vec3.hpp>
 
@@ -33,6 +34,14 @@ constexpr size_t kMaxGlowGrids = 4;
 class FieldGlowPlan
 {
 public:
+    /// What decides which media have networks.
+    struct Choice
+    {
+        std::span<const MediumMoments> media; ///< medium of each field, relative to the eye
+        float pixelsPerSlope; ///< [pixel] of 1 m at a distance of 1 m, or anywhere if orthographic
+        bool orthographic;
+    };
+
     explicit FieldGlowPlan(std::pmr::memory_resource* memory);
 
     /// Builds the grids. Sets FieldBlock::limits.w of each field to the index of the field's grid + 1, or to
@@ -42,8 +51,9 @@ public:
     /// @param networkCells side of the cube whose number of cells the grid of an illumination network does
     ///         not exceed; all fields get grids, in the order of their size on the picture. 0: no networks;
     ///         fields that emit light get cubes of kGlowCells
+    /// @param choice null: all fields may have networks
     void build(std::span<FieldBlock> ioFields, std::span<const float> emitted, const glm::dvec3& eye,
-               int networkCells = 0);
+               int networkCells = 0, const Choice* choice = nullptr);
     void clear() { grids_.clear(); }
 
     std::span<const FieldGlowBlock> grids() const { return grids_; }
@@ -52,14 +62,16 @@ private:
     /// Overlapping fields that share a grid.
     struct Source
     {
-        glm::vec3 low, high; ///< [m] corners of the fields' common box, relative to the eye
-        float emitted;       ///< [exposed m2] emitted light; with networks, the size on the picture [sr]
+        glm::vec3 low, high;  ///< [m] corners of the fields' common box, relative to the eye
+        float emitted;        ///< [exposed m2] emitted light; with networks, the size on the picture [sr]
+        MediumMoments medium; ///< empty without Choice
     };
 
     /// True if `a` is sorted before `b`. Sources are sorted by decreasing `emitted`, and for equal `emitted`
     /// by position.
     static bool brighter(const Source& a, const Source& b);
-    void listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all);
+    void listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all,
+                     const Choice* choice);
     void placeGrid(const Source& source, std::span<FieldBlock> ioFields, const glm::dvec3& eye);
 
     int networkCells_ = 0; ///< as in build()

@@ -88,8 +88,8 @@ struct BrickRange
 
 FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
     : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
-      peaks_(memory), emitted_(memory), glow_(memory), near_(memory), stamps_(memory), seen_(memory),
-      tiles_(memory), tileFields_(memory)
+      peaks_(memory), emitted_(memory), media_(memory), glow_(memory), near_(memory), stamps_(memory),
+      seen_(memory), tiles_(memory), tileFields_(memory)
 {}
 
 void FieldPlan::clear()
@@ -104,6 +104,7 @@ void FieldPlan::clear()
     tileFields_.clear();
     glow_.clear();
     near_.clear();
+    hasNetworks_ = false;
 }
 
 void FieldPlan::build(const FieldPlanInputs& in)
@@ -122,7 +123,17 @@ void FieldPlan::build(const FieldPlanInputs& in)
     listNear(in);
     listTiles(in);
     if (in.glows)
-        glow_.build(fields_, emitted_, in.camera->eye, in.networkCells);
+        buildGlow(in);
+}
+
+void FieldPlan::buildGlow(const FieldPlanInputs& in)
+{
+    const float perSlope = 0.5f * float(in.height) * std::abs(in.camera->clipScale.y); // [pixel]
+    const FieldGlowPlan::Choice choice{media_, perSlope, in.camera->orthographic};
+    glow_.build(fields_, emitted_, in.camera->eye, in.networkCells, media_.empty() ? nullptr : &choice);
+    hasNetworks_ = in.networkCells > 0 && !glow_.grids().empty();
+    if (in.networkCells > 0 && !hasNetworks_)
+        glow_.build(fields_, emitted_, in.camera->eye);
 }
 
 /// Smooth fields lose less by it than those with detail, whose thresholds depend on extinctions.
@@ -275,7 +286,9 @@ void FieldPlan::listBricks()
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
+    const bool choosesNetworks = in.networkCells > 0 && in.choosesNetworks;
     base::assignAmortized(emitted_, fields_.size(), 0.0f);
+    base::assignAmortized(media_, choosesNetworks ? fields_.size() : 0, MediumMoments());
     for (size_t e = 0; e < in.effects.size(); ++e)
         for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
             const BlobInstance& ball = in.balls[i];
@@ -286,6 +299,9 @@ void FieldPlan::listBalls(const FieldPlanInputs& in)
             listBall(fields_[lattices_[e].field], ball, i);
             emitted_[lattices_[e].field] +=
                 ball.medium.x * (ball.emission.x + ball.emission.y + ball.emission.z) / 3.0f;
+            if (choosesNetworks)
+                media_[lattices_[e].field].add(glm::dvec3(ball.centerRadius), double(ball.centerRadius.w),
+                                               double(ball.medium.x), glm::dvec3(ball.scatter));
         }
     for (size_t i = 0; i < bricks_.size(); ++i) {
         float& most = fields_[bricks_[i].field].limits.y;

@@ -11,6 +11,7 @@
 #include "rendering/field/field_blocks.h"
 #include "rendering/field/field_glow_plan.h"
 #include "rendering/field/field_near_plan.h"
+#include "rendering/field/network_choice.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/passes/blob_instance.h"
 
@@ -36,6 +37,9 @@ struct FieldPlanInputs
     bool glows = true; ///< true: emitted light is propagated in grids, see FieldPlan::glows()
     /// Side of the cube of as many cells as the grid of an illumination network may have; 0: no networks.
     int networkCells = 0;
+    /// True: only media that gain from a network have one, see networkUse(); without any such medium, emitted
+    /// light is propagated as with networkCells 0.
+    bool choosesNetworks = false;
 };
 
 /// Builds the layout of a frame. The memory is kept from frame to frame. Threads: one at a time.
@@ -65,6 +69,7 @@ public:
     const FieldNearPlan& near() const { return near_; }
     /// Grids in which light is propagated. FieldBlock::limits.w gives the grid of each field.
     std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
+    bool hasNetworks() const { return hasNetworks_; } ///< true: glows() are grids of illumination networks
     bool isEmpty() const { return bricks_.empty(); }
 
     /// [m] Least radius of a ball in a field. A smaller ball could fall between samples. Therefore its
@@ -84,6 +89,7 @@ private:
 
     void chooseVoxels(const FieldPlanInputs& in);
     static void bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect);
+    void buildGlow(const FieldPlanInputs& in);
     void enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly);
     bool place(const FieldPlanInputs& in); ///< returns false if there are too many bricks
     bool placeField(Lattice& lattice, int detail, const CameraGeometry& camera);
@@ -106,7 +112,10 @@ private:
     std::pmr::vector<uint32_t> loose_;
     std::pmr::vector<float> peaks_;   ///< [1/m] for each brick: sum of the central extinctions of its balls
     std::pmr::vector<float> emitted_; ///< [exposed m2] for each field: emitted light
+    /// for each field; empty unless networks are chosen by medium
+    std::pmr::vector<MediumMoments> media_;
     FieldGlowPlan glow_;
+    bool hasNetworks_ = false;
     FieldNearPlan near_;
     std::pmr::vector<uint32_t> stamps_; ///< for each tile: index + 1 of the last field that was listed
     /// Pairs of a tile and a field visible in the tile, in the order of fields.

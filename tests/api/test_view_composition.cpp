@@ -11,10 +11,13 @@
 namespace {
 
 /// Large gray balls that stay where they are born.
-std::string ballsWith(const std::string& members)
+/// @param size [m] radius of the ball of births
+std::string ballsWith(const std::string& members, const char* size = "0.5")
 {
     return R"({"version": 1, )" + members + R"("ground": false, "emitters": [
-        {"layer": "smoke", "shape": "sphere", "size": 0.5, "emission": {"bursts": [{"time": 0, "count": 40}]},
+        {"layer": "smoke", "shape": "sphere", "size": )" +
+           size +
+           R"(, "emission": {"bursts": [{"time": 0, "count": 40}]},
          "lifetime": 2, "radius": 0.5, "crossSection": 0.3, "albedoOverLife": [0.5, 0.5, 0.5],
          "forces": {"gravity": 0}}]})";
 }
@@ -48,7 +51,7 @@ protected:
         FxViewSettings settings = fxDefaultViewSettings();
         settings.dazzle = 0;
         settings.composition = FX_COMPOSITION_VOLUME;
-        settings.voxels = 32;
+        settings.voxels = 48;
         settings.multipleScattering = scattering;
         EXPECT_EQ(fxView_SetSettings(view_, &settings), FX_OK) << fxGetLastErrorMessage();
         return drawn();
@@ -199,7 +202,8 @@ TEST_F(ViewComposition, automaticScatteringIsWhatTheInstancesAskForAndTheViewHas
     update(1);
     EXPECT_LT(difference(drawnScattering(kAutomatic), drawnScattering(kSingle)), kAlike);
     EXPECT_GT(difference(drawnScattering(kClosedForm), drawnScattering(kSingle)), 10 * kAlike);
-    const FxInstanceId network = add(ballsWith(R"("composition": "volume", "scattering": "network", )"));
+    const FxInstanceId network =
+        add(ballsWith(R"("composition": "volume", "scattering": "network", )", "2")); // large on the picture
     update(1);
     (void)drawnScattering(kAutomatic);
     EXPECT_GT(sweeps(), 0u);

@@ -138,10 +138,14 @@ class FxCommand(FxTest):
         self.assertIn("sun 0: media cast shadows", outcome.out)
 
     def test_explain_says_how_light_is_scattered_again_and_why(self):
-        smoke = {"version": 1, "emitters": [{"emission": {"rate": 20}, "appearance": {"kind": "medium"}}]}
+        smoke = {"version": 1, "emitters": [{"emission": {"rate": 20}, "radius": 0.5, "crossSection": 0.3, "albedoOverLife": [0.9, 0.9, 0.9],
+                                             "appearance": {"kind": "medium"}}]}
         network = smoke | {"composition": "volume", "scattering": "network"}
         self.write("smoke.fx.json", json.dumps(smoke))
         self.write("network.fx.json", json.dumps(network))
+        def only(**members):
+            return network | {"emitters": [smoke["emitters"][0] | members]}
+
         sparks = {"version": 1, "emitters": [{"emission": {"rate": 20}, "appearance": {"kind": "sprite"}}]}
         scene = {"version": 1, "camera": {"position": [0, 1, 9], "target": [0, 1, 0]}, "composition": "automatic",
                  "instances": [{"preset": "smoke.fx.json"}, {"preset": "network.fx.json"}]}
@@ -155,13 +159,18 @@ class FxCommand(FxTest):
         self.assertEqual(explained("a.fx.json", smoke), [("automatic", "closed_form", "no preset asks for another")])
         self.assertEqual(explained("a.fx.json", smoke | {"scattering": "single"})[0][:2], ("single", "single"))
         self.assertEqual(explained("a.fx.json", network)[0][:2], ("network", "network"))
+        for medium, why in ((only(crossSection=0.001), "optical depth"), (only(albedoOverLife=[0.1, 0.1, 0.1]), "albedo 0.1 is below 0.3")):
+            asks, gets, reason = explained("a.fx.json", medium)[0]
+            self.assertEqual((asks, gets), ("network", "closed_form"))
+            self.assertIn(why, reason)
         self.assertEqual(explained("a.fx.json", smoke | {"scattering": "network"})[0][1:],
                          ("closed_form", "networks need the composition volume"))
         for setting, gets, why in ((None, "closed_form", "the scene says so"), ("off", "single", "the scene says so"),
                                    ("automatic", "network", "network.fx.json asks for it")):
             more = {} if setting is None else {"scattering": setting}
-            self.assertEqual(explained("s.scene.json", scene | more),
-                             [("automatic", gets, why), ("network", gets, why)])
+            for (_, got, reason), asked in zip(explained("s.scene.json", scene | more), ("automatic", "network"), strict=True):
+                self.assertEqual(got, gets, asked)
+                self.assertEqual(reason.split(";")[0], why, asked)
 
     def test_a_full_disk_behind_standard_output_is_a_failure(self):
         for arguments in (["doctor"], ["parameters"], ["validate", LIBRARY / "sparks.fx.json"]):

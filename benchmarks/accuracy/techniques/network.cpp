@@ -6,6 +6,7 @@
 #include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/lumpy_cloud.h"
 #include "fxsdk/cli/support/interrupt.h"
+#include "rendering/field/network_choice.h"
 #include "rendering/network/network_gather.h"
 #include "shaders/formulas/formula.h"
 
@@ -20,7 +21,6 @@
 namespace fx::cli {
 namespace {
 
-constexpr double kAlbedos[2] = {0.9, 0.99};
 constexpr int kRaysAcross = 2;   // of a pixel, along each axis
 constexpr int kFrames = 10;      // of a cloud that moves
 constexpr double kGrowth = 0.02; // of the lumps' distances in a frame
@@ -30,16 +30,22 @@ struct CloudScene
     const char* name;
     CloudLight light;
     double depth;
+    double albedos[2] = {0.9, 0.99};
 };
-constexpr std::array<CloudScene, 9> kScenes{{{"front-5", CloudLight::Front, 5.0},
-                                             {"side-5", CloudLight::Side, 5.0},
-                                             {"back-5", CloudLight::Back, 5.0},
-                                             {"inside-5", CloudLight::Inside, 5.0},
-                                             {"front-20", CloudLight::Front, 20.0},
-                                             {"side-20", CloudLight::Side, 20.0},
-                                             {"back-20", CloudLight::Back, 20.0},
-                                             {"inside-20", CloudLight::Inside, 20.0},
-                                             {"side-5-small", CloudLight::Side, 5.0}}};
+constexpr std::array<CloudScene, 14> kScenes{{{"front-5", CloudLight::Front, 5.0},
+                                              {"side-5", CloudLight::Side, 5.0},
+                                              {"back-5", CloudLight::Back, 5.0},
+                                              {"inside-5", CloudLight::Inside, 5.0},
+                                              {"front-20", CloudLight::Front, 20.0},
+                                              {"side-20", CloudLight::Side, 20.0},
+                                              {"back-20", CloudLight::Back, 20.0},
+                                              {"inside-20", CloudLight::Inside, 20.0},
+                                              {"side-0.5", CloudLight::Side, 0.5},
+                                              {"side-1", CloudLight::Side, 1.0},
+                                              {"side-2", CloudLight::Side, 2.0},
+                                              {"side-5-gray", CloudLight::Side, 5.0, {0.5, 0.7}},
+                                              {"side-5-dark", CloudLight::Side, 5.0, {0.15, 0.3}},
+                                              {"side-5-small", CloudLight::Side, 5.0}}};
 
 enum class Form
 {
@@ -212,7 +218,7 @@ base::Result<const CloudTruth*> NetworkAccuracy::truthOf(double g, const std::fu
     const auto known = truths_.find(g);
     if (known != truths_.end())
         return &known->second;
-    auto truth = tracedCloud(*cloud_, kAlbedos, g, size_, 64, stop);
+    auto truth = tracedCloud(*cloud_, scene_.albedos, g, size_, 64, stop);
     if (!truth.ok())
         return truth.status();
     return &truths_.emplace(g, std::move(*truth)).first->second;
@@ -274,7 +280,7 @@ base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::funct
         for (int a = 0; a < 2; ++a) {
             if (stop())
                 return interruptedStatus();
-            const double albedo = kAlbedos[a];
+            const double albedo = scene_.albedos[a];
             std::vector<double> picture;
             double start = threadSeconds();
             if (form.form == Form::Single || form.form == Form::Closed) {
@@ -304,6 +310,10 @@ base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::funct
     }
     sample.items = double(errors.size());
     sample.note = note;
+    render::MediumMoments medium; // what automatic scattering knows
+    for (const render::MediumBlob& blob : cloud_->blobs())
+        medium.add(blob.center, blob.radius, blob.crossSection, glm::dvec3(scene_.albedos[0]));
+    sample.work["estimated_depth"] = medium.opticalDepth();
     sample.work["sweeps"] = sweeps;
     sample.work["seconds_network"] = network;
     sample.work["seconds_reference"] = reference;

@@ -11,15 +11,20 @@
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/techniques.h"
+#include "rendering/field/network_choice.h"
+#include "rendering/reference/render/medium_blobs.h"
 #include "rendering/techniques/draw_techniques.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/gpu_programs/gpu_program.h"
 
 #include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -195,17 +200,61 @@ Scattering scatteringIn(const scene_file::SceneFile& file, bool isScene)
     return chosen;
 }
 
-/// What the preset of each effect with a medium asks for, what it gets, and why.
-Json scatteringOf(const scene_file::SceneFile& file, bool isScene)
+/// Media of the last step by the preset of their instance.
+base::Result<std::vector<render::MediumMoments>> mediaOf(const scene_file::SceneFile& file,
+                                                         EffectScene& effects)
 {
-    const Scattering chosen = scatteringIn(file, isScene);
+    const auto moment = effects.moment();
+    if (!moment.ok())
+        return moment.status();
+    std::vector<render::MediumMoments> media(file.presets.size());
+    for (const render::MediumBlob& blob : render::mediumOf(moment->snapshots, 1.0).blobs)
+        if (const uint32_t number = effects.numberOf(blob.instance); number > 0)
+            media[file.instances[number - 1].preset].add(blob.center, blob.radius, blob.crossSection,
+                                                         blob.albedo);
+    return media;
+}
+
+/// Automatic scattering leaves out networks from which a medium does not gain. A picture in which nothing of
+/// the medium is there says nothing about that.
+Scattering chosenFor(const render::MediumMoments& medium, const scene_file::SceneFile& file,
+                     const ExplainOptions& options, const Scattering& asked)
+{
+    if (file.view.voxels < render::kLeastNetworkVoxels)
+        return {sim::PreferredScattering::ClosedForm, "the view has few voxels for a network"};
+    if (medium.isEmpty())
+        return asked;
+    const scene_file::CameraPath& camera = file.camera;
+    const double distance = glm::length(camera.at(options.time).position - medium.center());
+    const double height = camera.orthographicHeight > 0.0f
+                              ? double(camera.orthographicHeight)
+                              : 2.0 * distance * std::tan(0.5 * glm::radians(double(camera.fovYDegrees)));
+    const double pixel = height / double(options.size);
+    const render::NetworkUse use = render::networkUse(medium, pixel);
+    const std::string numbers = render::textOf(use, medium, pixel);
+    return use == render::NetworkUse::Network
+               ? Scattering{asked.value, asked.why + "; " + numbers}
+               : Scattering{sim::PreferredScattering::ClosedForm, "a network would gain little: " + numbers};
+}
+
+/// What the preset of each effect with a medium asks for, what it gets, and why.
+Json scatteringOf(const scene_file::SceneFile& file, const ExplainOptions& options, bool isScene,
+                  std::span<const render::MediumMoments> media)
+{
+    const Scattering asked = scatteringIn(file, isScene);
+    const bool chooses =
+        asked.value == sim::PreferredScattering::Network && (!isScene || file.view.slices.automatic);
     Json list = Json::array();
-    for (const scene_file::ScenePreset& preset : file.presets)
-        if (preset.effect->publishes(base::kBlobKind))
-            list.push_back({{"preset", preset.name},
-                            {"asks", kScatterings.at(size_t(preset.effect->hints.scattering))},
-                            {"gets", kScatterings.at(size_t(chosen.value))},
-                            {"why", chosen.why}});
+    for (size_t i = 0; i < file.presets.size(); ++i) {
+        const scene_file::ScenePreset& preset = file.presets[i];
+        if (!preset.effect->publishes(base::kBlobKind))
+            continue;
+        const Scattering chosen = chooses ? chosenFor(media[i], file, options, asked) : asked;
+        list.push_back({{"preset", preset.name},
+                        {"asks", kScatterings.at(size_t(preset.effect->hints.scattering))},
+                        {"gets", kScatterings.at(size_t(chosen.value))},
+                        {"why", chosen.why}});
+    }
     return list;
 }
 
@@ -351,6 +400,9 @@ base::Status explain(const ExplainOptions& options)
         return status;
     const FrameCounters counters = (*renderer)->counters();
     const Json instances = instancesOf(*file, scene, options.time);
+    const auto media = mediaOf(*file, (*renderer)->effects());
+    if (!media.ok())
+        return media.status();
     const Json techniques = techniquesOf(*file, instances, counters.passes);
     if (base::Status status = timeFrames(**renderer, rendererOptions.settings, options.time); !status)
         return status;
@@ -362,7 +414,7 @@ base::Status explain(const ExplainOptions& options)
                          {"instances", instances},
                          {"emitters", emittersOf(*file)},
                          {"needs", needsOf(*file)},
-                         {"scattering", scatteringOf(*file, isScene)},
+                         {"scattering", scatteringOf(*file, options, isScene, *media)},
                          {"seconds_debt", base::toSeconds(statistics.timeDebtTicks)},
                          {"techniques", techniques},
                          {"passes", counters.passes},

@@ -28,6 +28,8 @@ int networkCells(const ViewSettings& settings)
     constexpr int kVoxelsPerCell = 3, kRound = 8, kFewest = 24, kMost = 64;
     if (!settings.slices.network || !settings.slices.multiple)
         return 0;
+    if (settings.slices.automatic && settings.voxels < kLeastNetworkVoxels)
+        return 0;
     if (settings.slices.networkCells > 0)
         return std::clamp(settings.slices.networkCells / kRound * kRound, kFewest, kMost);
     return std::clamp(settings.voxels / kVoxelsPerCell / kRound * kRound, kFewest, kMost);
@@ -55,7 +57,8 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
     blobs_ = details_.empty() ? std::span<const BlobInstance>() : io.blobs;
     networkCells_ = networkCells(*in.settings);
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
-                 in.settings->slices.multiple, networkCells_});
+                 in.settings->slices.multiple, networkCells_, in.settings->slices.automatic});
+    networkCells_ = plan_.hasNetworks() ? networkCells_ : 0;
     texels_.build(plan_, details_);
     gatherLoose(in, io);
     eye_ = in.camera->eye;

@@ -304,6 +304,34 @@ TEST(FieldPlan, gridsOfNetworksFollowTheirMediaInCubicCells)
     }
 }
 
+TEST(FieldPlan, networksAreChosenForEachMediumThatTouchesNoOther)
+{
+    // Thin and dense media apart, and a thin one that touches a dense one, which shares its grid.
+    const glm::dvec3 places[] = {{-9, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+    const float crossSections[] = {0.001f, 0.5f, 0.001f};
+    std::vector<FieldBall> balls;
+    for (uint32_t e = 0; e < 3; ++e)
+        for (FieldBall ball : randomBalls(60, 5 + e, places[e], e)) {
+            ball.crossSection = crossSections[e];
+            ball.albedo = glm::vec3(0.9f);
+            balls.push_back(ball);
+        }
+    const FieldScene scene(balls, cameraAt({0, 0, 20}, {0, 0, 0}));
+    FieldPlanInputs in = scene.inputs(kWidth, kHeight, 48);
+    in.networkCells = 24;
+    for (const bool chooses : {false, true}) {
+        in.choosesNetworks = chooses;
+        FieldPlan plan(std::pmr::new_delete_resource());
+        plan.build(in);
+        ASSERT_EQ(plan.fields().size(), 3u);
+        EXPECT_TRUE(plan.hasNetworks());
+        EXPECT_EQ(plan.glows().size(), chooses ? 1u : 2u);
+        EXPECT_EQ(plan.fields()[0].limits.w > 0.0f, !chooses);
+        EXPECT_GT(plan.fields()[1].limits.w, 0.0f);
+        EXPECT_EQ(plan.fields()[2].limits.w, plan.fields()[1].limits.w);
+    }
+}
+
 TEST(FieldPlan, equalInputsGiveEqualPlans)
 {
     const FieldScene scene(randomBalls(150, 5, glm::dvec3(0.0)), cameraAt({0, 0, 9}, {0, 0, 0}));

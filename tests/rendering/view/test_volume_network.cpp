@@ -141,6 +141,51 @@ TEST_F(VolumeNetwork, lightThatFollowsIsThatOfAFrameOfItsOwn)
     EXPECT_LT(difference / brightness(own), 0.02);
 }
 
+TEST_F(VolumeNetwork, automaticallyOnlyMediaThatGainFromItHaveOne)
+{
+    render::ViewSettings& settings = view_->settings();
+    settings.lighting.sunIlluminance = glm::vec3(10000.0f);
+    const auto sweepsOf = [&](const std::vector<TestBlob>& blobs, bool automatic) {
+        settings.slices.automatic = automatic;
+        drawn(snapshotOf({}));
+        drawn(snapshotOf(blobs));
+        return sweeps();
+    };
+    const auto large = [](float crossSection, float albedo) { // on the picture
+        TestBlob blob = ball(crossSection, albedo);
+        blob.radius = 2.0f;
+        return blob;
+    };
+    TestBlob far = large(20.0f, 0.9f);
+    far.center.z = -100.0f;
+    for (const TestBlob& without : {large(0.3f, 0.9f), large(20.0f, 0.2f), far}) {
+        EXPECT_EQ(sweepsOf({without}, true), 0u);
+        EXPECT_GT(sweepsOf({without}, false), 0u) << "on request";
+    }
+    const TestBlob dense = large(20.0f, 0.9f);
+    EXPECT_GT(sweepsOf({dense}, true), 0u);
+    settings.voxels = 32;
+    EXPECT_EQ(sweepsOf({dense}, true), 0u) << "what a budget leaves";
+    EXPECT_GT(sweepsOf({dense}, false), 0u);
+}
+
+TEST_F(VolumeNetwork, withoutANetworkAutomaticPicturesAreThoseOfTheClosedForm)
+{
+    render::SliceSettings& slices = view_->settings().slices;
+    view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
+    TestBlob fire = ball(6.0f, 0.1f);
+    fire.emission = 50.0f;
+    slices.automatic = true;
+    const Picture automatic = drawn(snapshotOf({fire}));
+    EXPECT_EQ(std::ranges::count(view_->executedPasses(), std::string_view("glow source")), 2)
+        << "with the light of fire in its grid";
+    slices.network = false;
+    EXPECT_EQ(maxDifference(automatic, drawn(snapshotOf({fire}))), 0.0);
+    slices.network = true;
+    slices.automatic = false;
+    EXPECT_GT(maxDifference(automatic, drawn(snapshotOf({fire}))), 0.0);
+}
+
 TEST_F(VolumeNetwork, fireInsideLightsTheMediumAroundIt)
 {
     TestBlob fire = ball(2.0f, 0.0f);
