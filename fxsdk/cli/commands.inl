@@ -1,6 +1,7 @@
 // The commands of fx in the order of its help, and where they are.
 FX_COMMAND(Render)     // fxsdk/cli/render
 FX_COMMAND(Export)     // fxsdk/cli/export
+FX_COMMAND(Import)     // fxsdk/cli/import
 FX_COMMAND(Validate)   // fxsdk/cli/inspect
 FX_COMMAND(Doctor)     // fxsdk/cli/inspect
 FX_COMMAND(Parameters) // fxsdk/cli/inspect

@@ -1,5 +1,5 @@
 /// @file vdb_volume.h
-/// Encodes media as an OpenVDB file. Reading of files is not supported.
+/// Media as the bytes of an OpenVDB file. vdb_reader.h reads.
 ///
 /// The content of the file is created in memory. The content depends only on the arguments. Threads: only one
 /// thread at a time may use an object.

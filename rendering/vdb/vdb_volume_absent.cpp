@@ -15,8 +15,9 @@ std::string vdbVersion()
 
 base::Status checkVdb()
 {
-    return {base::Code::NotFound, "this fx was built without OpenVDB, which writes *.vdb: apt-get install "
-                                  "libopenvdb-dev libboost-dev, then configure and build fx again"};
+    return {base::Code::NotFound,
+            "this fx was built without OpenVDB, which reads and writes *.vdb: apt-get install "
+            "libopenvdb-dev libboost-dev, then configure and build fx again"};
 }
 
 VdbVolume::VdbVolume(double) {}

@@ -45,17 +45,17 @@ TESTED_ELSEWHERE = {
 }
 
 # Of which only the options are looked at where fx was built without the library.
-NEEDS_OPENVDB = ["fx", "export"]
+NEEDS_OPENVDB = (["fx", "export"], ["fx", "import"])
 HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
 
 # What each subcommand cannot do without.
 NEEDS = {"render": ("-o", "--output"), "export": ("-o", "--output"), "stability": ("-o", "--output"), "validate": ("POSITIONAL",), "verify": ("POSITIONAL",),
-         "accuracy": ("POSITIONAL",), "explain": ("POSITIONAL",), "grid": ("POSITIONAL",), "dazzle": ("POSITIONAL",),
+         "accuracy": ("POSITIONAL",), "explain": ("POSITIONAL",), "grid": ("POSITIONAL",), "dazzle": ("POSITIONAL",), "import": ("POSITIONAL",),
          "bench": ("POSITIONAL", "--plot"), "calibrate": ("-o",)}
 
 # In place of the placeholders of a synopsis.
 VALUES = {"FILE": "tiny.fx.json", "OUT": "out/a.png", "OUT.png": "out/b.png", "OUT.exr": "out/a.exr", "IN.exr": "in.exr",
-          "CASE": "sod", "TECHNIQUE": "furnace", "OUT.vdb": "out/a.vdb", "FOLDER": "out/maps", "FILE.svg": "out/a.svg", "OUT.fxgrid": "out/a.fxgrid",
+          "CASE": "sod", "TECHNIQUE": "furnace", "OUT.vdb": "out/a.vdb", "IN.vdb": "in.vdb", "FOLDER": "out/maps", "FILE.svg": "out/a.svg", "OUT.fxgrid": "out/a.fxgrid",
           "POINTS.csv": "points.csv", "NUMBERS.raw": "numbers.raw", "library:NAME": "library:sparks",
           "NX": "2", "NY": "2", "NZ": "2"}
 
@@ -92,6 +92,8 @@ class Workplace:
             f"{x},{y},{z},1\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)))
         (self.root / "numbers.raw").write_bytes(struct.pack("<8f", *range(8)))
         self.run(["fx", "render", "tiny.fx.json", "-o", "in.exr", "--size", "16x16"])
+        if HAS_OPENVDB:
+            self.run(["fx", "export", "tiny.fx.json", "-o", "in.vdb", "--voxel-size", "0.2"])
 
     def close(self):
         self._folder.cleanup()
@@ -150,7 +152,7 @@ class Checker:
         if command.text.split("  #")[0].rstrip() in EXCEPTIONS:
             return []
         words = words_of(command.text)
-        is_absent = words[:2] == NEEDS_OPENVDB and not HAS_OPENVDB
+        is_absent = words[:2] in NEEDS_OPENVDB and not HAS_OPENVDB
         if command.kind == "mention" or tuple(words[:3]) in TESTED_ELSEWHERE or is_absent:
             unknown = self.unknown_options([words], command.text)
             return [f"{command.place}: `{command.text}`: unknown: {name}" for name in unknown]

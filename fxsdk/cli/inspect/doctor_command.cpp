@@ -68,7 +68,7 @@ Check checkOpenVdb()
 {
     const std::string version = render::vdbVersion();
     return {"OpenVDB", !version.empty(), false,
-            version.empty() ? "fx was built without it: no fx export" : version,
+            version.empty() ? "fx was built without it: no fx export, no fx import" : version,
             "apt-get install libopenvdb-dev libboost-dev, then configure and build fx again"};
 }
 

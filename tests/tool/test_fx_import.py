@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""fx import: volumes of OpenVDB, whole and damaged ones."""
+import collections
+import json
+import os
+import random
+import unittest
+
+from fx_program import FxTest, fx
+
+HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
+TRIES = int(os.environ.get("FX_DAMAGES", "40")) # 2000 and 4096 for the figures of docs/howto/volumes.md
+CUT = int(os.environ.get("FX_CUT", "65536"))    # [byte] between two truncations
+SECONDS = 20                                    # [s] of processor time that a file may take
+PEAK = 1 << 30                                  # [byte] that a file may take
+CHILD_LIMITS = ("--max-memory", "512", "--max-seconds", "5")
+HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
+
+
+@unittest.skipIf(HAS_OPENVDB, "fx has OpenVDB")
+class WithoutOpenVdb(FxTest):
+    def test_the_missing_package_is_named(self):
+        outcome = fx("import", self.write("a.vdb", "x"))
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("libopenvdb-dev", outcome.err)
+
+
+@unittest.skipUnless(HAS_OPENVDB, "fx was built without OpenVDB")
+class Import(FxTest):
+    def export(self, name, source="library:explosion", *arguments):
+        path = self.folder / name
+        outcome = fx("export", source, "-o", path, *arguments)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        return path
+
+    def test_an_exported_volume_has_the_mass_and_the_place_of_its_balls(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n1,2,-3,0.5,2,0,0,0,0\n2,2,-3,0.3,1,0,0,0,0\n")
+        outcome = fx("import", self.export("a.vdb", balls, "--voxel-size", "0.05"), "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        line = json.loads(outcome.out)
+        self.assertAlmostEqual(line["cross_section"], 3.0, delta=3e-5)
+        for at, center in zip(line["center"], (4 / 3, 2, -3)):
+            self.assertAlmostEqual(at, center, delta=1e-3)
+        self.assertEqual(line["grids"], ["density", "temperature", "flame", "velocity"])
+        for low, high, a, b in zip(line["low"], line["high"], (0.5, 1.5, -3.5), (2.3, 2.5, -2.5)):
+            self.assertTrue(a - 0.1 <= low <= a + 0.15 and b - 0.15 <= high <= b + 0.1, (low, high, a, b))
+
+    def test_names_that_do_not_fit_are_answered_with_those_that_are_there(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n1,2,-3,0.5,2,0,0,0,0\n")
+        outcome = fx("import", self.export("a.vdb", balls, "--voxel-size", "0.1"), "--density", "smoke")
+        self.assertEqual(outcome.code, 1)
+        for name in ('"smoke"', '"density"', '"temperature"', '"flame"', '"v"'):
+            self.assertIn(name, outcome.err)
+
+    def test_damaged_files_are_errors_that_name_the_file(self):
+        whole = self.export("whole.vdb", "library:explosion", "--time", "0.6", "--voxels", "60000").read_bytes()
+        rng = random.Random(23)
+        damages = [("cut", whole[:size]) for size in range(0, len(whole), CUT)]
+        for _ in range(TRIES):
+            at = rng.randrange(len(whole) - 16)
+            damages.append(("damage", whole[:at] + rng.randbytes(16) + whole[at + 16:]))
+        counts = collections.Counter()
+        peak = 0
+        for kind, content in damages:
+            path = self.write("damaged.vdb", content)
+            outcome = fx("import", path, *CHILD_LIMITS, cpu_seconds=SECONDS)
+            counts["tries of " + kind] += 1
+            counts["errors of " + kind] += outcome.code == 1
+            counts["killed"] += "was stopped by the signal" in outcome.err
+            counts["out of time"] += "took more than" in outcome.err
+            self.assertIn(outcome.code, (0, 1), outcome.err)
+            self.assertTrue(outcome.code == 0 or "damaged.vdb: " in outcome.err, outcome.err)
+            self.assertTrue(kind == "damage" or outcome.code == 1, "a truncated file was read")
+            self.assertLess(outcome.peak, PEAK)
+            peak = max(peak, outcome.peak)
+        print(f"{len(whole)} bytes; " + ", ".join(f"{name} {count}" for name, count in sorted(counts.items())) +
+              f"; largest memory {peak / 2**20:.0f} MiB")
+
+
+if __name__ == "__main__":
+    unittest.main()
