@@ -55,7 +55,7 @@ NEEDS = {"render": ("-o", "--output"), "export": ("-o", "--output"), "stability"
 
 # In place of the placeholders of a synopsis.
 VALUES = {"FILE": "tiny.fx.json", "OUT": "out/a.png", "OUT.png": "out/b.png", "OUT.exr": "out/a.exr", "IN.exr": "in.exr",
-          "CASE": "sod", "TECHNIQUE": "furnace", "OUT.vdb": "out/a.vdb", "IN.vdb": "in.vdb", "FOLDER": "out/maps", "FILE.svg": "out/a.svg", "OUT.fxgrid": "out/a.fxgrid",
+          "CASE": "sod", "TECHNIQUE": "furnace", "OUT.vdb": "out/a.vdb", "IN.vdb": "in.vdb", "PRESET.fx.json": "out/cloud.fx.json", "FOLDER": "out/maps", "FILE.svg": "out/a.svg", "OUT.fxgrid": "out/a.fxgrid",
           "POINTS.csv": "points.csv", "NUMBERS.raw": "numbers.raw", "library:NAME": "library:sparks",
           "NX": "2", "NY": "2", "NZ": "2"}
 

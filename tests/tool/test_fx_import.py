@@ -52,16 +52,44 @@ class Import(FxTest):
         for name in ('"smoke"', '"density"', '"temperature"', '"flame"', '"v"'):
             self.assertIn(name, outcome.err)
 
+    def test_a_fitted_preset_has_the_mass_and_the_light_of_the_volume(self):
+        volume = self.export("a.vdb", "library:explosion", "--time", "0.6", "--voxels", "60000")
+        preset = self.folder / "cloud.fx.json"
+        outcome = fx("import", volume, "-o", preset, "--fit", "500", "--iterations", "8", "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        line = json.loads(outcome.out)
+        self.assertLessEqual(line["balls"], 500)
+        self.assertLess(abs(line["mass_error"]), 1e-3)
+        self.assertLess(max(line["view_errors"]), 0.2)
+        self.assertEqual(self.names(), ["a.vdb", "cloud.fx.json", "cloud.fxballs"])
+        self.assertEqual(fx("validate", preset).code, 0)
+        again = fx("import", self.export("b.vdb", preset, "--time", "0", "--voxels", "60000"), "--json")
+        self.assertEqual(again.code, 0, again.err)
+        back = json.loads(again.out)
+        for name, allowed in (("cross_section", 1e-3), ("flame_volume", 0.02)):
+            self.assertAlmostEqual(back[name], line[name], delta=allowed * line[name], msg=name)
+        for a, b in zip(back["center"], line["center"]):
+            self.assertAlmostEqual(a, b, delta=0.02)
+
+    def test_names_of_presets_are_checked(self):
+        volume = self.export("a.vdb", "library:explosion", "--time", "0.6", "--voxels", "60000")
+        self.assertEqual(fx("import", volume, "-o", self.folder / "cloud.json").code, 1)
+        self.assertEqual(self.names(), ["a.vdb"])
+
     def test_damaged_files_are_errors_that_name_the_file(self):
         whole = self.export("whole.vdb", "library:explosion", "--time", "0.6", "--voxels", "60000").read_bytes()
         rng = random.Random(23)
-        damages = [("cut", whole[:size]) for size in range(0, len(whole), CUT)]
-        for _ in range(TRIES):
-            at = rng.randrange(len(whole) - 16)
-            damages.append(("damage", whole[:at] + rng.randbytes(16) + whole[at + 16:]))
+
+        def damages():
+            for size in range(0, len(whole), CUT):
+                yield "cut", whole[:size]
+            for _ in range(TRIES):
+                at = rng.randrange(len(whole) - 16)
+                yield "damage", whole[:at] + rng.randbytes(16) + whole[at + 16:]
+
         counts = collections.Counter()
         peak = 0
-        for kind, content in damages:
+        for kind, content in damages():
             path = self.write("damaged.vdb", content)
             outcome = fx("import", path, *CHILD_LIMITS, cpu_seconds=SECONDS)
             counts["tries of " + kind] += 1

@@ -2,7 +2,9 @@
 /// fx import: volumes of other programs.
 
 #include "fxsdk/cli/commands.h"
+#include "fxsdk/cli/import/cloud_preset.h"
 #include "fxsdk/cli/import/volume_import.h"
+#include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
 
@@ -24,6 +26,9 @@ struct ImportArguments
     render::VdbReadOptions read;
     uint64_t memory = 4096; ///< [MiB]
     unsigned seconds = 120;
+    std::string output; ///< empty: none
+    render::FitOptions fit;
+    double albedo = 0.8;
     bool json = false;
 };
 
@@ -59,6 +64,20 @@ void addImportOptions(CLI::App& command, ImportArguments& a)
     command.add_option("--max-seconds", a.seconds, "[s] The process that reads the file may compute as long")
         ->check(CLI::Range(1u, 86400u))
         ->capture_default_str();
+    CLI::Option* const output =
+        command.add_option("-o,--output", a.output, "NAME.fx.json: a preset with balls, in NAME.fxballs");
+    command.add_option("--fit", a.fit.count, "Most balls")
+        ->check(CLI::Range(uint32_t(1), uint32_t(sim::kMaxListedBalls)))
+        ->needs(output)
+        ->capture_default_str();
+    command.add_option("--iterations", a.fit.iterations, "Steps of the fit")
+        ->check(CLI::Range(0u, 1000u))
+        ->needs(output)
+        ->capture_default_str();
+    command.add_option("--albedo", a.albedo, "Of volumes without a grid of colors")
+        ->check(CLI::Range(0.0, 1.0))
+        ->needs(output)
+        ->capture_default_str();
     command.add_flag("--json", a.json, "Print one JSON object");
 }
 
@@ -74,7 +93,8 @@ nlohmann::json arrayOf(const glm::dvec3& v)
     return {v.x, v.y, v.z};
 }
 
-void report(const ImportArguments& arguments, const render::MediumGrid& grid, const ChildReport& child)
+void report(const ImportArguments& arguments, const render::MediumGrid& grid, const ChildReport& child,
+            const CloudFitReport* fit)
 {
     const render::MediumGridSums sums = render::sumsOf(grid);
     std::vector<std::string> names{"density"};
@@ -101,6 +121,12 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
                             {"flame_volume", sums.luminousVolume},
                             {"reader_bytes", child.peakMemory},
                             {"reader_s", child.seconds}};
+        if (fit) {
+            line["balls"] = fit->balls;
+            line["mass_error"] = fit->massError;
+            line["view_errors"] = fit->viewErrors;
+            line["fit_s"] = fit->seconds;
+        }
         printJsonLine(withMachine(std::move(line), readMachine()));
         return;
     }
@@ -113,10 +139,25 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
         arguments.input.c_str(), list.c_str(), static_cast<unsigned long long>(sums.voxels),
         grid.blocks.size(), textOf(sums.boxLow).c_str(), textOf(sums.boxHigh).c_str(), sums.largestDensity,
         sums.crossSection);
+    if (fit)
+        std::printf("%s: %zu balls in %s, mass %+.2g %%, opacity from three sides wrong by %.3g %%, %.3g %%, "
+                    "%.3g %%, %.1f s\n",
+                    arguments.output.c_str(), fit->balls, fit->ballFile.string().c_str(),
+                    100.0 * fit->massError, 100.0 * fit->viewErrors[0], 100.0 * fit->viewErrors[1],
+                    100.0 * fit->viewErrors[2], fit->seconds);
+}
+
+int failed(const base::Status& status)
+{
+    std::fprintf(stderr, "fx import: %s\n", status.message().c_str());
+    return exitCodeOf(status);
 }
 
 int runImport(ImportArguments arguments)
 {
+    if (!arguments.output.empty())
+        if (base::Status status = checkTarget(arguments.output); !status)
+            return failed(status);
     ChildLimits limits;
     limits.memory = arguments.memory * kMebibyte;
     limits.seconds = arguments.seconds;
@@ -124,13 +165,20 @@ int runImport(ImportArguments arguments)
     limits.output += kMebibyte;                                  // warnings
     ChildReport child;
     const auto grid = importVolume(arguments.input, arguments.read, limits, &child);
-    if (!grid) {
-        std::fprintf(stderr, "fx import: %s\n", grid.status().message().c_str());
-        return exitCodeOf(grid.status());
-    }
+    if (!grid)
+        return failed(grid.status());
     for (const std::string& warning : grid->warnings)
         std::fprintf(stderr, "warning: %s: %s\n", arguments.input.c_str(), warning.c_str());
-    report(arguments, *grid, child);
+    if (arguments.output.empty()) {
+        report(arguments, *grid, child, nullptr);
+        return kSuccess;
+    }
+    const auto tasks = base::makeTbbRunner(); // threads begin here, after the child
+    const auto fit =
+        writeCloudPreset(*grid, arguments.fit, arguments.albedo, arguments.output, *tasks, !arguments.json);
+    if (!fit)
+        return failed(fit.status());
+    report(arguments, *grid, child, &*fit);
     return kSuccess;
 }
 
