@@ -29,6 +29,20 @@ def by_setting(lines):
     return {line["setting"]: line for line in lines}
 
 
+class FxAccuracyOfFits(FxTest):
+    def test_steps_make_errors_smaller_and_mass_is_kept(self):
+        lines = by_setting(lines_of("fit", *QUICK))
+        self.assertEqual(len(lines), 12)
+        for line in lines.values():
+            self.assertLess(abs(line["work"]["mass_error"]), 1e-9)
+            self.assertLessEqual(line["work"]["balls"], line["parameters"]["balls"])
+        for count in (100, 1000, 10000):
+            errors = {form: lines[f"{form}-{count}"]["error_mean"] for form in ("uniform", "adaptive", "optimized-8", "optimized-24")}
+            self.assertLess(errors["optimized-24"], errors["optimized-8"], count)
+            self.assertLess(errors["optimized-24"], 0.5 * min(errors["uniform"], errors["adaptive"]), count)
+        self.assertLess(lines["optimized-24-10000"]["error_mean"], 0.05)
+
+
 class FxAccuracyOfLightSlices(FxTest):
     @classmethod
     def setUpClass(cls):
