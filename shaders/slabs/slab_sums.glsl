@@ -130,9 +130,13 @@ void writePicture(SlabPicture picture)
 {
     float alpha = max(1.0 - picture.through, 0.0); // rims of fields may be below 0, see voxel-kernel
 #if FX_LAYERS
-    fireLight = vec4(max(picture.light[0], vec3(0.0)), alpha);
-    smokeLight = vec4(max(picture.light[1], vec3(0.0)), alpha);
-    dustLight = vec4(max(picture.light[2], vec3(0.0)), alpha);
+    // a layer below 0 takes from the others, so that their sum is that of all media
+    vec3 lights[kLayers] = vec3[kLayers](max(picture.light[0], vec3(0.0)), max(picture.light[1], vec3(0.0)), max(picture.light[2], vec3(0.0)));
+    vec3 all = max(picture.light[0] + picture.light[1] + picture.light[2], vec3(0.0));
+    vec3 scale = all / max(lights[0] + lights[1] + lights[2], vec3(1e-30));
+    fireLight = vec4(scale * lights[0], alpha);
+    smokeLight = vec4(scale * lights[1], alpha);
+    dustLight = vec4(scale * lights[2], alpha);
     coverage = vec4(max(picture.covered, vec3(0.0)), alpha);
     depthMoment = vec4(max(picture.distances, 0.0), 0.0, 0.0, alpha);
     opticalDepthSum = vec4(max(picture.depths, 0.0), 0.0, 0.0, 0.0);

@@ -295,6 +295,37 @@ TEST_F(Volume, layersOfOneBallAreThoseOfTheSortedForm)
     }
 }
 
+TEST_F(Volume, layersAreNotNegativeAndAddUpToThePicture)
+{
+    view_->settings().voxels = 64;
+    std::vector<TestBlob> blobs = cloud(270, 0.3f, 0.5f);
+    for (size_t i = 0; i < blobs.size(); ++i) {
+        blobs[i].layer = base::MediaLayer(i % 3);
+        blobs[i].fireShare = i % 3 == 0 ? 1.0f : 0.1f;
+        blobs[i].albedo = i % 3 == 0 ? 0.0f : 0.5f;
+        blobs[i].emission = i % 3 == 0 ? blobs[i].emission : 0.0f;
+    }
+    const Picture picture = drawn(blobs, camera());
+    const float brightest = *std::max_element(picture.texels.begin(), picture.texels.end());
+    view_->settings().layerOutputs = true;
+    (void)drawn(blobs, camera());
+    const render::LayerTextures all = view_->layers();
+    const Picture layers[] = {read(all.fire), read(all.smoke), read(all.dust)};
+    float least = 0.0f, worst = 0.0f;
+    for (size_t i = 0; i < picture.texels.size(); ++i) {
+        if (i % 4 == 3)
+            continue;
+        float sum = 0.0f;
+        for (const Picture& layer : layers) {
+            least = std::min(least, layer.texels[i]);
+            sum += layer.texels[i];
+        }
+        worst = std::max(worst, std::abs(sum - picture.texels[i]));
+    }
+    EXPECT_GE(least, 0.0f);
+    EXPECT_LE(worst, brightest / 1023.0f);
+}
+
 TEST_F(Volume, aMediumOfOneLuminanceShowsItWhateverItsDetail)
 {
     std::vector<TestBlob> blobs = cloud(120, 0.45f, 0.8f);
