@@ -334,7 +334,7 @@ TEST_F(Slabs, ballsLeaveTheChoiceOfACrowdedTileSmoothly)
     // thousands of equal balls at one place, few of which send light: what is seen changes with their weights
     makeTargets(4, 4);
     view_->settings().slabs = 16;
-    constexpr size_t kFewest = 1500, kMost = 3000, kStep = 100;
+    constexpr size_t kFewest = 1500, kMost = 2500, kStep = 100;
     TestBlob ball = kBall;
     ball.center = glm::vec3(0.0f);
     ball.crossSection = 1e-4f;
