@@ -13,10 +13,10 @@ namespace fx::render {
 
 namespace {
 
-constexpr int kCells = 16;           ///< along each side of the box of all balls
-constexpr float kMaxSets = 1024;     ///< M
-constexpr uint32_t kRank = 14;       ///< purpose of lumpHash()
-constexpr float kLumpPixels = 16.0f; ///< [pixel] of the largest lumps: those of an eighth of it fade out
+constexpr int kCells = 16;          ///< along each side of the box of all balls
+constexpr float kMaxSets = 1024;    ///< M
+constexpr uint32_t kRank = 14;      ///< purpose of lumpHash()
+constexpr float kLumpPixels = 5.0f; ///< [pixel] of the largest lumps: those of a fifth of it are half faded
 
 /// Gauss's nodes in r^2: corners of two tetrahedra.
 struct Shell

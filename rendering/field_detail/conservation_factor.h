@@ -23,8 +23,8 @@
 ///   noise is renewed, and f does not flicker. Each ball has four sets s of nodes. If there are many balls,
 ///   fewer sets are sampled. The weight of a set changes continuously with N:
 ///       w_is = sat((p - u_is) / (p / 10)), p = (10 / 9) M / (4 N)                              (3)
-///   Lumps smaller than an eighth of the largest are not sampled. Their share is replaced by its mean,
-///   equation (7) of field-detail, because there are enough of them to average out.
+///   Lumps smaller than a fifth of the largest are replaced by their mean, equation (7) of field-detail,
+///   because there are enough of them to average out.
 /// @source    own; the nodes in r^2 are Gauss nodes for the kernel's weight r^2 (1 - r^2)^2: moments up to
 ///            the third are exact
 /// @deviation none

@@ -54,6 +54,10 @@ struct MediumDetail
 };
 
 const float kMaxLump = 2.5;   // of lumpTile, which is below it at 99.9 % of its places
+// Widths of pixels, in which noise differs from that in their middle as much as in a cube and on a length: the mean square distance
+// from the middle is 1/6 in a square, 1/4 in a cube, 1/12 on a length of 1.
+const float kPixelOfCube = 1.22;
+const float kPixelOfLength = 0.71;
 const float kFadedTail = 4.06; // deviations of what has faded out at which fxDetailPassed is 1e-3
 
 // Share of the variance of broad lumps and octaves that shows. size, pixel [m]

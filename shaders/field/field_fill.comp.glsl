@@ -118,7 +118,7 @@ void main()
         if (detailed > 0) {
             DetailPlace place = detailPlace(numbers.erosion, numbers.soft, extinction, powerSums[z].z / extinction);
             MediumDetail detail = detailOf(numbers, place, places[z], carriedSums0[z] / extinction, carriedSums1[z] / extinction,
-                                           0.5 * field.corner.w, false);
+                                           kPixelOfCube * field.corner.w, false);
             changed = (detail.share - 1.0) * extinction * held;
         }
         imageStore(material0, texel + ivec3(0, 0, z), vec4(carriedSums0[z] * held, powerSums[z].x / max(powerSums[z].y, 1e-30)));

@@ -24,8 +24,8 @@ layout(std140, binding = 0) uniform GlowSourceBlock { ivec4 fieldCount; }; // x 
 
 const int kMaxPoints = 3; // along a side of a cell
 
-// Adds a share of one field at a place. @param pixel [m] lumps below twice of it are not seen
-void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 medium, inout vec4 scatter)
+// Adds a share of one field at a place. @param side [m] of the cube around it for which it stands
+void addField(VoxelField field, vec3 p, float side, float share, inout vec4 medium, inout vec4 scatter)
 {
     vec3 local = (p - field.corner.xyz) / field.corner.w;
     vec3 size = vec3(kBrickCells * field.bricks.xyz);
@@ -46,7 +46,7 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
             vec4 material1 = perMedium * textureLod(fieldMaterial1, uv, 0.0);
             FieldDetail numbers = fieldDetail(int(field.limits.z));
             DetailPlace place = detailPlace(numbers.erosion, numbers.soft, own.a, material1.a);
-            MediumDetail detail = detailOf(numbers, place, p, material0.rgb * perMedium, material1.rgb, pixel,
+            MediumDetail detail = detailOf(numbers, place, p, material0.rgb * perMedium, material1.rgb, kPixelOfCube * side,
                                            own.r + own.g + own.b > 0.0);
             kept = detail.share;
             own.rgb = detailedLight(own.rgb, detail, material0.a);
@@ -83,7 +83,7 @@ void main()
         float share = 1.0 / float(max(points * points * points, 1));
         for (int i = 0; i < points * points * points; ++i) {
             vec3 part = (vec3(i % points, i / points % points, i / (points * points)) + 0.5) / float(points);
-            addField(field, glow.corner.xyz + glow.corner.w * (cell + part), 0.5 * glow.corner.w / float(points), share, medium,
+            addField(field, glow.corner.xyz + glow.corner.w * (cell + part), glow.corner.w / float(points), share, medium,
                      scatter);
         }
     }

@@ -30,8 +30,9 @@
 ///       m = integral of (3) over h = P(s) - P(s - 1)                                          (4)
 ///       n = min(1 / m, 6)                                                                     (5)
 ///   keeps the mean extinction where m >= 1/6; what is thinner is lost. n g = 1 for s >= 1 + w.
-///   Octaves that are finer than a pixel have no value there; over them, a normal deviate of variance u, the
-///   share has the mean
+///   Octaves that are finer than a pixel have no value there, see lump-noise. A threshold is not linear, so the
+///   share of their mean is not their mean share: that is lower in lumps and higher in creases. Over a normal
+///   deviate of variance u the share has the mean
 ///       (1/w) integral over x = s - w .. s of p(x), p(x) = 1 / (1 + exp(-(1.702 z + ln(x / (1 - x))) / sqrt(u))) (7)
 ///   with p = 0 for x <= 0 and 1 for x >= 1: (3) for u = 0, (4) for u = 1 and z = 0. It is summed at three Gauss
 ///   nodes, and blended with (3) for u < 1/4, where p is steeper than nodes are apart.
@@ -47,7 +48,8 @@
 ///       G' = G exp(-0.15 a), G being the amplitude of an octave over that of the one before   (11)
 ///   take the place of s, w and G in all of the above. In the middle of a ball s does not change with its
 ///   size for a = v: lumps keep their form. For a > v it grows up to where the noise is no more: haze.
-/// @source    own; (1)-(5) measured by a prototype on the library's explosion
+/// @source    own; (1)-(5) measured by a prototype on the library's explosion. (7) filters a function of noise by
+///            the normal distribution of the noise in a pixel, as [HNPN13] section 3 does for colors
 /// @deviation none
 /// @valid     k >= 0, 0 < t0 < t1, 0 < w <= 1; k = 0 gives s = -1e3
 /// @accuracy  float within 1e-5 of double for s, h, g, m, w', G', within 1e-5 relative for v, and within 1e-4 relative for n and T'; GLSL likewise

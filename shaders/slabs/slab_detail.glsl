@@ -10,8 +10,6 @@ struct DetailedSlab
     vec2 power;         // x light times the power of temperature by which it follows the detail; y light
 };
 
-const float kSeenOfSlab = 0.25; // [1] of the length of a slab: lumps below twice of it are not seen one by one, but as their mean
-
 DetailedSlab emptyDetailedSlab()
 {
     DetailedSlab slab;
@@ -63,7 +61,7 @@ void detailOfSlabs(SlabRay ray, float edges[kGroup + 1], FieldDetail numbers, De
             DetailPlace place = detailPlace(numbers.erosion, numbers.soft, body.x / max(body.w, 1e-20), second.w);
             float pixel = rayOrigin.w > 0.5 ? 1.0 / sunDirection.w : t / (ray.lengthPerDepth * sunDirection.w);
             MediumDetail detail = detailOf(numbers, place, ray.origin + t * ray.direction, perDepth * first.xyz, second.xyz,
-                                           max(pixel, kSeenOfSlab * body.w), first.w > 0.0);
+                                           max(pixel, kPixelOfLength * body.w), first.w > 0.0);
             bvec4 isThis = equal(ivec4(k), ivec4(0, 1, 2, 3));
             shares = mix(shares, vec4(detail.share), isThis);
             temperatures = mix(temperatures, vec4(detail.temperature), isThis);

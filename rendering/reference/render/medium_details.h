@@ -39,8 +39,7 @@ struct MediumDetails
     bool isGiven() const { return !groups.empty(); }
 };
 
-/// Width of a pixel as a function of distance. Octaves of noise whose period is less than two pixels are
-/// faded out.
+/// Width of a pixel as a function of distance. Octaves of noise fade out by equation (3) of lump-noise.
 struct PixelWidth
 {
     glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit vector, view axis

@@ -47,6 +47,33 @@ SmoothMedium mediumAt(float extinction, const glm::vec3& p)
     return {extinction, {p, p}};
 }
 
+/// A square at a random angle, around the origin.
+class Pixel
+{
+public:
+    Pixel(uint64_t i, float width) : width_(width)
+    {
+        const auto r = base::randomUnit4(7, 0, i, base::RandomPurpose::Attributes);
+        const float height = 2.0f * r[0] - 1.0f, flat = std::sqrt(1.0f - height * height);
+        const glm::vec3 normal(flat * std::cos(6.2831853f * r[1]), flat * std::sin(6.2831853f * r[1]),
+                               height);
+        const glm::vec3 other = std::abs(height) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+        right_ = glm::normalize(glm::cross(normal, other));
+        up_ = glm::cross(normal, right_);
+    }
+    /// Middle of part k of parts x parts.
+    glm::vec3 part(int k, int parts) const
+    {
+        const float x = (float(k % parts) + 0.5f) / float(parts) - 0.5f;
+        const float y = (float(k / parts) + 0.5f) / float(parts) - 0.5f;
+        return width_ * (x * right_ + y * up_);
+    }
+
+private:
+    float width_;
+    glm::vec3 right_, up_;
+};
+
 /// Balls of the same size that fill a ball of radius 3 m at random.
 std::vector<DetailedBall> cloud(float crossSection)
 {
@@ -245,7 +272,52 @@ TEST(FieldDetail, thinMediumIsErodedAndDenseMediumIsNot)
     }
 }
 
-TEST(FieldDetail, octavesBelowTwoPixelsHaveFadedOut)
+TEST(FieldDetail, theBandIsTheMeanCorrelationOverAPixel)
+{
+    constexpr int kPlaces = 20000, kParts = 4;
+    for (const float lump : {0.35f, 0.5f, 0.7f, 1.0f, 1.4f, 2.0f, 4.0f, 8.0f}) { // [pixel]
+        double products = 0, squares = 0;
+        for (uint64_t i = 0; i < kPlaces; ++i) {
+            const glm::vec3 p = anywhere(i, 8.0f);
+            const Pixel pixel(i, 1.0f / lump);
+            double mean = 0;
+            for (int k = 0; k < kParts * kParts; ++k)
+                mean += double(tile().at(p + pixel.part(k, kParts))) / (kParts * kParts);
+            const double middle = double(tile().at(p));
+            products += middle * mean;
+            squares += middle * middle;
+        }
+        EXPECT_NEAR(formula::fxOctaveBand(lump, 1.0f), products / squares, 0.04) << lump;
+    }
+}
+
+// The mean share over a pixel, of the whole noise, against the share that a ray through its middle gets.
+TEST(FieldDetail, aFadedShareIsNearerToTheMeanOverAPixelThanTheWholeNoiseInItsMiddle)
+{
+    constexpr int kPlaces = 1500, kParts = 6;
+    const FieldDetailNumbers numbers = fireball();
+    for (const float width : {0.1f, 0.25f, 0.5f}) { // [m]
+        double faded = 0, whole = 0, bias = 0;
+        for (uint64_t i = 0; i < kPlaces; ++i) {
+            const glm::vec3 p = anywhere(i, 300.0f);
+            const Pixel pixel(i, width);
+            const auto share = [&](const glm::vec3& at, float own) {
+                return double(detailAt(numbers, tile(), mediumAt(6.0f, at), own, 5).share);
+            };
+            double mean = 0;
+            for (int k = 0; k < kParts * kParts; ++k)
+                mean += share(p + pixel.part(k, kParts), 1e-3f) / (kParts * kParts);
+            const double difference = share(p, width) - mean;
+            faded += difference * difference;
+            bias += difference;
+            whole += (share(p, 1e-3f) - mean) * (share(p, 1e-3f) - mean);
+        }
+        EXPECT_LT(faded, 0.5 * whole) << width; // of the squares
+        EXPECT_NEAR(bias / kPlaces, 0.0, 0.03) << width;
+    }
+}
+
+TEST(FieldDetail, octavesFarBelowAPixelHaveFadedOut)
 {
     const FieldDetailNumbers numbers = fireball();
     const double broad = double(formula::fxBroadAmplitude());
@@ -257,10 +329,10 @@ TEST(FieldDetail, octavesBelowTwoPixelsHaveFadedOut)
     };
     for (uint64_t i = 0; i < 100; ++i) {
         const SmoothMedium medium = mediumAt(5.0f, anywhere(i, 50.0f));
-        EXPECT_EQ(noise(medium, 1.31f, 5), 0.0f); // broad lumps of 2.6 m
-        EXPECT_NE(noise(medium, 0.7f, 5), 0.0f);
-        EXPECT_NEAR(double(noise(medium, 0.25f, 5)) * std::sqrt(variance),
-                    double(noise(medium, 0.25f, 1)) * std::sqrt(1.0 + broad * broad), 1e-4);
+        EXPECT_EQ(noise(medium, 9.0f, 5), 0.0f); // broad lumps of 2.6 m
+        EXPECT_NE(noise(medium, 3.0f, 5), 0.0f);
+        EXPECT_NEAR(double(noise(medium, 1.7f, 5)) * std::sqrt(variance),
+                    double(noise(medium, 1.7f, 1)) * std::sqrt(1.0 + broad * broad), 1e-4);
         EXPECT_NE(noise(medium, 0.05f, 5), noise(medium, 0.05f, 3));
     }
 }

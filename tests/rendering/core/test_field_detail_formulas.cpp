@@ -144,11 +144,16 @@ TEST(FieldDetailFormulas, octavesTurnAndShrinkByTheSameFactorInAllDirections)
     }
 }
 
-TEST(FieldDetailFormulas, anOctaveFadesOutBetweenFourAndTwoPixels)
+TEST(FieldDetailFormulas, anOctaveFadesOutEvenlyAsLumpsShrinkBelowAPixel)
 {
-    EXPECT_EQ(fx::formula::fxOctaveBand(4.0f, 1.0f), 1.0f);
-    EXPECT_EQ(fx::formula::fxOctaveBand(3.0f, 1.0f), 0.5f);
-    EXPECT_EQ(fx::formula::fxOctaveBand(2.0f, 1.0f), 0.0f);
+    EXPECT_NEAR(fx::formula::fxOctaveBand(1e3f, 1.0f), 1.0f, 1e-5f);
+    EXPECT_NEAR(fx::formula::fxOctaveBand(2.0f, 1.0f), 0.80f, 0.02f);
+    EXPECT_NEAR(fx::formula::fxOctaveBand(1.0f, 1.0f), 0.49f, 0.02f);
+    EXPECT_EQ(fx::formula::fxOctaveBand(0.28f, 1.0f), 0.0f);
+    for (double size = 0.2; size < 20.0; size *= 1.05) {
+        const double r = 1.0 / (size * size), c = 1.0 / (1.0 + 0.86 * r + 0.07 * r * r);
+        EXPECT_NEAR(fx::formula::fxOctaveBand(float(3.0 * size), 3.0f), std::max(1.05 * c - 0.05, 0.0), 1e-5);
+    }
 }
 
 TEST(FieldDetailFormulas, blendedGenerationsKeepTheirDeviation)

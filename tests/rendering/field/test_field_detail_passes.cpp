@@ -178,7 +178,7 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
                                                        glm::vec3(carried[0], carried[1], carried[2]);
             }
             const float share =
-                detailAt(numbers(), wanted, smooth, 0.5f * field.corner.w, kMaxDetailOctaves).share;
+                detailAt(numbers(), wanted, smooth, 1.22f * field.corner.w, kMaxDetailOctaves).share;
             const double error =
                 std::abs(double(changes[at / 4] * field.limits.y - (share - 1.0f) * extinction));
             most = std::max(most, error / double(field.limits.y));

@@ -156,7 +156,8 @@ TEST(ConservationFactor, hasNoStepWhereSomePlacesAreLeftOut)
     while (casters.size() > 236) {
         const float now = factorOf(smoke(), casters);
         if (before > 0.0f) {
-            EXPECT_LT(std::abs(now / before - 1.0f), 0.004f) << casters.size();
+            // of 4 balls among 240, whose share differs by up to a third of the mean
+            EXPECT_LT(std::abs(now / before - 1.0f), 0.0055f) << casters.size();
         }
         before = now;
         casters.resize(casters.size() - 4);
