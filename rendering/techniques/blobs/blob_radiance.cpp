@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace fx::render {
 
@@ -59,8 +60,12 @@ public:
     {
         if (blobs_.isGiven())
             detail_ = blobs_.groupDetail({});
-        for (size_t i = 0; i < group_.count(); ++i)
+        balls_.reserve(group_.count());
+        for (size_t i = 0; i < group_.count(); ++i) {
+            balls_.push_back({blobSource(group_, i), 0.0f});
+            balls_.back().weight = weightOf(i);
             total_ += double(weight(i));
+        }
     }
 
     glm::vec3 intensity();
@@ -77,11 +82,12 @@ private:
         return float(lumpHash(uint32_t(id), uint32_t(id >> 32), number, kPurpose)) * 0x1.0p-24f;
     }
     /// [cd] A B of a ball, 0 for one that is not drawn.
-    float weight(size_t i) const
+    float weight(size_t i) const { return balls_[i].weight; }
+    float weightOf(size_t i) const
     {
         const float section = at(column::CrossSection, i), radius = at(column::Radius, i);
         const float w = section > 0.0f && base::isFinite(section) && radius > 0.0f
-                            ? blobArea(section, radius) * brightnessOf(blobSource(group_, i))
+                            ? blobArea(section, radius) * brightnessOf(balls_[i].source)
                             : 0.0f;
         return base::isFinite(w) && base::isFinite(glm::dot(position(i), position(i))) ? w : 0.0f;
     }
@@ -93,6 +99,20 @@ private:
     const base::SnapshotGroup& group_;
     BlobDetail blobs_;
     GroupDetail detail_;
+    /// What all lines need of a ball: a black body is computed once, not again for each line that meets it.
+    struct Ball
+    {
+        glm::vec3 source; ///< [cd/m2]
+        float weight;     ///< [cd]
+    };
+    /// Memory that is kept from call to call, so that steady frames allocate nothing.
+    static std::vector<Ball>& kept()
+    {
+        thread_local std::vector<Ball> balls;
+        balls.clear();
+        return balls;
+    }
+    std::vector<Ball>& balls_ = kept();
     double total_ = 0.0; ///< [cd] W
     glm::vec3 foot_{0.0f}, way_{0.0f};
     std::array<Hit, kMaxHits> hits_;
@@ -104,7 +124,7 @@ Hit Lines::hit(size_t i) const
     Hit h{};
     h.crossSection = at(column::CrossSection, i);
     h.radius = at(column::Radius, i);
-    h.source = blobSource(group_, i);
+    h.source = balls_[i].source;
     h.albedo = (at(column::AlbedoR, i) + at(column::AlbedoG, i) + at(column::AlbedoB, i)) / 3.0f;
     h.temperature = at(column::Temperature, i);
     if (blobs_.isGiven()) {
