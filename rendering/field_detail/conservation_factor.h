@@ -29,7 +29,7 @@
 ///            the third are exact
 /// @deviation none
 /// @valid     any balls; f = 4 without balls, and if the eroded total is 0
-/// @accuracy  the total extinction of the library's effects is kept within 2 % at any time, see
+/// @accuracy  the total extinction of the measured effects of the library is kept within 4 %, see
 ///            `fx accuracy detail`
 /// @tests     tests/rendering/view/test_conservation_factor.cpp
 #pragma once
