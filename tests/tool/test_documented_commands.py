@@ -39,6 +39,7 @@ TESTED_ELSEWHERE = {
     ("fx", "bench", "soak"): "counts instructions with valgrind; tool.soak",
     ("fx", "accuracy", "all"): "takes minutes; each technique is run by itself",
     ("fx", "accuracy", "path"): "takes minutes; test_accuracy.py at a small size",
+    ("fx", "accuracy", "fit"): "takes a minute; test_accuracy.py",
     ("fx", "accuracy", "light"): "takes minutes; test_accuracy.py at a small size",
     ("fx", "accuracy", "flights"): "takes minutes; test_accuracy.py at a small size",
     ("fx", "accuracy", "sph"): "takes half a minute; test_fx_verify.py",
