@@ -6,6 +6,7 @@ flash.png         128 x 128  a muzzle flash from the front: an uneven star aroun
 tongue.png        64 x 128   a muzzle flash from the side: a tongue whose tip is the upper end
 flakes.png        192 x 128  3 x 2 snowflakes: stars, a plate, clumps
 ring.png          64 x 64    the ring that a drop throws up
+scorch.png        128 x 128  what a fireball leaves on the ground: soot in the middle, streaks of it outwards
 streak.png        64 x 16    across a streak of light: a hot core and a halo
 water.png         64 x 128   strands of falling water, the upper end falls first
 smoke.png         512 x 512  8 x 8 frames of a puff that turns, grows and thins out
@@ -224,6 +225,24 @@ def ring(u, v):
     return WHITE, crest * uneven * smooth(1.0, 0.92, r)
 
 
+class Scorch:
+    """Soot: whole in the middle, patchy around it, in streaks that run outwards at the rim."""
+
+    def __init__(self):
+        self.patches = Octaves(5, 5, 4, 80)
+        self.streaks = Octaves(22, 2, 3, 85)
+
+    def __call__(self, u, v):
+        x, y = 2 * u - 1, 2 * v - 1
+        r, turn = math.hypot(x, y), math.atan2(y, x) / TAU
+        patch = self.patches.at(u, v) - 0.5
+        streak = self.streaks.at(turn % 1, 0.4 * r) - 0.5
+        soot = smooth(1.05, 0.5, r + 0.6 * patch + 0.7 * streak * smooth(0.4, 0.9, r))
+        dark = smooth(0.2, 0.9, soot + 0.6 * patch)
+        color = tuple(0.11 + (0.022 - 0.11) * dark for _ in range(3))
+        return (color[0], 0.9 * color[1], 0.78 * color[2]), 0.92 * soot * smooth(1.0, 0.88, r)
+
+
 def streak(u, v):
     away = abs(2 * u - 1)
     core = math.exp(-((away / 0.16) ** 2))
@@ -353,6 +372,7 @@ def main():
         "tongue.png": picture(64, 128, Tongue()),
         "flakes.png": picture(192, 128, Flakes()),
         "ring.png": picture(64, 64, ring),
+        "scorch.png": picture(128, 128, Scorch()),
         "streak.png": picture(64, 16, streak),
         "water.png": picture(64, 128, Water()),
         "smoke.png": smoke.rows(),

@@ -98,8 +98,8 @@ TEST_F(GpuObstacles, keepOnlyWhatOthersDependOnFromTheGpu)
             computed += obstacle.empty() ? 1 : 0;
         }
     }
-    EXPECT_EQ(computed, 15u);
-    EXPECT_EQ(drawn, 43u);
+    EXPECT_EQ(computed, 20u);
+    EXPECT_EQ(drawn, 50u);
 }
 
 TEST_F(GpuObstacles, cosmeticEmittersAreOutsideOfTheHashOfWhatIsSeen)

@@ -41,8 +41,10 @@ TEST_F(GpuRows, areThoseOfTheCpuForEveryPresetOfTheLibrary)
     }
     EXPECT_GT(groups, 60u);
     EXPECT_GT(stepped, 15u);
-    const std::set<std::string> known{"debris.fx.json", "magic-trail.fx.json", "muzzle-flash.fx.json",
-                                      "rain.fx.json",   "snow.fx.json",        "waterfall-mist.fx.json"};
+    const std::set<std::string> known{
+        "black-powder.fx.json", "debris.fx.json",         "explosion.fx.json",     "grenade.fx.json",
+        "magic-trail.fx.json",  "mushroom-cloud.fx.json", "muzzle-flash.fx.json",  "petrol-fireball.fx.json",
+        "rain.fx.json",         "snow.fx.json",           "waterfall-mist.fx.json"};
     EXPECT_EQ(presets, known);
     EXPECT_GT(living, 20'000u);
 }

@@ -98,7 +98,9 @@ TEST(EffectScene, theCopiedSnapshotHoldsEveryParticleInItsPlace)
             EXPECT_GT(radius, 0.0f);
     }
     EXPECT_GT(count, 0u);
-    EXPECT_EQ(count, effects->statistics()->particles);
+    const auto sprites = effects->places(); // are not copied
+    ASSERT_TRUE(sprites.ok());
+    EXPECT_EQ(count + sprites->size(), effects->statistics()->particles);
 }
 
 TEST(DefaultStage, theCameraSeesMostOfTheMediumAtAllMoments)
