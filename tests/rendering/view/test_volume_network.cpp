@@ -186,6 +186,73 @@ TEST_F(VolumeNetwork, withoutANetworkAutomaticPicturesAreThoseOfTheClosedForm)
     EXPECT_GT(maxDifference(automatic, drawn(snapshotOf({fire}))), 0.0);
 }
 
+TEST_F(VolumeNetwork, smokeThatScattersForwardIsBrighterBeforeFireThanBehindIt)
+{
+    // Light of smoke beside the fire's disk, per scattering forward and backward.
+    const auto besideFire = [&](float place, float anisotropy) {
+        TestBlob smoke{{}, 1.6f, 1.5f};
+        smoke.albedo = 0.9f;
+        TestBlob fire{{0.0f, 0.0f, place}, 0.3f, 1.0f};
+        fire.emission = 100.0f;
+        drawn(snapshotOf({}));
+        base::FrameSnapshot snapshot = snapshotOf({fire, smoke});
+        for (size_t g = 0; g < snapshot.groupCount(); ++g)
+            snapshot.editGroup(g).editConstants()[base::blob_constant::Anisotropy] = anisotropy;
+        const Picture picture = drawn(snapshot);
+        double sum = 0.0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const double away = std::hypot(x + 0.5 - 0.5 * kWidth, y + 0.5 - 0.5 * kHeight);
+                sum += away > 8.0 && away < 12.0 ? double(picture.at(x, y)[0]) : 0.0;
+            }
+        return sum;
+    };
+    const double isotropic = besideFire(-2.0f, 0.0f) / besideFire(2.0f, 0.0f);
+    const double forward = besideFire(-2.0f, 0.33f) / besideFire(2.0f, 0.33f);
+    EXPECT_GT(forward, 1.5 * isotropic);
+}
+
+TEST_F(VolumeNetwork, aGridThatGrowsGoesOnFromItsLight)
+{
+    view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
+    TestBlob dense{{0.0f, -0.8f, 0.0f}, 1.0f, 20.0f}, wisp{{0.0f, 1.6f, 0.0f}, 0.8f, 1e-3f};
+    dense.albedo = wisp.albedo = 0.98f;
+    const auto settled = [&](const std::vector<TestBlob>& blobs) {
+        for (int i = 0; i < 20; ++i)
+            drawn(snapshotOf(blobs));
+        return brightness(drawn(snapshotOf(blobs)));
+    };
+    settled({dense});
+    const double next = brightness(drawn(snapshotOf({dense, wisp}))); // in other cells
+    EXPECT_EQ(sweeps(), 2u);
+    EXPECT_NEAR(next / settled({dense, wisp}), 1.0, 0.05);
+}
+
+TEST_F(VolumeNetwork, mediaApartHaveTheLightThatTheyHaveAlone)
+{
+    view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
+    view_->settings().lighting.sunDirection = {0.0f, 1.0f, 0.0f};
+    TestBlob dense{{-2.4f, 0.0f, 0.0f}, 0.5f, 3.0f}, thin{{2.4f, 0.0f, 0.0f}, 0.5f, 0.4f};
+    dense.albedo = thin.albedo = 0.95f;
+    thin.layer = base::MediaLayer::Dust;
+    const auto shown = [&](const std::vector<TestBlob>& blobs) {
+        Picture picture = drawn(snapshotOf({}));
+        for (int i = 0; i < 8; ++i) { // each goes on from the light of the frame before
+            base::FrameSnapshot snapshot = snapshotOf(blobs);
+            for (size_t g = 0; g < snapshot.groupCount(); ++g)
+                snapshot.editGroup(g).editInfo().instance = g + 1; // fields of their own
+            picture = drawn(snapshot);
+        }
+        return picture;
+    };
+    const Picture both = shown({dense, thin}), one = shown({dense}), other = shown({thin});
+    double difference = 0.0;
+    for (size_t i = 0; i < both.texels.size(); i += 4)
+        difference += std::abs(double(both.texels[i]) - double(one.texels[i]) - double(other.texels[i]));
+    EXPECT_LT(difference, 0.05 * brightness(both)) << "light slices of both are coarser";
+    EXPECT_GT(brightness(one), 1.2 * brightness(other)) << "their light differs";
+}
+
 TEST_F(VolumeNetwork, fireInsideLightsTheMediumAroundIt)
 {
     TestBlob fire = ball(2.0f, 0.0f);
