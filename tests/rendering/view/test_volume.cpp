@@ -364,7 +364,7 @@ TEST_F(Volume, slabsHaveTheDetailOfVoxels)
         view_->settings().slabs = slabs;
         const Picture picture = detailed(blobs, camera());
         const double apart = apartFrom(picture);
-        EXPECT_LT(apart, (slabs == 6 ? 0.4 : 0.1) * smooth) << slabs << " slabs, of " << smooth;
+        EXPECT_LT(apart, (slabs == 6 ? 0.4 : 0.11) * smooth) << slabs << " slabs, of " << smooth;
         std::vector<TestBlob> shuffled = blobs;
         std::mt19937 random(3);
         std::shuffle(shuffled.begin(), shuffled.end(), random);
