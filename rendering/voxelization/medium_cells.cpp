@@ -14,7 +14,7 @@
 namespace fx::render {
 namespace {
 
-constexpr double kLeastVisibility = 0.01; // [1] share of balls for what nobody sees
+constexpr double kLeastVisibility = 0.01; // [1] weight of voxels that the medium hides from all sides
 
 /// A voxel with medium.
 struct Sample

@@ -1,18 +1,13 @@
 #include "fxsdk/presets/clouds/clouds_technique.h"
 
 #include "embedded/clouds_schema.h"
+#include "fxsdk/presets/layer_names.h"
 #include "simulation/cloud/cloud_solver.h"
 
-#include <array>
+#include <span>
 
 namespace fx::preset {
 namespace {
-
-constexpr std::array<std::pair<std::string_view, base::MediaLayer>, 3> kLayers{{
-    {"fire", base::MediaLayer::Fire},
-    {"smoke", base::MediaLayer::Smoke},
-    {"dust", base::MediaLayer::Dust},
-}};
 
 std::shared_ptr<const sim::BallList> readBalls(const PresetValue& element)
 {
@@ -51,7 +46,7 @@ void buildCloud(const PresetValue& element, sim::EffectDef& effect)
     element.read("density", cloud->density);
     element.read("anisotropy", cloud->anisotropy);
     element.read("fireShare", cloud->fireShare);
-    element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayers),
+    element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayerNames),
                  cloud->layer);
     cloud->balls = readBalls(element);
     effect.solvers.push_back(std::move(cloud));

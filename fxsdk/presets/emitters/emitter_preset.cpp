@@ -2,6 +2,7 @@
 #include "fxsdk/presets/emitters/emitter_parts_preset.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "fxsdk/presets/field_detail_preset.h"
+#include "fxsdk/presets/layer_names.h"
 
 #include <array>
 #include <limits>
@@ -9,12 +10,6 @@
 namespace fx::preset {
 
 namespace {
-
-constexpr std::array<std::pair<std::string_view, base::MediaLayer>, 3> kLayers{{
-    {"fire", base::MediaLayer::Fire},
-    {"smoke", base::MediaLayer::Smoke},
-    {"dust", base::MediaLayer::Dust},
-}};
 
 constexpr std::array<std::pair<std::string_view, sim::ComputeOn>, 3> kComputers{{
     {"cpu", sim::ComputeOn::Cpu},
@@ -97,7 +92,7 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
 {
     auto emitter = std::make_unique<sim::EmitterDef>();
     element.read("name", emitter->name);
-    element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayers),
+    element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayerNames),
                  emitter->layer);
     element.read("maxParticles", emitter->maxParticles);
     element.read("compute", std::span<const std::pair<std::string_view, sim::ComputeOn>>(kComputers),
