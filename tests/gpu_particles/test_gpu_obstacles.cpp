@@ -81,14 +81,13 @@ TEST_F(GpuObstacles, areNamedAndLeaveTheEmitterToTheCpu)
 /// Of the drawn emitters of the library, all but those that others depend on, and those of worlds and curves.
 TEST_F(GpuObstacles, keepOnlyWhatOthersDependOnFromTheGpu)
 {
-    size_t computed = 0, drawn = 0;
+    size_t computed = 0, linked = 0;
     for (const std::string& name : libraryNames()) {
         const auto effect = load(libraryText(name, "gpu"));
         for (const auto& solver : effect->solvers) {
             const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get());
             if (!emitter || emitter->appearance.kind == sim::AppearanceKind::Medium)
                 continue;
-            ++drawn;
             const bool isLinked = emitter->fed || !emitter->events.empty() || emitter->light.given ||
                                   emitter->trail.lifetime > 0.0f;
             const std::string_view obstacle = sim::gpuObstacle(*emitter);
@@ -96,10 +95,11 @@ TEST_F(GpuObstacles, keepOnlyWhatOthersDependOnFromTheGpu)
             EXPECT_EQ(obstacle.empty(), !isLinked && !isElsewhere)
                 << name << " " << emitter->name << ": " << obstacle;
             computed += obstacle.empty() ? 1 : 0;
+            linked += isLinked ? 1 : 0;
         }
     }
-    EXPECT_EQ(computed, 20u);
-    EXPECT_EQ(drawn, 50u);
+    EXPECT_GT(computed, 10u); // the library has both sorts
+    EXPECT_GT(linked, 10u);
 }
 
 TEST_F(GpuObstacles, cosmeticEmittersAreOutsideOfTheHashOfWhatIsSeen)
