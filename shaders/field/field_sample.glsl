@@ -66,6 +66,7 @@ FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
 
 const float kRounding = 3e-7; // of a distance along a ray
 const uint kKnownFields = 4u; // of a tile, whose numbers a ray keeps
+const int kKnownTexels = 12;  // three of each: NVIDIA's compiler takes no conversion in the size of a member
 
 // A ray through the fields of a tile.
 struct FieldRay
@@ -76,7 +77,7 @@ struct FieldRay
     uvec2 tile;        // first texel of the list of fields, and how many
     vec2 pixel;        // its width: pixel.x [1] t + pixel.y [m]
     vec4 rests;        // [m] up to where the known fields have no medium; they are not looked at before
-    vec4 known[3 * int(kKnownFields)]; // texels of the known fields
+    vec4 known[kKnownTexels]; // texels of the known fields
 };
 
 FieldRay fieldRay(vec3 origin, vec3 direction, uvec2 tile, vec2 pixel)
