@@ -21,7 +21,7 @@
 #include "shared/light_slices.glsl"
 #include "slabs/slab_balls.glsl"
 #include "slabs/slab_window.glsl"
-const int kGroup = 1;
+#define FX_GROUP 1
 #include "slabs/slab_fill.glsl"
 layout(std430, binding = 3) readonly buffer FieldTiles { FieldTile fieldTiles[]; };
 #else

@@ -1,7 +1,19 @@
-// Adds balls and cards to the sums of neighboring slabs of a ray, kGroup at a time. Needs shared/light_slices.glsl,
-// formulas/kernel_moment.fx.h, formulas/henyey_greenstein.fx.h, slabs/slab_sums.glsl and slabs/slab_window.glsl.
+// Adds balls and cards to the sums of neighboring slabs of a ray, FX_GROUP (1, 3, 4, 6 or 16) at a time. Needs shared/unrolled.glsl,
+// shared/light_slices.glsl, formulas/kernel_moment.fx.h, formulas/henyey_greenstein.fx.h, slabs/slab_sums.glsl and slabs/slab_window.glsl.
 // FX_BALL_DETAIL 1: some balls have procedural detail. FX_FIELD_DETAIL 1: some belong to fields with detail; needs
 // slabs/slab_detail.glsl.
+const int kGroup = FX_GROUP;
+#if FX_GROUP == 16
+#define FX_EACH_OF_GROUP FX_EACH_16
+#elif FX_GROUP == 6
+#define FX_EACH_OF_GROUP FX_EACH_6
+#elif FX_GROUP == 4
+#define FX_EACH_OF_GROUP FX_EACH_4
+#elif FX_GROUP == 3
+#define FX_EACH_OF_GROUP FX_EACH_3
+#else
+#define FX_EACH_OF_GROUP(statement) statement(0)
+#endif
 
 // What a ball sends along a ray, where it is thin.
 struct BallLight
@@ -59,8 +71,12 @@ void addBall(inout SlabSums sums, BallLight ball, float layers, float depth, flo
 #endif
 }
 
-void addCard(inout SlabSums sums, vec4 light, float depth, float share, float place)
+// What of a card lies between two faces. light: rgb light of it, w layer; depth [1]; interval [m]
+void addCard(inout SlabSums sums, vec4 light, float depth, vec2 interval, float near, float far)
 {
+    float from = clamp(near, interval.x, interval.y), to = clamp(far, interval.x, interval.y);
+    float share = (to - from) / (interval.y - interval.x);
+    float place = clamp(0.5 * (from + to - near - far) / max(far - near, 1e-20), -0.5, 0.5);
     sums.depth += share * depth;
     sums.moment += share * depth * place;
 #if FX_LAYERS
@@ -111,6 +127,30 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
 }
 #endif
 
+// What of a ball lies between two faces.
+struct BallPart
+{
+    float depth;    // [1]
+    float moment;   // [1] from -1/2 to 1/2 of it
+    vec3 scattered; // light, where it is thin
+};
+
+// sun: share of the sun there; passed: depth and moment up to the near face, over those of the chord, on return up to the far one
+BallPart partOf(Chord chord, BallLight light, float near, float far, float sun, inout vec2 passed)
+{
+    float middle = 0.5 * (near + far);
+    float perWidth = 1.0 / max(far - near, 1e-20); // some have no thickness
+    float u = placeOn(chord, far);
+    vec2 next = vec2(fxKernelPassed(u), fxKernelMoment(u));
+    BallPart part;
+    part.depth = chord.depth * (next.x - passed.x);
+    part.moment = ((chord.tc - middle) * part.depth + chord.w * chord.depth * (next.y - passed.y)) * perWidth;
+    float along = clamp(middle - chord.tc, -chord.w, chord.w);
+    part.scattered = light.smoothly * max(light.base + light.slope * along, 0.0) + light.sun * sun;
+    passed = next;
+    return part;
+}
+
 #if FX_FIELD_DETAIL
 #include "slabs/slab_detail.glsl"
 const int kAfterBalls = 1; // turns of a loop over balls
@@ -158,40 +198,31 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout S
         addDetail(ray, ball, medium, chord, light);
 #endif
         float u = placeOn(chord, edges[0]);
-        float passed = fxKernelPassed(u), moved = fxKernelMoment(u);
-        for (int k = 0; k < kGroup; ++k) {
-            float middle = 0.5 * (edges[k] + edges[k + 1]);
-            float perWidth = 1.0 / max(edges[k + 1] - edges[k], 1e-20); // some have no thickness
-            u = placeOn(chord, edges[k + 1]);
-            float nextPassed = fxKernelPassed(u), nextMoved = fxKernelMoment(u);
-            float depth = chord.depth * (nextPassed - passed);
-            float moment = ((chord.tc - middle) * depth + chord.w * chord.depth * (nextMoved - moved)) * perWidth;
-            passed = nextPassed;
-            moved = nextMoved;
-            float along = clamp(middle - chord.tc, -chord.w, chord.w);
-            vec3 scattered = light.smoothly * max(light.base + light.slope * along, 0.0) +
-                             light.sun * (0.5 * (sun[k] + sun[k + 1]));
+        vec2 passed = vec2(fxKernelPassed(u), fxKernelMoment(u));
 #if FX_FIELD_DETAIL
-            if (texel > 0.5)
-                addDetailedBall(detailed[k], light, medium.z, depth, moment, scattered, carried0.xyz, carried1, power);
-            else
+#define FX_ADD_BALL(k)                                                                                         \
+    part = partOf(chord, light, edges[k], edges[k + 1], 0.5 * (sun[k] + sun[k + 1]), passed);                  \
+    if (texel > 0.5)                                                                                           \
+        addDetailedBall(detailed[k], light, medium.z, part.depth, part.moment, part.scattered, carried0.xyz,   \
+                        carried1, power);                                                                      \
+    else                                                                                                       \
+        addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
+#else
+#define FX_ADD_BALL(k)                                                                        \
+    part = partOf(chord, light, edges[k], edges[k + 1], 0.5 * (sun[k] + sun[k + 1]), passed); \
+    addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
 #endif
-            addBall(sums[k], light, medium.z, depth, moment, scattered);
-        }
-        behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - passed);
+        BallPart part;
+        FX_EACH_OF_GROUP(FX_ADD_BALL)
+        behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - passed.x);
     }
     for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec4 light = cardNodes[card - 1u].light;
         vec4 body = cardNodes[card - 1u].body;
         vec2 interval = intervalOf(ray, body);
         float perLength = 1.0 / (interval.y - interval.x);
-        for (int k = 0; k < kGroup; ++k) {
-            float from = clamp(edges[k], interval.x, interval.y);
-            float to = clamp(edges[k + 1], interval.x, interval.y);
-            float width = max(edges[k + 1] - edges[k], 1e-20);
-            float place = clamp(0.5 * (from + to - edges[k] - edges[k + 1]) / width, -0.5, 0.5);
-            addCard(sums[k], light, body.y, (to - from) * perLength, place);
-        }
+#define FX_ADD_CARD(k) addCard(sums[k], light, body.y, interval, edges[k], edges[k + 1]);
+        FX_EACH_OF_GROUP(FX_ADD_CARD)
         behind += body.y * clamp((interval.y - edges[kGroup]) * perLength, 0.0, 1.0);
     }
 }

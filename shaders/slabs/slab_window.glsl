@@ -107,8 +107,9 @@ void passedIn(SlabRay ray, float start, vec2 range, out float passed[kBins + 1])
         vec4 body = cardNodes[card - 1u].body;
         vec2 interval = intervalOf(ray, body);
         float perLength = 1.0 / (interval.y - interval.x);
-        for (int k = 0; k <= kBins; ++k)
-            passed[k] += body.y * clamp((range.x + float(k) * width - interval.x) * perLength, 0.0, 1.0);
+#define FX_ADD_CARD_BIN(k) passed[k] += body.y * clamp((range.x + float(k) * width - interval.x) * perLength, 0.0, 1.0);
+        FX_EACH_8(FX_ADD_CARD_BIN)
+        FX_ADD_CARD_BIN(kBins)
     }
 }
 

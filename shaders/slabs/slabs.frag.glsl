@@ -16,12 +16,16 @@
 #include "field/field_detail.glsl"
 #endif
 
-// All media along one ray, summed up in FX_SLABS slabs and put together front to back, premultiplied. kGroup slabs are filled
-// at a time: fewer take fewer registers, but each group reads all balls again.
+// All media along one ray, summed up in FX_SLABS slabs and put together front to back, premultiplied. FX_GROUP slabs are filled
+// at a time: fewer take fewer registers, but each group reads all balls again (SlabPass::maxOfTile counts that).
 #if FX_FIELD_DETAIL || FX_LAYERS && !FX_BALL_DETAIL
-const int kGroup = FX_SLABS == 6 ? 3 : 4;
+#if FX_SLABS == 6
+#define FX_GROUP 3
 #else
-const int kGroup = FX_SLABS;
+#define FX_GROUP 4
+#endif
+#else
+#define FX_GROUP FX_SLABS
 #endif
 #include "slabs/slab_fill.glsl"
 

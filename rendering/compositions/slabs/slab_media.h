@@ -43,10 +43,11 @@ public:
     /// Options of list().
     struct ListUse
     {
-        uint32_t maxOfTile;         ///< see SlabTilePass::Inputs
+        uint32_t maxOfTile;         ///< see SlabTilePass::Inputs; ignored with `slabs`
         ResourceId fieldTiles = {}; ///< see SlabTilePass::Inputs
         bool marks = false;         ///< true: cards also store the data for ViewSettings::outputs
         BallDetails details = {};
+        int slabs = 0; ///< number of slabs of the SlabPass that reads the lists; 0: another pass reads them
     };
     /// Adds the passes that list balls and cards. Called once or twice per frame.
     [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, const ListUse& use);

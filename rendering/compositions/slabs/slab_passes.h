@@ -90,13 +90,13 @@ public:
                                           const SlabDetailPass::Outputs& detail, const ViewBlock& view);
 };
 
-/// Largest number of iterations of a loop in a program. Mesa's software renderers end all loops after 65,535
-/// iterations.
+/// Largest number of iterations of all loops of an invocation together. Mesa's software renderers end all
+/// loops of an invocation after 65,535 iterations; the difference is for the loops over cards.
 constexpr uint32_t kMaxLoopTurns = 60000;
 
 /// Lists the balls of each tile of 16 x 16 texels, in the order of balls, and the tiles that are not empty.
-/// If a tile has more balls than about 3/4 of `maxOfTile`, it lists those with the lowest ranks, which
-/// represent all. The last fifth of the listed ranks have weights that fall to 0, so that balls enter and
+/// If a tile has more than n - 4 sqrt(n) balls for `maxOfTile` = n, it lists that many with the lowest ranks,
+/// which represent all. The last fifth of the listed ranks have weights that fall to 0, so that balls enter and
 /// leave the list smoothly.
 ///
 /// reads   rects  which tiles each ball may cover
@@ -152,8 +152,10 @@ public:
         CardLists cards;
         int slabs; ///< number of slabs: 6 or 16
     };
-    /// Largest SlabTilePass::Inputs::maxOfTile for which no loop exceeds kMaxLoopTurns.
-    static constexpr uint32_t maxOfTile(int slabs) { return kMaxLoopTurns / (slabs > 6 ? 28 : 14); }
+    /// Returns the largest SlabTilePass::Inputs::maxOfTile with which the loops over the balls of a tile and
+    /// over their fields take at most kMaxLoopTurns iterations.
+    /// @param fields number of fields with detail; counted up to an eighth of the iterations
+    static uint32_t maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields);
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);
 };

@@ -32,7 +32,7 @@ MediaPass::Outputs SlabView::compose(FrameGraph& graph, const MediaPass::Inputs&
                                      const MediaPass::Outputs& under)
 {
     const SlabMedia::Lists lists =
-        media_.list(graph, in, {SlabPass::maxOfTile(slabs_), {}, false, {materials_, details_, lumps_}});
+        media_.list(graph, in, {0, {}, false, {materials_, details_, lumps_}, slabs_});
     return SlabPass::addTo(graph, lists.inSlabs(in, slabs_), under);
 }
 

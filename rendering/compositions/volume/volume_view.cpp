@@ -224,7 +224,7 @@ MediaPass::Outputs VolumeView::compose(FrameGraph& graph, const MediaPass::Input
     march.media = &in;
     if (plan_.isEmpty())
         return SlabPass::addTo(
-            graph, loose_.list(graph, in, {SlabPass::maxOfTile(slabs_)}).inSlabs(in, slabs_), under);
+            graph, loose_.list(graph, in, {.maxOfTile = 0, .slabs = slabs_}).inSlabs(in, slabs_), under);
     if (!loose_.isEmpty()) {
         const SlabMedia::Lists lists = loose_.list(graph, in, {FieldMarchPass::kMaxLooseOfTile, march.tiles});
         march.loose = {lists.tiles.tiles, lists.tiles.lists, lists.balls, lists.cards, slabs_};

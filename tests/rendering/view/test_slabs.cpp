@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 
@@ -185,6 +186,8 @@ TEST_F(Slabs, noOrderOfBallsIsSeen)
         std::shuffle(blobs.begin(), blobs.end(), random);
         most = std::max(most, maxDifference(drawn(blobs, closeCamera()), first));
     }
+    std::printf("%d orders: largest change %.1e of the brightest value\n", permutations(),
+                most / double(brightest));
     EXPECT_LT(most, double(brightest) / 1023.0);
 }
 
@@ -302,7 +305,7 @@ TEST_F(Slabs, thousandsOfBallsInOneTileAreTheOneBall)
             view_->settings().layerOutputs = layers;
             const Picture alone = drawn({whole}, camera());
             ASSERT_GT(*std::max_element(alone.texels.begin(), alone.texels.end()), 0.5f);
-            for (const size_t count : {3000u, 30000u}) {
+            for (const size_t count : {3000u, 14000u, 30000u}) {
                 TestBlob part = whole;
                 part.crossSection /= float(count);
                 EXPECT_LT(maxDifference(drawn(std::vector<TestBlob>(count, part), camera()), alone), 2e-3)
@@ -311,14 +314,29 @@ TEST_F(Slabs, thousandsOfBallsInOneTileAreTheOneBall)
         }
 }
 
+TEST_F(Slabs, aTileListsFourteenThousandBallsWithoutAChoice)
+{
+    makeTargets(16, 16);
+    view_->settings().countOverdraw = true;
+    TestBlob part = kBall;
+    part.crossSection *= 1e-4f;
+    for (const int slabs : {6, 16}) {
+        view_->settings().slabs = slabs;
+        drawn(std::vector<TestBlob>(14000, part), camera());
+        EXPECT_EQ(view_->statistics().listedBalls, 14000u) << slabs;
+        EXPECT_EQ(view_->statistics().spilledBalls, 0u) << slabs;
+    }
+}
+
 TEST_F(Slabs, theChoiceOfACrowdedTileStaysInAnyOrderAndWhenOthersDie)
 {
     makeTargets(16, 16);
     std::mt19937 random(6);
     std::uniform_real_distribution<float> place(-1.0f, 1.0f), bright(0.0f, 1.0f);
     std::vector<TestBlob> balls;
-    for (uint64_t id = 0; id < 4001; ++id) {
-        balls.push_back({{place(random), place(random), place(random)}, 0.2f, 0.004f, bright(random)});
+    constexpr uint64_t kBalls = 20001; // more than a list holds
+    for (uint64_t id = 0; id < kBalls; ++id) {
+        balls.push_back({{place(random), place(random), place(random)}, 0.2f, 0.0008f, bright(random)});
         balls.back().id = id;
     }
     view_->settings().slabs = 16;
@@ -334,10 +352,10 @@ TEST_F(Slabs, ballsLeaveTheChoiceOfACrowdedTileSmoothly)
     // thousands of equal balls at one place, few of which send light: what is seen changes with their weights
     makeTargets(4, 4);
     view_->settings().slabs = 16;
-    constexpr size_t kFewest = 1500, kMost = 2500, kStep = 100;
+    constexpr size_t kFewest = 10500, kMost = 17500, kStep = 700; // a list holds 15,000
     TestBlob ball = kBall;
     ball.center = glm::vec3(0.0f);
-    ball.crossSection = 1e-4f;
+    ball.crossSection = 1.4e-5f;
     ball.emission = 0.0f;
     double worst = 0.0, most = 0.0, last = -1.0;
     for (size_t count = kFewest; count <= kMost; count += kStep) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 
@@ -173,6 +174,8 @@ TEST_F(Volume, noOrderOfBallsIsSeen)
         std::shuffle(blobs.begin(), blobs.end(), random);
         most = std::max(most, maxDifference(drawn(blobs, closeCamera), first));
     }
+    std::printf("%d orders: largest change %.1e of the brightest value\n", permutations(),
+                most / double(brightest(first)));
     EXPECT_LT(most, double(brightest(first)) / 1023.0);
 }
 
@@ -369,6 +372,25 @@ TEST_F(Volume, slabsHaveTheDetailOfVoxels)
         std::mt19937 random(3);
         std::shuffle(shuffled.begin(), shuffled.end(), random);
         EXPECT_LT(maxDifference(detailed(shuffled, camera()), picture), 1.0 / 1023.0);
+    }
+}
+
+TEST_F(Volume, slabsShowDetailOfThousandsOfBallsInOneTile)
+{
+    makeTargets(16, 16);
+    view_->settings().composition = render::Composition::Slabs;
+    const TestBlob whole{{0.0f, 0.0f, 0.0f}, 1.5f, 6.0f, 1.0f};
+    const auto parted = [&](size_t count) {
+        TestBlob part = whole;
+        part.crossSection /= float(count);
+        return detailed(std::vector<TestBlob>(count, part), camera());
+    };
+    for (const int slabs : {6, 16}) {
+        view_->settings().slabs = slabs;
+        const Picture few = parted(300);
+        EXPECT_GT(brightest(few), 0.5f);
+        for (const size_t count : {7000u, 30000u})
+            EXPECT_LT(maxDifference(parted(count), few), 0.03) << count << " balls, " << slabs << " slabs";
     }
 }
 
