@@ -1,5 +1,6 @@
 #include "benchmarks/scenes/lumpy_cloud.h"
 
+#include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/chance.h"
 #include "rendering/network/network_basis.h"
 #include "rendering/reference/path/path_renderer.h"
@@ -218,10 +219,69 @@ base::Status give(const LumpyCloud& cloud, const CloudNetwork& form, render::Sca
     return {};
 }
 
+base::Status give(const LumpyCloud& cloud, const render::ParticleNetworkSettings& settings, double albedo,
+                  render::ParticleNetwork& outNetwork, base::TaskRunner& tasks)
+{
+    constexpr int kSamples = 6; // along each axis of a ball
+    std::vector<render::NetworkParticle> particles;
+    for (const render::MediumBlob& blob : cloud.blobs())
+        particles.push_back({blob.center, blob.radius, blob.crossSection, albedo, 0.0});
+    if (base::Status status = outNetwork.build(particles, settings, tasks); !status)
+        return status;
+    for (size_t p = 0; p < particles.size(); ++p) {
+        double sum = 0.0, light = 0.0;
+        glm::dvec3 flow(0.0); // of the light
+        for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+            const glm::dvec3 cell(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
+            const glm::dvec3 offset = particles[p].radius * (2.0 * (cell + 0.5) / double(kSamples) - 1.0);
+            const double weight =
+                formula64::fxKernelExtinction(1.0, particles[p].radius, glm::dot(offset, offset));
+            if (!(weight > 0.0))
+                continue;
+            const glm::dvec3 place = particles[p].center + offset;
+            glm::dvec3 travel;
+            const double here = weight * cloud.irradiance(place, travel) * std::exp(-cloud.lightDepth(place));
+            sum += weight;
+            light += here;
+            flow += here * travel;
+        }
+        if (glm::length(flow) > 0.0)
+            outNetwork.addDirect(p, glm::normalize(flow), light / sum);
+    }
+    return {};
+}
+
+BallLight::BallLight(const LumpyCloud& cloud, std::span<const double> light)
+    : grid_(cloud.grid()), light_(grid_.count(), 0.0f), extinction_(grid_.count(), 0.0f)
+{
+    for (size_t ball = 0; ball < cloud.blobs().size(); ++ball) {
+        const render::MediumBlob& blob = cloud.blobs()[ball];
+        const auto [x0, x1] = reached(grid_, blob.center.x, blob.radius, 0);
+        const auto [y0, y1] = reached(grid_, blob.center.y, blob.radius, 1);
+        const auto [z0, z1] = reached(grid_, blob.center.z, blob.radius, 2);
+        for (int z = z0; z <= z1; ++z)
+            for (int y = y0; y <= y1; ++y)
+                for (int x = x0; x <= x1; ++x) {
+                    const glm::dvec3 offset = grid_.middle({x, y, z}) - blob.center;
+                    const double here = formula64::fxKernelExtinction(blob.crossSection, blob.radius,
+                                                                      glm::dot(offset, offset));
+                    light_[grid_.index({x, y, z})] += float(here * light[ball]);
+                    extinction_[grid_.index({x, y, z})] += float(here);
+                }
+    }
+}
+
+double BallLight::at(const glm::dvec3& position) const
+{
+    const double here = render::interpolated(extinction_.data(), grid_, position);
+    return here > 0.0 ? render::interpolated(light_.data(), grid_, position) / here : 0.0;
+}
+
 base::Result<CloudTruth> tracedCloud(const LumpyCloud& cloud, const double (&albedos)[2], double anisotropy,
                                      int size, uint32_t paths, const std::function<bool()>& stop)
 {
     const auto start = std::chrono::steady_clock::now();
+    const double startProcessor = processSeconds();
     render::ReferenceScene scene;
     scene.blobs = cloud.blobs();
     for (render::MediumBlob& blob : scene.blobs) {
@@ -257,6 +317,7 @@ base::Result<CloudTruth> tracedCloud(const LumpyCloud& cloud, const double (&alb
             truth.light[picture][c].assign(light.begin(), light.end());
         }
     }
+    truth.processorSeconds = processSeconds() - startProcessor;
     truth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return truth;
 }
@@ -273,6 +334,25 @@ double cloudError(const std::vector<double>& picture, const CloudTruth& truth, i
         count += 1.0;
     }
     return std::sqrt(std::max(squares / count, 0.0)) / (mean / count);
+}
+
+double pathSeconds(const CloudTruth& truth, int albedo, double error)
+{
+    double noise = 0.0, mean = 0.0, count = 0.0; // noise: variance of a picture
+    for (size_t i = 0; i < truth.isCovered.size(); ++i) {
+        if (!truth.isCovered[i])
+            continue;
+        const double first = truth.light[0][albedo][i], second = truth.light[1][albedo][i];
+        noise += 0.5 * (first - second) * (first - second);
+        mean += 0.5 * (first + second);
+        count += 1.0;
+    }
+    if (!(mean > 0.0))
+        return 0.0;
+    noise *= count / (mean * mean);
+    const double told = std::max(error * error, 2.0 * noise / std::sqrt(count));
+    constexpr double kPictures = 2.0, kAlbedos = 2.0;
+    return truth.processorSeconds / (kPictures * kAlbedos) * noise / std::max(told, 1e-30);
 }
 
 } // namespace fx::cli

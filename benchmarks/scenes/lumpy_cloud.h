@@ -5,7 +5,7 @@
 
 #include "foundation/result/status.h"
 #include "foundation/tasks/task_runner.h"
-#include "rendering/network/scattering_network.h"
+#include "rendering/network/particle_network.h"
 #include "rendering/reference/render/medium_blobs.h"
 #include "rendering/reference/render/reference_camera.h"
 
@@ -74,12 +74,30 @@ struct CloudNetwork
 /// cell.
 base::Status give(const LumpyCloud& cloud, const CloudNetwork& form, render::ScatteringNetwork& outNetwork);
 
+/// Builds a network of the balls of a cloud, lit by the light of the cloud.
+base::Status give(const LumpyCloud& cloud, const render::ParticleNetworkSettings& settings, double albedo,
+                  render::ParticleNetwork& outNetwork, base::TaskRunner& tasks);
+
+/// Light of the balls of a cloud at any place: the mean over the balls there, weighted by their extinction.
+class BallLight
+{
+public:
+    /// @param light [cd/m2] per optical depth, for each ball of the cloud
+    BallLight(const LumpyCloud& cloud, std::span<const double> light);
+    double at(const glm::dvec3& position) const; ///< [cd/m2] per optical depth
+
+private:
+    render::NetworkGrid grid_;
+    std::vector<float> light_, extinction_; ///< sums over balls
+};
+
 /// Two pictures with independent noise for each of two albedos, rows from the top.
 struct CloudTruth
 {
     std::vector<double> light[2][2]; ///< [cd/m2] light[picture][albedo]
     std::vector<bool> isCovered;     ///< pixels with an opacity of at least 0.3
-    double seconds = 0.0;
+    double seconds = 0.0;            ///< [s] of both pictures
+    double processorSeconds = 0.0;   ///< [s] processor time of all threads, for both pictures
 };
 
 /// Computes path-traced pictures. @param size [pixel] of both sides @param paths per pixel of each picture
@@ -91,5 +109,11 @@ base::Result<CloudTruth> tracedCloud(const LumpyCloud& cloud, const double (&alb
 /// in these pixels. The error is computed from the product of the differences from both true pictures. The
 /// noise of this product is zero on average.
 double cloudError(const std::vector<double>& picture, const CloudTruth& truth, int albedo);
+
+/// [s] Processor time in which the path tracer has a picture of one albedo with the given error. Its variance
+/// is inversely proportional to its time. A path carries light of both albedos, so half of its time counts.
+/// An error below two standard deviations of what cloudError() can tell counts as these, so that the time is
+/// rather too short than too long. @param error [1] see cloudError()
+double pathSeconds(const CloudTruth& truth, int albedo, double error);
 
 } // namespace fx::cli

@@ -1,6 +1,6 @@
 /// @file network.cpp
-/// Light scattered many times in a cloud of lumps: illumination networks, the closed form and single
-/// scattering against paths.
+/// Light scattered many times in a cloud of lumps: illumination networks of cells and of particles, the
+/// closed form and single scattering against paths, and the time in which paths have the same error.
 
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/measure/clocks.h"
@@ -32,7 +32,7 @@ struct CloudScene
     double depth;
     double albedos[2] = {0.9, 0.99};
 };
-constexpr std::array<CloudScene, 14> kScenes{{{"front-5", CloudLight::Front, 5.0},
+constexpr std::array<CloudScene, 16> kScenes{{{"front-5", CloudLight::Front, 5.0},
                                               {"side-5", CloudLight::Side, 5.0},
                                               {"back-5", CloudLight::Back, 5.0},
                                               {"inside-5", CloudLight::Inside, 5.0},
@@ -45,6 +45,8 @@ constexpr std::array<CloudScene, 14> kScenes{{{"front-5", CloudLight::Front, 5.0
                                               {"side-2", CloudLight::Side, 2.0},
                                               {"side-5-gray", CloudLight::Side, 5.0, {0.5, 0.7}},
                                               {"side-5-dark", CloudLight::Side, 5.0, {0.15, 0.3}},
+                                              {"side-5-large", CloudLight::Side, 5.0},
+                                              {"side-20-large", CloudLight::Side, 20.0},
                                               {"side-5-small", CloudLight::Side, 5.0}}};
 
 enum class Form
@@ -52,6 +54,7 @@ enum class Form
     Single,
     Closed,
     Network,
+    Particles,
     Moving ///< a network that sweeps so often in each frame of a cloud that grows
 };
 
@@ -60,24 +63,29 @@ struct NetworkForm
     const char* name;
     const char* tier;
     Form form;
-    int cells, directions, moments;
-    int sweeps; ///< 0: to rest
+    int cells, directions, moments; ///< of particles: lines across a bundle instead of cells, and no moments
+    int sweeps;                     ///< 0: to rest
+    double segment = 0.0;           ///< of particles, see ParticleNetworkSettings
 };
-constexpr std::array<NetworkForm, 15> kForms{{{"single", "", Form::Single, 0, 0, 0, 0},
-                                              {"closed-form", "", Form::Closed, 0, 0, 0, 0},
-                                              {"network-32-6-4", "", Form::Network, 32, 6, 4, 0},
-                                              {"network-32-14-4", "low", Form::Network, 32, 14, 4, 0},
-                                              {"network-32-26-4", "", Form::Network, 32, 26, 4, 0},
-                                              {"network-32-14-9", "", Form::Network, 32, 14, 9, 0},
-                                              {"network-24-26-9", "", Form::Network, 24, 26, 9, 0},
-                                              {"network-32-26-9", "default", Form::Network, 32, 26, 9, 0},
-                                              {"network-48-26-9", "high", Form::Network, 48, 26, 9, 0},
-                                              {"cold-2-sweeps", "", Form::Network, 32, 26, 9, 2},
-                                              {"cold-5-sweeps", "", Form::Network, 32, 26, 9, 5},
-                                              {"cold-10-sweeps", "", Form::Network, 32, 26, 9, 10},
-                                              {"moving-1-sweep", "", Form::Moving, 32, 26, 9, 1},
-                                              {"moving-2-sweeps", "", Form::Moving, 32, 26, 9, 2},
-                                              {"moving-3-sweeps", "", Form::Moving, 32, 26, 9, 3}}};
+constexpr std::array<NetworkForm, 18> kForms{
+    {{"single", "", Form::Single, 0, 0, 0, 0},
+     {"closed-form", "", Form::Closed, 0, 0, 0, 0},
+     {"network-32-6-4", "", Form::Network, 32, 6, 4, 0},
+     {"network-32-14-4", "low", Form::Network, 32, 14, 4, 0},
+     {"network-32-26-4", "", Form::Network, 32, 26, 4, 0},
+     {"network-32-14-9", "", Form::Network, 32, 14, 9, 0},
+     {"network-24-26-9", "", Form::Network, 24, 26, 9, 0},
+     {"network-32-26-9", "default", Form::Network, 32, 26, 9, 0},
+     {"network-48-26-9", "high", Form::Network, 48, 26, 9, 0},
+     {"cold-2-sweeps", "", Form::Network, 32, 26, 9, 2},
+     {"cold-5-sweeps", "", Form::Network, 32, 26, 9, 5},
+     {"cold-10-sweeps", "", Form::Network, 32, 26, 9, 10},
+     {"particles-64", "", Form::Particles, 48, 64, 0, 0},
+     {"particles-64-segments", "", Form::Particles, 48, 64, 0, 0, 0.5},
+     {"particles-128-segments", "", Form::Particles, 48, 128, 0, 0, 0.5},
+     {"moving-1-sweep", "", Form::Moving, 32, 26, 9, 1},
+     {"moving-2-sweeps", "", Form::Moving, 32, 26, 9, 2},
+     {"moving-3-sweeps", "", Form::Moving, 32, 26, 9, 3}}};
 
 /// A piece of a ray with medium.
 struct Piece
@@ -147,6 +155,18 @@ double withoutNetwork(const EyeRay& ray, double albedo, double g, bool isSingle)
     return light;
 }
 
+/// @param light scattered again, of balls
+double withParticles(const EyeRay& ray, double albedo, double g, const BallLight& light)
+{
+    double sum = withoutNetwork(ray, albedo, g, true), transmittance = 1.0;
+    for (const Piece& p : ray.pieces) {
+        const double passed = transmittance * std::exp(-p.depth);
+        sum += (transmittance - passed) * light.at(p.place);
+        transmittance = passed;
+    }
+    return sum;
+}
+
 double withNetwork(const EyeRay& ray, double albedo, const render::NetworkPhase& phase,
                    const render::NetworkState& state)
 {
@@ -170,8 +190,12 @@ struct Solved
 {
     render::NetworkPhase phase;
     render::NetworkState state;
+    std::optional<BallLight> balls; ///< instead of `state`, of a network of particles
     int sweeps = 0;
-    double seconds = 0.0, change = 0.0;
+    double links = 0.0;
+    double seconds = 0.0; ///< [s] of the sweeps, and of links of particles
+    double setup = 0.0;   ///< [s] in which the network got medium and light
+    double change = 0.0;
 };
 
 class NetworkAccuracy final : public AccuracyTechnique
@@ -180,14 +204,21 @@ public:
     explicit NetworkAccuracy(const CloudScene& scene) : scene_(scene)
     {
         isSmall_ = std::string_view(scene.name).ends_with("-small");
-        size_ = isSmall_ ? 16 : 32;
-        for (const NetworkForm& form : kForms)
+        isLarge_ = std::string_view(scene.name).ends_with("-large");
+        size_ = isSmall_ ? 16 : isLarge_ ? 128 : 32;
+        for (const NetworkForm& form : kForms) {
+            if (isLarge_ && form.form != Form::Closed && std::string_view(form.tier).empty())
+                continue;
+            forms_.push_back(&form);
             settings_.push_back({form.name,
                                  form.tier,
                                  {{"cells", form.cells},
                                   {"directions", form.directions},
                                   {"moments", form.moments},
                                   {"sweeps", form.sweeps}}});
+            if (form.form == Form::Particles)
+                settings_.back().parameters["segment"] = form.segment;
+        }
     }
 
     std::string_view scene() const override { return scene_.name; }
@@ -201,13 +232,16 @@ private:
     }
     base::Result<const CloudTruth*> truthOf(double g, const std::function<bool()>& stop);
     base::Result<Solved> solve(const NetworkForm& form, double albedo, double g);
+    base::Result<Solved> solveParticles(const NetworkForm& form, double albedo, double g);
     const LumpyCloud& frame(int f);
 
     const CloudScene& scene_;
-    bool isSmall_;
-    int size_;
+    bool isSmall_, isLarge_;
+    int size_; ///< [pixel]
+    std::vector<const NetworkForm*> forms_;
     std::vector<AccuracySetting> settings_;
     std::optional<LumpyCloud> cloud_;
+    double sceneSeconds_ = 0.0; ///< [s] of fine grids and of the rays of a picture
     std::map<int, LumpyCloud> frames_;
     std::vector<EyeRay> rays_;
     std::map<double, CloudTruth> truths_; ///< by g
@@ -218,7 +252,7 @@ base::Result<const CloudTruth*> NetworkAccuracy::truthOf(double g, const std::fu
     const auto known = truths_.find(g);
     if (known != truths_.end())
         return &known->second;
-    auto truth = tracedCloud(*cloud_, scene_.albedos, g, size_, 64, stop);
+    auto truth = tracedCloud(*cloud_, scene_.albedos, g, size_, isLarge_ ? 16 : 64, stop);
     if (!truth.ok())
         return truth.status();
     return &truths_.emplace(g, std::move(*truth)).first->second;
@@ -246,8 +280,11 @@ base::Result<Solved> NetworkAccuracy::solve(const NetworkForm& form, double albe
     render::ScatteringNetwork network;
     Solved solved;
     for (int before = isMoving ? kFrames : 0; before >= 0; --before) {
-        if (base::Status status = give(frame(before), asked, network); !status)
+        const LumpyCloud& cloud = frame(before);
+        const double startSetup = threadSeconds();
+        if (base::Status status = give(cloud, asked, network); !status)
             return status;
+        solved.setup = threadSeconds() - startSetup;
         const bool isToRest = form.sweeps == 0 || (isMoving && before == kFrames);
         const double start = threadSeconds();
         const render::SweepReport report =
@@ -260,17 +297,44 @@ base::Result<Solved> NetworkAccuracy::solve(const NetworkForm& form, double albe
     return solved;
 }
 
+base::Result<Solved> NetworkAccuracy::solveParticles(const NetworkForm& form, double albedo, double g)
+{
+    const auto tasks = base::makeSerialRunner();
+    render::ParticleNetwork network;
+    Solved solved;
+    const double start = threadSeconds();
+    if (base::Status status =
+            give(*cloud_, {form.directions, form.cells, form.segment, g}, albedo, network, *tasks);
+        !status)
+        return status;
+    solved.setup = threadSeconds() - start;
+    const render::SweepReport report = network.iterate({500, 2, 1e-3}, *tasks);
+    std::vector<double> light;
+    const glm::dvec3 eye = cloud_->camera().eye;
+    for (size_t i = 0; i < cloud_->blobs().size(); ++i)
+        light.push_back(network.scattered(i, glm::normalize(eye - cloud_->blobs()[i].center)));
+    solved.balls.emplace(*cloud_, light);
+    solved.seconds = threadSeconds() - start - solved.setup;
+    solved.sweeps = report.sweeps;
+    solved.change = report.change;
+    solved.links = double(network.links());
+    return solved;
+}
+
 base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::function<bool()>& stop)
 {
     if (!cloud_) {
+        const double start = threadSeconds();
         cloud_.emplace(scene_.depth, scene_.light, isSmall_ ? 64 : 128);
         rays_ = raysThrough(*cloud_, size_);
+        sceneSeconds_ = threadSeconds() - start;
     }
-    const NetworkForm& form = kForms[index];
+    const NetworkForm& form = *forms_[index];
     AccuracySample sample;
     std::vector<double> errors;
     std::string note;
-    double network = 0.0, reference = 0.0;
+    double network = 0.0, setup = 0.0, links = 0.0, reference = 0.0;
+    double picturesSeconds = 0.0, pathsSeconds = 0.0; // of all pictures of the setting
     int sweeps = 0;
     for (const double g : anisotropies()) {
         const auto truth = truthOf(g, stop);
@@ -282,26 +346,37 @@ base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::funct
                 return interruptedStatus();
             const double albedo = scene_.albedos[a];
             std::vector<double> picture;
-            double start = threadSeconds();
+            double start = threadSeconds(), before = sceneSeconds_;
             if (form.form == Form::Single || form.form == Form::Closed) {
                 picture = pictureOf(rays_, size_, [&](const EyeRay& ray) {
                     return withoutNetwork(ray, albedo, g, form.form == Form::Single);
                 });
             } else {
-                const auto solved = solve(form, albedo, g);
+                const auto solved =
+                    form.form == Form::Particles ? solveParticles(form, albedo, g) : solve(form, albedo, g);
                 if (!solved.ok())
                     return solved.status();
                 network += solved->seconds;
+                setup += solved->setup;
+                links = std::max(links, solved->links);
                 sweeps += solved->sweeps;
                 sample.seconds += solved->seconds;
+                before += solved->setup + solved->seconds;
                 start = threadSeconds();
                 picture = pictureOf(rays_, size_, [&](const EyeRay& ray) {
-                    return withNetwork(ray, albedo, solved->phase, solved->state);
+                    return solved->balls ? withParticles(ray, albedo, g, *solved->balls)
+                                         : withNetwork(ray, albedo, solved->phase, solved->state);
                 });
             }
-            sample.seconds += threadSeconds() - start;
+            const double gathering = threadSeconds() - start;
+            sample.seconds += gathering;
             errors.push_back(cloudError(picture, **truth, a));
             char name[64], text[32];
+            std::snprintf(name, sizeof name, "times_faster_g%g_albedo%g", g, albedo);
+            const double paths = pathSeconds(**truth, a, errors.back());
+            sample.work[name] = paths / (before + gathering);
+            picturesSeconds += before + gathering;
+            pathsSeconds += paths;
             std::snprintf(name, sizeof name, "rmse_g%g_albedo%g", g, albedo);
             std::snprintf(text, sizeof text, "%s%.3f", note.empty() ? "RMSE " : " ", errors.back());
             sample.work[name] = errors.back();
@@ -316,6 +391,12 @@ base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::funct
     sample.work["estimated_depth"] = medium.opticalDepth();
     sample.work["sweeps"] = sweeps;
     sample.work["seconds_network"] = network;
+    sample.work["seconds_setup"] = setup;
+    sample.work["seconds_pictures"] = picturesSeconds; // whole pictures, nothing is known before
+    sample.work["seconds_paths"] = pathsSeconds;       // of the same errors
+    sample.work["times_faster"] = pathsSeconds / picturesSeconds;
+    if (links > 0.0)
+        sample.work["links"] = links;
     sample.work["seconds_reference"] = reference;
     storeErrors(std::move(errors), sample);
     return sample;
@@ -343,7 +424,7 @@ AccuracyTechniqueEntry networkAccuracy()
         "picture",
         ShownError::Mean,
         scenes,
-        kScenes.size() - 1,
+        kScenes.size() - 3, // without the last
         false,
         make};
 }
