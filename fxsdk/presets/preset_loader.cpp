@@ -72,7 +72,7 @@ void readHints(const PresetValue& root, sim::DrawingHints& hints)
               hints.scattering);
 }
 
-/// Warns of a way to scatter light that has no effect: networks are those of fields, and without a medium
+/// Warns of a way to scatter light that has no effect: sorted balls have no networks, and without a medium
 /// nothing scatters.
 void lintScattering(const PresetValue& root, const sim::EffectDef& effect)
 {
@@ -82,9 +82,8 @@ void lintScattering(const PresetValue& root, const sim::EffectDef& effect)
         return;
     if (!effect.publishes(base::kBlobKind))
         root.warning("scattering", "the effect has no medium that scatters light; remove it");
-    else if (scattering == PreferredScattering::Network &&
-             effect.hints.composition != sim::PreferredComposition::Volume)
-        root.warning("scattering", "\"network\" needs \"composition\": \"volume\": other compositions "
+    else if (scattering == PreferredScattering::Network && !sumsUp(effect.hints.composition))
+        root.warning("scattering", "\"network\" needs \"composition\": \"volume\" or \"slabs\": sorted balls "
                                    "scatter light by the closed form; add it, or remove \"scattering\"");
 }
 

@@ -132,7 +132,8 @@ struct SliceSettings
     int castingPoints = 2; ///< number of brightest point lights for which media cast shadows, 0..4
     int samples = 2;       ///< number of points along a ray through a ball at which light is sampled, 1..4
     bool multiple = true;  ///< true: multiple scattering is computed
-    /// True: an illumination network computes multiple scattering, for media that are drawn in voxels.
+    /// True: an illumination network computes multiple scattering, for media that the
+    /// compositions Volume and Slabs draw.
     /// False: a formula computes multiple scattering.
     bool network = false;
     /// True: the caller of the renderer sets `multiple` and `network` to the values that the visible effects

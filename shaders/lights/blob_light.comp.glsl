@@ -6,20 +6,26 @@
 #include "shared/light_slices.glsl"
 #include "shared/scattered_light.glsl"
 #include "shared/sky_light.glsl"
+#if FX_NETWORK
+#include "formulas/network_cell.fx.h"
+#include "field/field_glow.glsl"
+#include "network/network_grid.glsl"
+#include "network/network_gather.glsl"
+#endif
 
 // Light that each blob scatters to the eye and that changes little within it: of sky and ground, of lights at points, and of
 // the sun what is scattered more than once. Of the sun's light that is scattered once it holds the optical depth towards the
-// sun; fragments do the rest.
+// sun; fragments do the rest. FX_NETWORK 1: of blobs in illumination networks it is the light of the networks and of lights at points.
 layout(local_size_x = 64) in;
 
-// Three a blob. rgb [exposed]
+// Three a blob. rgb [exposed]; w 1: it is that of a network
 // xyz slope of it across a radius; w crowding: how often more light its place extinguishes than the blob alone does, >= 1. Blobs
 // that lie in each other are drawn one after the other; by as much the first is seen too deep into
 // xyz slope of the optical depth towards the sun across a radius; w this depth in the center
 layout(std430, binding = 6) writeonly buffer BlobLights { vec4 blobLights[]; };
 layout(std140, binding = 0) uniform BlobLightBlock
 {
-    ivec4 blobCount;
+    ivec4 blobCount; // x; y [texel] of a block of moments along x; z number of networks
     vec4 viewAxis; // xyz in which the eye looks; w 1 orthographic
 };
 
@@ -28,6 +34,15 @@ vec3 smoothLight(vec3 p, vec3 toEye, vec3 albedo, float g, vec2 towardsSun)
     vec3 sum = skySource(p, toEye, albedo, g) + scatteredOfPoints(p, toEye, albedo, g);
     return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g, towardsSun) : sum;
 }
+
+#if FX_NETWORK
+vec3 lightInNetwork(int network, vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    GlowBox box = GlowBox(glows[network].corner.xyz, glows[network].corner.w * vec3(glows[network].cells.xyz), 0.0);
+    return networkScattered(network, blobCount.y, p, toEye, albedo, g) +
+           albedo * networkPointsOnce(vec3(0.0), p, toEye, networkStraight(albedo, g), g, box);
+}
+#endif
 
 // Optical depth towards the sun of the blob alone.
 float ownDepth(BlobInstance blob, vec3 fromCenter)
@@ -50,11 +65,23 @@ void main()
     const float kInvSqrt3 = 0.57735027;
     float reach = blob.lit.w < 0.0 ? 0.0 : 0.5 * blob.centerRadius.w;
     vec3 mean = vec3(0.0), slope = vec3(0.0), shadeSlope = vec3(0.0), ownSlope = vec3(0.0);
-    float shade = 0.0;
+    float shade = 0.0, isInNetwork = 0.0;
+#if FX_NETWORK
+    int network = networkAt(blob.lit.xyz, blobCount.z);
+    isInNetwork = network < 0 ? 0.0 : 1.0;
+#endif
     for (int i = 0; i < 4; ++i) {
         vec3 fromCenter = reach * kInvSqrt3 * kCorners[i];
         vec2 towardsSun = sunDepth(blob.lit.xyz + fromCenter);
+#if FX_NETWORK
+        vec3 source;
+        if (network < 0)
+            source = smoothLight(blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w, towardsSun);
+        else
+            source = lightInNetwork(network, blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w);
+#else
         vec3 source = smoothLight(blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w, towardsSun);
+#endif
         mean += 0.25 * source;
         slope += kCorners[i] * (source.r + source.g + source.b);
         shade += 0.25 * towardsSun.x;
@@ -64,7 +91,7 @@ void main()
     float total = mean.r + mean.g + mean.b;
     float extinguished = -dot(shadeSlope, lights[0].place.xyz), byBlob = -dot(ownSlope, lights[0].place.xyz);
     float crowding = byBlob > 0.0 ? clamp(extinguished / byBlob, 1.0, 1e4) : 1.0;
-    blobLights[3 * index] = vec4(mean, 0.0);
+    blobLights[3 * index] = vec4(mean, isInNetwork);
     blobLights[3 * index + 1] = vec4(total > 0.0 ? 1.5 * kInvSqrt3 * slope / total : vec3(0.0), crowding);
     blobLights[3 * index + 2] = vec4(1.5 * kInvSqrt3 * shadeSlope, shade);
 }

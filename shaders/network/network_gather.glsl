@@ -17,16 +17,40 @@ vec3 networkScattered(int number, int block, vec3 p, vec3 toEye, vec3 albedo, fl
     return source;
 }
 
-// Light of sun and points that the network does not carry: what has gone straight on.
-vec3 networkScatteredOnce(vec3 p, vec3 toEye, vec3 albedo, float g, GlowBox box)
+// Share of extinction by which a beam is attenuated whose light goes straight on after it has met the peak: formula network-cell (5).
+vec3 networkStraight(vec3 albedo, float g)
 {
-    vec3 straight = 1.0 - albedo * fxNetworkPeak(clamp(g, -0.3, 0.98));
-    vec3 sum = lights[0].color.rgb * hostShadow(p) * exp(-sunDepth(p).x * straight) *
-               fxHenyeyGreenstein(-dot(lights[0].place.xyz, toEye), g);
+    return 1.0 - albedo * fxNetworkPeak(clamp(g, -0.3, 0.98));
+}
+
+// Adds the light of points that the network does not carry to a sum, before the albedo.
+vec3 networkPointsOnce(vec3 sum, vec3 p, vec3 toEye, vec3 straight, float g, GlowBox box)
+{
     for (int i = 1; i < lightCounts.x; ++i) {
         vec3 towards;
         vec3 arriving = pointLight(lights[i], p, towards) * shareOf(lights[i], box);
         sum += arriving * exp(-pointDepth(i, p).x * straight) * fxHenyeyGreenstein(-dot(towards, toEye), g);
     }
-    return albedo * sum;
+    return sum;
+}
+
+// Light of sun and points that the network does not carry: what has gone straight on.
+vec3 networkScatteredOnce(vec3 p, vec3 toEye, vec3 albedo, float g, GlowBox box)
+{
+    vec3 straight = networkStraight(albedo, g);
+    vec3 sun = lights[0].color.rgb * hostShadow(p) * exp(-sunDepth(p).x * straight) *
+               fxHenyeyGreenstein(-dot(lights[0].place.xyz, toEye), g);
+    return albedo * networkPointsOnce(sun, p, toEye, straight, g, box);
+}
+
+// Number of the grid in which a place lies, of `count`; -1: none.
+int networkAt(vec3 p, int count)
+{
+    int number = -1;
+    for (int i = 0; i < count; ++i) {
+        vec3 cell = (p - glows[i].corner.xyz) / glows[i].corner.w;
+        bool isIn = all(greaterThanEqual(cell, vec3(0.0))) && all(lessThan(cell, vec3(glows[i].cells.xyz)));
+        number = isIn && number < 0 ? i : number;
+    }
+    return number;
 }

@@ -45,7 +45,7 @@ void main()
     imageStore(balls, ballTexel(ball, kMedium), vec4(depth, blob.centerRadius.w, blob.layer.x, detail));
     imageStore(balls, ballTexel(ball, kEmitted), blob.emission);
     imageStore(balls, ballTexel(ball, kScatter), blob.scatter);
-    imageStore(balls, ballTexel(ball, kLight), vec4(blobLights[first].rgb, 0.0));
+    imageStore(balls, ballTexel(ball, kLight), blobLights[first]);
     imageStore(balls, ballTexel(ball, kSlope), vec4(blobLights[first + 1u].xyz / max(blob.centerRadius.w, 1e-20), 0.0));
     float periods = blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w;
     imageStore(balls, ballTexel(ball, kDetail), vec4(blob.medium.w, periods, 0.0, 0.0));

@@ -6,7 +6,7 @@ const int kPlace = 0;   // xyz [m] center relative to the eye; w radius [m], of 
 const int kMedium = 1;  // x optical depth of the chord through the middle; y radius [m]; z layer * 2 + share of fire; w detail [1]
 const int kEmitted = 2; // rgb [exposed]; w power of temperature by which it follows the detail
 const int kScatter = 3; // rgb albedo; w mean cosine of the phase function
-const int kLight = 4;   // rgb light that changes little within the ball [exposed]
+const int kLight = 4;   // rgb light that changes little within the ball [exposed]; w 1: of an illumination network
 const int kSlope = 5;   // xyz relative change of it [1/m]
 const int kDetail = 6;  // x seed [0, 1); y noise periods across the radius
 // Only where fields have detail:

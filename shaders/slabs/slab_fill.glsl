@@ -1,6 +1,7 @@
 // Adds balls and cards to the sums of neighboring slabs of a ray, FX_GROUP (1, 3, 4, 6 or 16) at a time. Needs shared/unrolled.glsl,
 // shared/light_slices.glsl, formulas/kernel_moment.fx.h, formulas/henyey_greenstein.fx.h, slabs/slab_sums.glsl and slabs/slab_window.glsl.
-// FX_BALL_DETAIL 1: some balls have procedural detail. FX_FIELD_DETAIL 1: some belong to fields with detail; needs
+// FX_NETWORK 1: some balls are in illumination networks; needs formulas/network_cell.fx.h. FX_BALL_DETAIL 1: some balls have procedural detail.
+// FX_FIELD_DETAIL 1: some belong to fields with detail; needs
 // slabs/slab_detail.glsl.
 const int kGroup = FX_GROUP;
 #if FX_GROUP == 16
@@ -23,6 +24,9 @@ struct BallLight
     float slope;   // [1/m] change of that along the ray, relative to `base`
     float base;    // [1]
     vec3 sun;      // scattered where nothing shadows the sun
+#if FX_NETWORK
+    vec3 straight; // [1] share of the optical depth that attenuates the sun: formula network-cell (5)
+#endif
 };
 
 BallLight lightOf(SlabRay ray, Chord chord, uint ball)
@@ -31,7 +35,13 @@ BallLight lightOf(SlabRay ray, Chord chord, uint ball)
     vec3 slope = texelFetch(balls, ballTexel(ball, kSlope), 0).xyz;
     BallLight light;
     light.emitted = texelFetch(balls, ballTexel(ball, kEmitted), 0).rgb;
+#if FX_NETWORK
+    vec4 smoothly = texelFetch(balls, ballTexel(ball, kLight), 0);
+    light.smoothly = smoothly.rgb;
+    light.straight = 1.0 - smoothly.w * scatter.rgb * fxNetworkPeak(clamp(scatter.w, -0.3, 0.98));
+#else
     light.smoothly = texelFetch(balls, ballTexel(ball, kLight), 0).rgb;
+#endif
     light.base = 1.0 + dot(slope, chord.across);
     light.slope = dot(slope, ray.direction);
     float phase = fxHenyeyGreenstein(dot(lights[0].place.xyz, ray.direction), scatter.w);
@@ -89,8 +99,26 @@ void addCard(inout SlabSums sums, vec4 light, float depth, vec2 interval, float 
 #endif
 }
 
+#if FX_NETWORK
+#define FX_SUN vec2 // x optical depth, y share that the host's surfaces let through
+FX_SUN sunAt(SlabRay ray, float t)
+{
+    vec2 sun = vec2(0.0, 1.0);
+    bool isDark = tileList.y == 0 || lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
+    for (int i = 0; i < (isDark ? 0 : 1); ++i)
+        sun = vec2(sunDepth(ray.origin + t * ray.direction).x, hostShadow(ray.origin + t * ray.direction));
+    return sun;
+}
+
+// Share of the sun that balls scatter between two points of the ray.
+vec3 sunBetween(BallLight light, FX_SUN near, FX_SUN far)
+{
+    return 0.5 * (near.y * exp(-near.x * light.straight) + far.y * exp(-far.x * light.straight));
+}
+#else
+#define FX_SUN float
 // Share of the sun that reaches a point of the ray.
-float sunAt(SlabRay ray, float t)
+FX_SUN sunAt(SlabRay ray, float t)
 {
     float sum = 1.0;
     bool isDark = tileList.y == 0 || lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
@@ -98,6 +126,9 @@ float sunAt(SlabRay ray, float t)
         sum = exp(-sunDepth(ray.origin + t * ray.direction).x) * hostShadow(ray.origin + t * ray.direction);
     return sum;
 }
+
+float sunBetween(BallLight light, FX_SUN near, FX_SUN far) { return 0.5 * (near + far); }
+#endif
 
 #if FX_BALL_DETAIL
 // Turned by the seed so that no two balls share a lattice; as in blobs/media.vert.glsl.
@@ -135,8 +166,8 @@ struct BallPart
     vec3 scattered; // light, where it is thin
 };
 
-// sun: share of the sun there; passed: depth and moment up to the near face, over those of the chord, on return up to the far one
-BallPart partOf(Chord chord, BallLight light, float near, float far, float sun, inout vec2 passed)
+// sun: its light that is scattered there; passed: depth and moment up to the near face, over those of the chord, on return up to the far one
+BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, inout vec2 passed)
 {
     float middle = 0.5 * (near + far);
     float perWidth = 1.0 / max(far - near, 1e-20); // some have no thickness
@@ -146,7 +177,7 @@ BallPart partOf(Chord chord, BallLight light, float near, float far, float sun, 
     part.depth = chord.depth * (next.x - passed.x);
     part.moment = ((chord.tc - middle) * part.depth + chord.w * chord.depth * (next.y - passed.y)) * perWidth;
     float along = clamp(middle - chord.tc, -chord.w, chord.w);
-    part.scattered = light.smoothly * max(light.base + light.slope * along, 0.0) + light.sun * sun;
+    part.scattered = light.smoothly * max(light.base + light.slope * along, 0.0) + sun;
     passed = next;
     return part;
 }
@@ -163,7 +194,7 @@ const int kAfterBalls = 0;
 void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout SlabSums sums[kGroup], out float behind)
 {
     behind = 0.0;
-    float sun[kGroup + 1];
+    FX_SUN sun[kGroup + 1];
     for (int k = 0; k <= kGroup; ++k)
         sun[k] = sunAt(ray, clamp(edges[k], lit.x, lit.y));
 #if FX_FIELD_DETAIL
@@ -200,16 +231,16 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout S
         float u = placeOn(chord, edges[0]);
         vec2 passed = vec2(fxKernelPassed(u), fxKernelMoment(u));
 #if FX_FIELD_DETAIL
-#define FX_ADD_BALL(k)                                                                                         \
-    part = partOf(chord, light, edges[k], edges[k + 1], 0.5 * (sun[k] + sun[k + 1]), passed);                  \
-    if (texel > 0.5)                                                                                           \
-        addDetailedBall(detailed[k], light, medium.z, part.depth, part.moment, part.scattered, carried0.xyz,   \
-                        carried1, power);                                                                      \
-    else                                                                                                       \
+#define FX_ADD_BALL(k)                                                                                              \
+    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
+    if (texel > 0.5)                                                                                                \
+        addDetailedBall(detailed[k], light, medium.z, part.depth, part.moment, part.scattered, carried0.xyz,        \
+                        carried1, power);                                                                           \
+    else                                                                                                            \
         addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
 #else
-#define FX_ADD_BALL(k)                                                                        \
-    part = partOf(chord, light, edges[k], edges[k + 1], 0.5 * (sun[k] + sun[k + 1]), passed); \
+#define FX_ADD_BALL(k)                                                                                              \
+    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
     addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
 #endif
         BallPart part;

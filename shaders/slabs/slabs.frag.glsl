@@ -2,6 +2,9 @@
 #include "formulas/kernel_quantile.fx.h"
 #include "formulas/detail_noise.fx.h"
 #include "formulas/henyey_greenstein.fx.h"
+#if FX_NETWORK
+#include "formulas/network_cell.fx.h"
+#endif
 #include "formulas/slab_light.fx.h"
 #include "shared/view_block.glsl"
 #include "shared/card_nodes.glsl"

@@ -164,7 +164,7 @@ class FxCommand(FxTest):
             self.assertEqual((asks, gets), ("network", "closed_form"))
             self.assertIn(why, reason)
         self.assertEqual(explained("a.fx.json", smoke | {"scattering": "network"})[0][1:],
-                         ("closed_form", "networks need the composition volume"))
+                         ("closed_form", "networks need the composition volume or slabs"))
         for setting, gets, why in ((None, "closed_form", "the scene says so"), ("off", "single", "the scene says so"),
                                    ("automatic", "network", "network.fx.json asks for it")):
             more = {} if setting is None else {"scattering": setting}

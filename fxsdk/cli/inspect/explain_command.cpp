@@ -10,6 +10,7 @@
 #include "fxsdk/cli/scene/view_settings.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
+#include "fxsdk/presets/order_members.h"
 #include "fxsdk/techniques.h"
 #include "rendering/field/network_choice.h"
 #include "rendering/reference/render/medium_blobs.h"
@@ -192,11 +193,12 @@ Scattering scatteringIn(const scene_file::SceneFile& file, bool isScene)
             if (preset.effect->hints.scattering == hints.scattering)
                 chosen.why = preset.name + " asks for it";
     }
-    const bool isVolume = isScene && file.view.composition != render::Composition::Automatic
-                              ? file.view.composition == render::Composition::Volume
-                              : hints.composition == sim::PreferredComposition::Volume;
-    if (chosen.value == PreferredScattering::Network && !isVolume)
-        chosen = {PreferredScattering::ClosedForm, "networks need the composition volume"};
+    const render::Composition drawn = file.view.composition;
+    const bool isSummed = isScene && drawn != render::Composition::Automatic
+                              ? drawn == render::Composition::Volume || drawn == render::Composition::Slabs
+                              : preset::sumsUp(hints.composition);
+    if (chosen.value == PreferredScattering::Network && !isSummed)
+        chosen = {PreferredScattering::ClosedForm, "networks need the composition volume or slabs"};
     return chosen;
 }
 

@@ -70,7 +70,7 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
             "single: by shadow rays to all lights all along each ray and from surfaces, slow. With "
             "--renderer "
             "gl: single; multiple, light that is scattered any number of times, by a formula; network, "
-            "the same by an illumination network where media are drawn in voxels; or automatic, as the "
+            "the same by an illumination network in the compositions volume and slabs; or automatic, as the "
             "presets ask for")
         ->check(oneOf({"none", "centers", "single", "multiple", "network", "automatic"}))
         ->capture_default_str()

@@ -213,9 +213,9 @@ typedef struct FxViewSettings
     uint32_t lightSamples;
 
     /// Scattering in media. 0: single scattering; 1 (default): multiple scattering by a closed form; 2: like
-    /// 1, but by an illumination network in media that FX_COMPOSITION_VOLUME draws; 3: the greatest value
-    /// that the presets of the scene's instances request by their member "scattering", or 1 if no preset
-    /// requests a value.
+    /// 1, but by an illumination network in media that FX_COMPOSITION_VOLUME or FX_COMPOSITION_SLABS draws;
+    /// 3: the greatest value that the presets of the scene's instances request by their member "scattering",
+    /// or 1 if no preset requests a value.
     uint32_t multipleScattering;
 
     /// FX_COMPOSITION_...; default FX_COMPOSITION_SORTED.

@@ -2,38 +2,52 @@
 
 #include "rendering/compositions/slabs/slab_passes.h"
 #include "rendering/compositions/slabs/slab_view.h"
+#include "rendering/field/field_fill_pass.h"
+#include "rendering/field/field_glow_pass.h"
 #include "rendering/field/field_texels.h"
 #include "rendering/field/lump_tile_pass.h"
+#include "rendering/network/network_passes.h"
+#include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/particle_batch.h"
 
-#include <array>
+#include <vector>
 
 namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"slab balls", "media"},   {"slab detail upload", "media"},
-                                {"field texels", "media"}, {"lump tile", "media"},
-                                {"slab upload", "media"},  {"slab cards", "media"},
-                                {"slab tiles", "media"},   {"slabs", "media"}};
+constexpr TimedPass kTimed[] = {{"slab balls", "media"},      {"slab detail upload", "media"},
+                                {"field texels", "media"},    {"lump tile", "media"},
+                                {"slab upload", "media"},     {"slab cards", "media"},
+                                {"slab tiles", "media"},      {"slabs", "media"},
+                                {"field upload", "media"},    {"field fill", "media"},
+                                {"glow source", "media"},     {"network upload", "media"},
+                                {"network prepare", "media"}, {"network rays", "media"},
+                                {"network sum", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
-        constexpr size_t kOwn = kSlabPrograms + 6, kShapes = size_t(BatchShape::Count);
-        std::array<const ProgramDesc*, kOwn + kShapes + 1> list{};
+        std::vector<const ProgramDesc*> list{&kSlabCardsProgram,
+                                             &kSlabTilesProgram,
+                                             &slabBallsProgram(false),
+                                             &slabBallsProgram(true),
+                                             &kFieldTexelProgram,
+                                             &kLumpTileProgram,
+                                             &kImpostorCardProgram,
+                                             &glowSourceProgram(false),
+                                             &glowSourceProgram(true),
+                                             &kNetworkPrepareProgram,
+                                             &kNetworkRaysProgram,
+                                             &kNetworkSumProgram,
+                                             &blobLightProgram(true),
+                                             &fieldFillProgram(false, false),
+                                             &fieldFillProgram(false, true)};
         for (size_t i = 0; i < kSlabPrograms; ++i)
-            list[i] = &slabProgramAt(i);
-        list[kSlabPrograms] = &kSlabCardsProgram;
-        list[kSlabPrograms + 1] = &kSlabTilesProgram;
-        list[kSlabPrograms + 2] = &slabBallsProgram(false);
-        list[kSlabPrograms + 3] = &slabBallsProgram(true);
-        list[kSlabPrograms + 4] = &kFieldTexelProgram;
-        list[kSlabPrograms + 5] = &kLumpTileProgram;
-        for (size_t i = 0; i < kShapes; ++i)
-            list[kOwn + i] = &cardProgram(BatchShape(i));
-        list[kOwn + kShapes] = &kImpostorCardProgram;
+            list.push_back(&slabProgramAt(i));
+        for (size_t i = 0; i < size_t(BatchShape::Count); ++i)
+            list.push_back(&cardProgram(BatchShape(i)));
         return list;
     }();
     return all;

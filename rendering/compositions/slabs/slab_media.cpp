@@ -51,6 +51,7 @@ void SlabMedia::see(const GatherInputs& in, const GatheredFrame& from)
 void SlabMedia::begin(const ViewSettings& settings)
 {
     counts_ = settings.countOverdraw;
+    lights_ = {};
     forget();
 }
 
@@ -65,7 +66,9 @@ uint64_t SlabMedia::cardCapacity(const MediaPass::Inputs& in) const
 
 SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, const ListUse& use)
 {
-    const BallList balls = ballSource_ ? *ballSource_->balls() : BallList();
+    BallList balls = ballSource_ ? *ballSource_->balls() : BallList();
+    if (lights_.valid())
+        balls.lights = lights_;
     const uint64_t entries = findTiles(balls.instances, in.view, rects_);
     capacity_ = cardCapacity(in);
     Lists out{};

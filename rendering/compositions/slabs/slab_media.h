@@ -22,9 +22,13 @@ public:
     /// called. With null, no balls are drawn.
     void replaceBalls(const MediaSource* balls) { ballSource_ = balls; }
     bool isEmpty() const { return !ballSource_ && cards_.empty(); }
+    /// Balls of this frame; null without balls.
+    const BallList* balls() const { return ballSource_ ? ballSource_->balls() : nullptr; }
 
     /// Begins the passes of a frame.
     void begin(const ViewSettings& settings);
+    /// Sets the lights of the balls of this frame, instead of BallList::lights.
+    void setLights(ResourceId lights) { lights_ = lights; }
 
     /// Results of list().
     struct Lists
@@ -65,6 +69,7 @@ private:
     uint64_t cardFragments_ = 0; ///< estimated number of fragments of all cards
     int width_ = 0;              ///< [pixel] width of the picture
     bool counts_ = false;        ///< true: listed and dropped entries are counted
+    ResourceId lights_;          ///< see setLights(); invalid: those of the balls
     ResourceId tiles_, heads_;   ///< counters of the last frame, for reading back to the CPU; may be invalid
     uint64_t capacity_ = 0;      ///< largest number of card fragments in the last frame's lists
 };

@@ -16,21 +16,19 @@ constexpr ProgramDesc program(const char* defines)
     return {"slabs", "slabs/slabs.vert.glsl", "slabs/slabs.frag.glsl", nullptr, defines};
 }
 
-// index = (16 slabs) * 6 + SlabDetail * 2 + layers
+#define FX_SLAB_PROGRAMS(slabs, network)                                                                     \
+    program("FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=0" slabs network),                                 \
+        program("FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=1" slabs network),                             \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=0" slabs network),                             \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=1" slabs network),                             \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=0" slabs network),                             \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=1" slabs network)
+
+// index = network * 12 + (16 slabs) * 6 + SlabDetail * 2 + layers
 constexpr ProgramDesc kPrograms[kSlabPrograms] = {
-    program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
-    program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
-    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=0"),
-    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=1"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=0"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=1"),
-};
+    FX_SLAB_PROGRAMS(" FX_SLABS=6", " FX_NETWORK=0"), FX_SLAB_PROGRAMS(" FX_SLABS=16", " FX_NETWORK=0"),
+    FX_SLAB_PROGRAMS(" FX_SLABS=6", " FX_NETWORK=1"), FX_SLAB_PROGRAMS(" FX_SLABS=16", " FX_NETWORK=1")};
+#undef FX_SLAB_PROGRAMS
 
 constexpr ProgramDesc kBallPrograms[] = {
     {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=0"},
@@ -62,9 +60,9 @@ ResourceId makeBuffer(FrameGraph::Builder& builder, std::string_view name, size_
 
 } // namespace
 
-const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers)
+const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers, bool network)
 {
-    return kPrograms[(slabs > 6 ? 6 : 0) + 2 * size_t(detail) + (layers ? 1 : 0)];
+    return kPrograms[(network ? 12 : 0) + (slabs > 6 ? 6 : 0) + 2 * size_t(detail) + (layers ? 1 : 0)];
 }
 
 const ProgramDesc& slabBallsProgram(bool detail)
@@ -253,7 +251,8 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
         out = targets.outputs();
         return [view = media.view, distance = media.distance, lights = media.lights, balls = in.balls,
                 cards = in.cards, tiles = in.tiles, detail = in.fieldDetail,
-                program = &slabProgram(in.slabs, in.detail, media.layers), targets](Backend& backend) {
+                program = &slabProgram(in.slabs, in.detail, media.layers, in.network),
+                targets](Backend& backend) {
             targets.clear(backend);
             ViewBlock block = view;
             block.pass.y = cards.valid() ? 1.0f : 0.0f;

@@ -16,10 +16,11 @@ enum class SlabDetail : uint8_t
     OfFields, ///< noise of single balls, and detail of fields of balls
 };
 
-constexpr size_t kSlabPrograms = 2 * 3 * 2;
+constexpr size_t kSlabPrograms = 2 * 2 * 3 * 2;
 /// Returns the program that sums media in slabs.
 /// @param slabs 6 or 16
-const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers);
+/// @param network true: some balls are in illumination networks
+const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers, bool network = false);
 const ProgramDesc& slabProgramAt(size_t index);
 
 inline constexpr ProgramDesc kSlabCardsProgram{"slab cards", nullptr, nullptr, "slabs/slab_cards.comp.glsl",
@@ -151,6 +152,8 @@ public:
         SlabTilePass::Outputs tiles;
         CardLists cards;
         int slabs; ///< number of slabs: 6 or 16
+        /// True: the lights of balls are those of illumination networks, see BlobLightPass.
+        bool network = false;
     };
     /// Returns the largest SlabTilePass::Inputs::maxOfTile with which the loops over the balls of a tile and
     /// over their fields take at most kMaxLoopTurns iterations.

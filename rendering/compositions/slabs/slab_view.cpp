@@ -1,5 +1,7 @@
 #include "rendering/compositions/slabs/slab_view.h"
 
+#include "rendering/passes/blob_light_pass.h"
+
 namespace fx::render {
 
 namespace {
@@ -10,13 +12,27 @@ constexpr int kCoarseSlabs = 6; ///< up to which detail has kCoarseOctaves
 
 base::Status SlabView::gather(const GatherInputs& in, GatheredFrame& io)
 {
+    isKept_ = false;
     details_.clear();
     const int octaves = in.settings->slabs <= kCoarseSlabs ? kCoarseOctaves : kMaxDetailOctaves;
     for (const GroupDetail& detail : io.details)
         details_.push_back(detailBlock(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
+    const base::Status status = gatherNetwork(in, io);
     media_.gather(in, io);
-    return details_.empty() ? base::Status() : lumpTile_.makeRoom(device_);
+    return status && !details_.empty() ? lumpTile_.makeRoom(device_) : status;
+}
+
+base::Status SlabView::gatherNetwork(const GatherInputs& in, const GatheredFrame& from)
+{
+    fields_.clear();
+    if (FieldMedia::asksForNetworks(*in.settings))
+        fields_.build(in, from);
+    if (fields_.networks().empty())
+        return network_.makeRoom({}, in.camera->eye);
+    if (base::Status status = fields_.makeRoom(); !status)
+        return status;
+    return network_.makeRoom(fields_.networks(), in.camera->eye);
 }
 
 void SlabView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
@@ -26,6 +42,32 @@ void SlabView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
     slabs_ = frame.settings->slabs;
     media_.begin(*frame.settings);
     lumps_ = materials_.empty() ? ResourceId() : lumpTile_.addTo(graph);
+    hasNetwork_ = !network_.isEmpty() && media_.balls() && frame.lights.lights.valid();
+    if (hasNetwork_)
+        addNetwork(graph, frame);
+}
+
+/// At rest the lights of balls are those that the last frame has gathered.
+void SlabView::addNetwork(FrameGraph& graph, const PassFrame& frame)
+{
+    if (isKept_ && network_.isSettled() && !frame.lights.hostShadow.valid())
+        return;
+    fields_.importAll(graph);
+    network_.importAll(graph);
+    if (!isKept_) {
+        fields_.upload(graph);
+        fields_.fill(graph, frame.blobs);
+    }
+    network_.addPasses(graph, fields_.sources(), frame.lights, isKept_);
+    const BallList& balls = *media_.balls();
+    media_.setLights(BlobLightPass::addTo(graph, {balls.balls,
+                                                  balls.lights,
+                                                  frame.lights,
+                                                  &frame.view,
+                                                  uint32_t(balls.instances.size()),
+                                                  {network_.moments(), network_.buffer(), network_.block(),
+                                                   network_.gridCount()}})
+                         .blobLights);
 }
 
 MediaPass::Outputs SlabView::compose(FrameGraph& graph, const MediaPass::Inputs& in,
@@ -33,12 +75,15 @@ MediaPass::Outputs SlabView::compose(FrameGraph& graph, const MediaPass::Inputs&
 {
     const SlabMedia::Lists lists =
         media_.list(graph, in, {0, {}, false, {materials_, details_, lumps_}, slabs_});
-    return SlabPass::addTo(graph, lists.inSlabs(in, slabs_), under);
+    SlabPass::Inputs slabs = lists.inSlabs(in, slabs_);
+    slabs.network = hasNetwork_;
+    return SlabPass::addTo(graph, slabs, under);
 }
 
 void SlabView::forget()
 {
     lumpTile_.forget();
+    fields_.forget();
     media_.forget();
 }
 
@@ -47,6 +92,11 @@ void SlabView::endFrame(bool)
     unused_ = details_.empty() ? unused_ + 1 : 0;
     if (unused_ == kIdleFrames)
         lumpTile_.release();
+    networkUnused_ = network_.isEmpty() ? networkUnused_ + 1 : 0;
+    if (networkUnused_ == kIdleFrames) {
+        fields_.release();
+        network_.release();
+    }
 }
 
 void SlabView::rest()
@@ -54,6 +104,8 @@ void SlabView::rest()
     media_.forget();
     details_.clear();
     materials_ = {};
+    fields_.clear();
+    hasNetwork_ = false;
     endFrame(true);
 }
 

@@ -1,7 +1,7 @@
 #include "rendering/compositions/media_compositions.h"
 
 #include "rendering/compositions/volume/volume_view.h"
-#include "rendering/network/network_passes.h"
+#include "rendering/field/field_fill_pass.h"
 
 #include <vector>
 
@@ -23,16 +23,14 @@ std::span<const ProgramDesc* const> programs()
         const std::span<const ProgramDesc* const> ofSlabs = kSlabComposition.programs(); // the loose
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
         list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &glowRaysProgram(false),
-                                 &glowRaysProgram(true), &glowSourceProgram(false), &glowSourceProgram(true),
-                                 &glowSumProgram(false), &glowSumProgram(true), &fieldNearProgram(false),
-                                 &fieldNearProgram(true), &kNetworkPrepareProgram, &kNetworkRaysProgram,
-                                 &kNetworkSumProgram});
-        for (const bool detail : {false, true})
+                                 &glowRaysProgram(true), &glowSumProgram(false), &glowSumProgram(true),
+                                 &fieldNearProgram(false), &fieldNearProgram(true)});
+        for (const bool detail : {false, true}) {
+            list.push_back(&fieldFillProgram(true, detail)); // without layers: of networks in slabs
             for (const bool layers : {false, true})
-                for (const ProgramDesc* program :
-                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail),
-                      &fieldLightProgram(layers, detail, true)})
-                    list.push_back(program);
+                for (const bool network : {false, true})
+                    list.push_back(&fieldLightProgram(layers, detail, network));
+        }
         for (size_t i = 0; i < kFieldMarchPrograms; ++i)
             list.push_back(&fieldMarchProgramAt(i));
         return list;

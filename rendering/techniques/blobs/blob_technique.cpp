@@ -31,7 +31,7 @@ std::span<const ProgramDesc* const> programs()
             list[i] = &mediaProgramAt(i);
         size_t end = kMediaPrograms;
         for (const ProgramDesc* program : {&kOverdrawProgram, &kOverdrawSmallProgram, &kImpostorProgram,
-                                           &kImpostorKeepProgram, &kBlobLightProgram})
+                                           &kImpostorKeepProgram, &blobLightProgram(false)})
             list[end++] = program;
         return list;
     }();

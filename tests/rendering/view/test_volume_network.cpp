@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
-class VolumeNetwork : public ViewTest
+/// Networks in the compositions that have them.
+class NetworkPictures : public ViewTest, public testing::WithParamInterface<render::Composition>
 {
 protected:
     void SetUp() override
@@ -20,7 +21,7 @@ protected:
         ViewTest::SetUp();
         makeTargets(kWidth, kHeight);
         render::ViewSettings& settings = view_->settings();
-        settings.composition = render::Composition::Volume;
+        settings.composition = GetParam();
         settings.voxels = 64;
         settings.slices.network = true;
         settings.slices.networkCells = 24;
@@ -44,6 +45,12 @@ protected:
         blob.albedo = albedo;
         return blob;
     }
+    static base::FrameSnapshot withAnisotropy(base::FrameSnapshot snapshot, float anisotropy)
+    {
+        for (size_t g = 0; g < snapshot.groupCount(); ++g)
+            snapshot.editGroup(g).editConstants()[base::blob_constant::Anisotropy] = anisotropy;
+        return snapshot;
+    }
     size_t sweeps() const
     {
         return size_t(std::ranges::count(view_->executedPasses(), std::string_view("network rays")));
@@ -64,7 +71,13 @@ protected:
 
 } // namespace
 
-TEST_F(VolumeNetwork, aWhiteMediumUnderAWhiteSkyIsNotTold)
+INSTANTIATE_TEST_SUITE_P(, NetworkPictures,
+                         testing::Values(render::Composition::Volume, render::Composition::Slabs),
+                         [](const auto& chosen) {
+                             return chosen.param == render::Composition::Volume ? "volume" : "slabs";
+                         });
+
+TEST_P(NetworkPictures, aWhiteMediumUnderAWhiteSkyIsNotTold)
 {
     view_->settings().lighting.skyLuminance = glm::vec3(1000.0f);
     view_->settings().lighting.groundAlbedo = 1.0f;
@@ -83,7 +96,7 @@ TEST_F(VolumeNetwork, aWhiteMediumUnderAWhiteSkyIsNotTold)
     EXPECT_LT(most / least, 1.01f) << "it has the luminance of the sky everywhere";
 }
 
-TEST_F(VolumeNetwork, blackMediaScatterNothingAndWhiteOnesMoreThanOnce)
+TEST_P(NetworkPictures, blackMediaScatterNothingAndWhiteOnesMoreThanOnce)
 {
     view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
     const auto lit = [&](float albedo, bool multiple) {
@@ -99,7 +112,7 @@ TEST_F(VolumeNetwork, blackMediaScatterNothingAndWhiteOnesMoreThanOnce)
     EXPECT_LT(little, 1.06) << "what is scattered twice has the albedo twice";
 }
 
-TEST_F(VolumeNetwork, atRestThereIsNoPassAndThePictureStays)
+TEST_P(NetworkPictures, atRestThereIsNoPassAndThePictureStays)
 {
     view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
     const base::FrameSnapshot snapshot = snapshotOf({ball(6.0f, 0.9f)});
@@ -122,7 +135,7 @@ TEST_F(VolumeNetwork, atRestThereIsNoPassAndThePictureStays)
     EXPECT_EQ(sweeps(), 2u);
 }
 
-TEST_F(VolumeNetwork, lightThatFollowsIsThatOfAFrameOfItsOwn)
+TEST_P(NetworkPictures, lightThatFollowsIsThatOfAFrameOfItsOwn)
 {
     view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
     for (int i = 0; i < 12; ++i) {
@@ -141,7 +154,7 @@ TEST_F(VolumeNetwork, lightThatFollowsIsThatOfAFrameOfItsOwn)
     EXPECT_LT(difference / brightness(own), 0.02);
 }
 
-TEST_F(VolumeNetwork, automaticallyOnlyMediaThatGainFromItHaveOne)
+TEST_P(NetworkPictures, automaticallyOnlyMediaThatGainFromItHaveOne)
 {
     render::ViewSettings& settings = view_->settings();
     settings.lighting.sunIlluminance = glm::vec3(10000.0f);
@@ -169,7 +182,7 @@ TEST_F(VolumeNetwork, automaticallyOnlyMediaThatGainFromItHaveOne)
     EXPECT_GT(sweepsOf({dense}, false), 0u);
 }
 
-TEST_F(VolumeNetwork, withoutANetworkAutomaticPicturesAreThoseOfTheClosedForm)
+TEST_P(NetworkPictures, withoutANetworkAutomaticPicturesAreThoseOfTheClosedForm)
 {
     render::SliceSettings& slices = view_->settings().slices;
     view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
@@ -177,7 +190,8 @@ TEST_F(VolumeNetwork, withoutANetworkAutomaticPicturesAreThoseOfTheClosedForm)
     fire.emission = 50.0f;
     slices.automatic = true;
     const Picture automatic = drawn(snapshotOf({fire}));
-    EXPECT_EQ(std::ranges::count(view_->executedPasses(), std::string_view("glow source")), 2)
+    const bool hasGlow = GetParam() == render::Composition::Volume;
+    EXPECT_EQ(std::ranges::count(view_->executedPasses(), std::string_view("glow source")), hasGlow ? 2 : 0)
         << "with the light of fire in its grid";
     slices.network = false;
     EXPECT_EQ(maxDifference(automatic, drawn(snapshotOf({fire}))), 0.0);
@@ -186,7 +200,7 @@ TEST_F(VolumeNetwork, withoutANetworkAutomaticPicturesAreThoseOfTheClosedForm)
     EXPECT_GT(maxDifference(automatic, drawn(snapshotOf({fire}))), 0.0);
 }
 
-TEST_F(VolumeNetwork, smokeThatScattersForwardIsBrighterBeforeFireThanBehindIt)
+TEST_P(NetworkPictures, smokeThatScattersForwardIsBrighterBeforeFireThanBehindIt)
 {
     // Light of smoke beside the fire's disk, per scattering forward and backward.
     const auto besideFire = [&](float place, float anisotropy) {
@@ -195,10 +209,7 @@ TEST_F(VolumeNetwork, smokeThatScattersForwardIsBrighterBeforeFireThanBehindIt)
         TestBlob fire{{0.0f, 0.0f, place}, 0.3f, 1.0f};
         fire.emission = 100.0f;
         drawn(snapshotOf({}));
-        base::FrameSnapshot snapshot = snapshotOf({fire, smoke});
-        for (size_t g = 0; g < snapshot.groupCount(); ++g)
-            snapshot.editGroup(g).editConstants()[base::blob_constant::Anisotropy] = anisotropy;
-        const Picture picture = drawn(snapshot);
+        const Picture picture = drawn(withAnisotropy(snapshotOf({fire, smoke}), anisotropy));
         double sum = 0.0;
         for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) {
@@ -212,7 +223,7 @@ TEST_F(VolumeNetwork, smokeThatScattersForwardIsBrighterBeforeFireThanBehindIt)
     EXPECT_GT(forward, 1.5 * isotropic);
 }
 
-TEST_F(VolumeNetwork, aGridThatGrowsGoesOnFromItsLight)
+TEST_P(NetworkPictures, aGridThatGrowsGoesOnFromItsLight)
 {
     view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
     TestBlob dense{{0.0f, -0.8f, 0.0f}, 1.0f, 20.0f}, wisp{{0.0f, 1.6f, 0.0f}, 0.8f, 1e-3f};
@@ -228,7 +239,7 @@ TEST_F(VolumeNetwork, aGridThatGrowsGoesOnFromItsLight)
     EXPECT_NEAR(next / settled({dense, wisp}), 1.0, 0.05);
 }
 
-TEST_F(VolumeNetwork, mediaApartHaveTheLightThatTheyHaveAlone)
+TEST_P(NetworkPictures, mediaApartHaveTheLightThatTheyHaveAlone)
 {
     view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
     view_->settings().lighting.sunDirection = {0.0f, 1.0f, 0.0f};
@@ -253,7 +264,7 @@ TEST_F(VolumeNetwork, mediaApartHaveTheLightThatTheyHaveAlone)
     EXPECT_GT(brightness(one), 1.2 * brightness(other)) << "their light differs";
 }
 
-TEST_F(VolumeNetwork, fireInsideLightsTheMediumAroundIt)
+TEST_P(NetworkPictures, fireInsideLightsTheMediumAroundIt)
 {
     TestBlob fire = ball(2.0f, 0.0f);
     fire.radius = 0.5f;
@@ -263,4 +274,138 @@ TEST_F(VolumeNetwork, fireInsideLightsTheMediumAroundIt)
     const double inWhite = brightness(drawn(snapshotOf({fire, ball(3.0f, 0.95f)})));
     EXPECT_LT(inBlack, 0.7 * alone);
     EXPECT_GT(inWhite, 1.5 * inBlack) << "what the smoke takes from the fire, it shows";
+}
+
+/// Light that has been scattered through small angles alone is part of the beam: a medium that scatters
+/// forward shades itself by 1 - albedo f of its optical depth, f = (3 g - 1) / 2 for g 0.85.
+TEST_P(NetworkPictures, aBeamGoesOnAfterItHasBeenScatteredForward)
+{
+    constexpr double kAnisotropy = 0.85, kAlbedo = 0.9, kRadius = 1.5, kCrossSection = 11.0;
+    constexpr double kPi = 3.14159265358979;
+    const double depth = 3.5 / kPi * kCrossSection / (kRadius * kRadius); // through the middle
+    const double straight = 1.0 - kAlbedo * (1.5 * kAnisotropy - 0.5);
+    // Over the medium the integral of exp(-straight t) exp(-(depth - t)) dt: the light is behind the medium.
+    const double expected = (std::exp(-straight * depth) - std::exp(-depth)) / (1.0 - straight);
+    const double withoutPeak = depth * std::exp(-depth);
+    ASSERT_GT(expected, 5.0 * withoutPeak);
+    const double phase =
+        (1.0 - kAnisotropy * kAnisotropy) / (4.0 * kPi * std::pow(1.0 - kAnisotropy, 3.0)); // straight on
+    const auto lit = [&](float albedo) { // in the middle of the picture
+        TestBlob medium{{}, float(kRadius), float(kCrossSection)};
+        medium.albedo = albedo;
+        drawn(snapshotOf({}));
+        const Picture picture = drawn(withAnisotropy(snapshotOf({medium}), float(kAnisotropy)));
+        return double(picture.at(kWidth / 2, kHeight / 2)[0]);
+    };
+    view_->settings().lighting.sunDirection = {0.0f, 0.0f, -1.0f};
+    view_->settings().lighting.sunIlluminance = glm::vec3(1000.0f);
+    const double ofSun = lit(float(kAlbedo)) / (1000.0 * kAlbedo * phase / 1.2);
+    // The network adds what its two bands have of wider angles, a few per cent of this phase function.
+    EXPECT_GT(ofSun, 0.9 * expected);
+    EXPECT_LT(ofSun, 1.35 * expected);
+
+    view_->settings().lighting.sunIlluminance = glm::vec3(0.0f);
+    render::HostLights& host = view_->settings().hostLights;
+    host.lights[0].position = {0.0, 0.0, -12.0}; // 1000 lx in the middle of the medium
+    host.lights[0].intensity = glm::vec3(1000.0f * 12.0f * 12.0f);
+    host.lights[0].radius = 0.1f;
+    host.count = 1;
+    const double ofLamp = lit(float(kAlbedo)) / (1000.0 * kAlbedo * phase / 1.2);
+    EXPECT_GT(ofLamp, 0.6 * expected) << "nearer to the eye it is farther from the lamp";
+    EXPECT_LT(ofLamp, 1.5 * expected);
+}
+
+namespace {
+
+/// A lumpy cloud of balls of several sizes.
+std::vector<TestBlob> lumps(float albedo)
+{
+    std::vector<TestBlob> blobs;
+    for (int i = 0; i < 24; ++i) {
+        const float angle = 2.4f * float(i), height = -1.0f + 2.0f * (float(i) + 0.5f) / 24.0f;
+        const float across = 1.1f * std::sqrt(1.0f - height * height);
+        TestBlob blob{{across * std::cos(angle), 1.1f * height, across * std::sin(angle)},
+                      0.45f + 0.02f * float(i % 7),
+                      0.25f + 0.02f * float(i % 5)};
+        blob.albedo = albedo;
+        blobs.push_back(blob);
+    }
+    return blobs;
+}
+
+/// [1] Root mean square difference of two pictures relative to the root mean square of the second.
+double relativeDifference(const Picture& a, const Picture& b)
+{
+    double squares = 0.0, all = 0.0;
+    for (size_t i = 0; i < b.texels.size(); i += 4) {
+        const double difference = double(a.texels[i]) - double(b.texels[i]);
+        squares += difference * difference;
+        all += double(b.texels[i]) * double(b.texels[i]);
+    }
+    return std::sqrt(squares / all);
+}
+
+} // namespace
+
+using NetworkOfSlabs = NetworkPictures;
+INSTANTIATE_TEST_SUITE_P(, NetworkOfSlabs, testing::Values(render::Composition::Slabs),
+                         [](const auto&) { return "slabs"; });
+
+TEST_P(NetworkOfSlabs, hasTheLightOfVoxels)
+{
+    render::ViewSettings& settings = view_->settings();
+    settings.lighting.sunIlluminance = glm::vec3(10000.0f);
+    settings.lighting.skyLuminance = glm::vec3(1000.0f);
+    settings.lighting.groundAlbedo = 0.3f;
+    const auto pictured = [&](render::Composition composition, bool network, float anisotropy) {
+        settings.composition = composition;
+        settings.slices.network = network;
+        drawn(snapshotOf({}));
+        return drawn(withAnisotropy(snapshotOf(lumps(0.95f)), anisotropy));
+    };
+    for (const glm::vec3& sun :
+         {glm::vec3(0.0f, 0.6f, 0.8f), glm::vec3(0.8f, 0.6f, 0.0f), glm::vec3(0.6f, 0.0f, -0.8f)})
+        for (const float anisotropy : {0.0f, 0.5f}) {
+            settings.lighting.sunDirection = sun;
+            const Picture voxels = pictured(render::Composition::Volume, true, anisotropy);
+            const Picture slabs = pictured(render::Composition::Slabs, true, anisotropy);
+            const double formula =
+                relativeDifference(pictured(render::Composition::Slabs, false, anisotropy), voxels);
+            EXPECT_LT(relativeDifference(slabs, voxels), 0.04) << sun.x << " " << anisotropy;
+            EXPECT_GT(formula, 2.0 * relativeDifference(slabs, voxels)) << "the closed form is another light";
+            EXPECT_NEAR(brightness(slabs) / brightness(voxels), 1.0, 0.02);
+        }
+}
+
+TEST_P(NetworkOfSlabs, withoutANetworkHasNoFields)
+{
+    view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
+    const auto fieldPasses = [&] {
+        return std::ranges::count_if(view_->executedPasses(), [](std::string_view name) {
+            return name.starts_with("field") || name.starts_with("network") || name.starts_with("glow");
+        });
+    };
+    view_->settings().slices.network = false;
+    const Picture before = drawn(snapshotOf(lumps(0.9f)));
+    EXPECT_EQ(fieldPasses(), 0);
+    view_->settings().slices.network = true;
+    drawn(snapshotOf(lumps(0.9f)));
+    EXPECT_GT(fieldPasses(), 0);
+    view_->settings().slices.network = false;
+    EXPECT_EQ(maxDifference(before, drawn(snapshotOf(lumps(0.9f)))), 0.0) << "and nothing of it is left";
+    EXPECT_EQ(fieldPasses(), 0);
+}
+
+TEST_P(NetworkOfSlabs, followsTheEyeAndLayersHaveItsLight)
+{
+    render::ViewSettings& settings = view_->settings();
+    settings.lighting.sunIlluminance = glm::vec3(10000.0f);
+    settings.slabs = 6;
+    const Picture six = drawn(snapshotOf(lumps(0.9f)));
+    settings.slabs = 16;
+    const Picture sixteen = drawn(snapshotOf(lumps(0.9f)));
+    EXPECT_LT(relativeDifference(six, sixteen), 0.06);
+    settings.layerOutputs = true;
+    const Picture layered = drawn(snapshotOf(lumps(0.9f)));
+    EXPECT_LT(relativeDifference(layered, sixteen), 0.02);
 }

@@ -1,4 +1,4 @@
-/// @file volume_network.h
+/// @file view_network.h
 /// State of a view whose fields have illumination networks: the grids of the networks, and their light on
 /// the GPU.
 #pragma once
@@ -19,10 +19,10 @@ namespace fx::render {
 /// The iteration of a frame starts from the light of the previous frame. Each frame runs kSweeps iterations
 /// ("sweeps") until kSettledSweeps sweeps have run after the last change of media or lights. GPU resources
 /// are created when the settings of a view first request networks. Threads: [GL thread].
-class VolumeNetwork
+class ViewNetwork
 {
 public:
-    VolumeNetwork(GlDevice& device, std::pmr::memory_resource* memory)
+    ViewNetwork(GlDevice& device, std::pmr::memory_resource* memory)
         : device_(device), grids_(memory), known_(memory), now_(memory)
     {}
 
@@ -42,6 +42,7 @@ public:
     /// Moments of the light in this frame; invalid without grids.
     ResourceId moments() const { return textures_.moments; }
     ResourceId buffer() const { return gridsId_; } ///< buffer of FieldGlowBlock
+    int gridCount() const { return int(grids_.size()); }
     void release();
     uint64_t bytes() const;
 

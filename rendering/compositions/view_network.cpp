@@ -1,4 +1,4 @@
-#include "rendering/compositions/volume/volume_network.h"
+#include "rendering/compositions/view_network.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -31,7 +31,7 @@ constexpr int64_t kMostSpare = 4; ///< most texels of a block, in units of those
 
 } // namespace
 
-base::Status VolumeNetwork::makeRoom(std::span<const FieldGlowBlock> grids, const glm::dvec3& eye)
+base::Status ViewNetwork::makeRoom(std::span<const FieldGlowBlock> grids, const glm::dvec3& eye)
 {
     outgrown_ = {};
     grids_.assign(grids.begin(), grids.end());
@@ -49,7 +49,7 @@ base::Status VolumeNetwork::makeRoom(std::span<const FieldGlowBlock> grids, cons
 }
 
 /// Light goes on in the grid whose middle is in the new one.
-void VolumeNetwork::matchGrids(const glm::dvec3& eye)
+void ViewNetwork::matchGrids(const glm::dvec3& eye)
 {
     now_.clear();
     for (FieldGlowBlock& grid : grids_) {
@@ -72,7 +72,7 @@ void VolumeNetwork::matchGrids(const glm::dvec3& eye)
 
 /// Blocks do not shrink while grids take a quarter of them, so that a grid that grows and shrinks does not
 /// create textures in each frame.
-base::Status VolumeNetwork::makeTextures(const glm::ivec3& extent)
+base::Status ViewNetwork::makeTextures(const glm::ivec3& extent)
 {
     const glm::ivec3 wide = glm::max(block_, extent);
     const auto texels = [](const glm::ivec3& size) { return int64_t(size.x) * size.y * size.z; };
@@ -95,7 +95,7 @@ base::Status VolumeNetwork::makeTextures(const glm::ivec3& extent)
     return {};
 }
 
-void VolumeNetwork::importAll(FrameGraph& graph)
+void ViewNetwork::importAll(FrameGraph& graph)
 {
     textures_ = {};
     gridsId_ = {};
@@ -116,8 +116,8 @@ void VolumeNetwork::importAll(FrameGraph& graph)
                                                  outgrown_.name());
 }
 
-void VolumeNetwork::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const LightBindings& lights,
-                              bool isKept)
+void ViewNetwork::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const LightBindings& lights,
+                            bool isKept)
 {
     if (grids_.empty())
         return;
@@ -154,7 +154,7 @@ void VolumeNetwork::addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, const
             .textures;
 }
 
-void VolumeNetwork::release()
+void ViewNetwork::release()
 {
     volumes_ = {};
     outgrown_ = {};
@@ -164,7 +164,7 @@ void VolumeNetwork::release()
     known_.clear();
 }
 
-uint64_t VolumeNetwork::bytes() const
+uint64_t ViewNetwork::bytes() const
 {
     uint64_t sum = buffer_.bytes() + (outgrown_.name() != 0 ? outgrown_.bytes() : 0);
     for (const GlTexture& volume : volumes_)
