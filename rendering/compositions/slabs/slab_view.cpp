@@ -92,7 +92,7 @@ void SlabView::endFrame(bool)
     unused_ = details_.empty() ? unused_ + 1 : 0;
     if (unused_ == kIdleFrames)
         lumpTile_.release();
-    networkUnused_ = network_.isEmpty() ? networkUnused_ + 1 : 0;
+    networkUnused_ = fields_.networks().empty() ? networkUnused_ + 1 : 0;
     if (networkUnused_ == kIdleFrames) {
         fields_.release();
         network_.release();
