@@ -3,6 +3,7 @@
 #include "fxsdk/presets/clouds/clouds_technique.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "fxsdk/presets/fragments/fragments_technique.h"
+#include "fxsdk/presets/volumes/volumes_technique.h"
 #if FXSDK_WITH_SPH
 #include "fxsdk/presets/gas/gas_technique.h"
 #endif
@@ -15,12 +16,11 @@ namespace {
 
 /// Emitters are first: their rules name solvers by their place among the emitters.
 constexpr Technique kTechniques[] = {
-    kEmitterTechnique,
-    kFragmentsTechnique,
+    kEmitterTechnique, kFragmentsTechnique,
 #if FXSDK_WITH_SPH
     kGasTechnique,
 #endif
-    kCloudsTechnique,
+    kCloudsTechnique,  kVolumesTechnique,
 };
 
 #if !FXSDK_WITH_SPH

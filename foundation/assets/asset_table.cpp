@@ -52,6 +52,12 @@ const MeshAsset* AssetTable::mesh(AssetId id) const
     return found ? found->mesh.get() : nullptr;
 }
 
+std::shared_ptr<const VoxelVolume> AssetTable::volume(AssetId id) const
+{
+    const Entry* found = entry(id);
+    return found ? found->volume : nullptr;
+}
+
 /// Id of the entry of that hash for which `same` holds; 0 for none. The caller holds the lock.
 template <class Same>
 AssetId AssetTable::find(uint64_t hash, const Same& same) const
@@ -66,8 +72,9 @@ AssetId AssetTable::find(uint64_t hash, const Same& same) const
 Result<AssetId> AssetTable::publish(Entry entry, uint64_t bytes)
 {
     if (owned_.size() == kMaxAssets)
-        return Status(Code::Capacity, "assets: " + std::to_string(kMaxAssets) +
-                                          " images and meshes are loaded already; use fewer different ones");
+        return Status(Code::Capacity,
+                      "assets: " + std::to_string(kMaxAssets) +
+                          " images, meshes and volumes are loaded already; use fewer different ones");
     owned_.push_back(std::make_unique<Entry>(std::move(entry)));
     const auto id = AssetId(owned_.size());
     byId_[id - 1].store(owned_.back().get(), std::memory_order_release);
@@ -121,6 +128,18 @@ Result<AssetId> AssetTable::addMesh(std::span<const MeshVertex> vertices, std::s
         MeshAsset{std::pmr::vector<MeshVertex>(vertices.begin(), vertices.end(), memory_),
                   std::pmr::vector<uint32_t>(indices.begin(), indices.end(), memory_), reach});
     return publish(std::move(entry), vertices.size_bytes() + indices.size_bytes());
+}
+
+Result<AssetId> AssetTable::addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash)
+{
+    const std::scoped_lock lock(adding_);
+    if (const AssetId known = find(hash, [](const Entry& e) { return e.volume != nullptr; }))
+        return known;
+    const uint64_t bytes = volume->bytes();
+    Entry entry;
+    entry.hash = hash;
+    entry.volume = std::move(volume);
+    return publish(std::move(entry), bytes);
 }
 
 } // namespace fx::base

@@ -1,12 +1,13 @@
 /// @file asset_table.h
-/// Assets (images and meshes) by id. Presets name assets, particles store their ids, and views draw the
-/// assets.
+/// Assets (images, meshes and volumes) by id. Presets name assets, particles store their ids, and views draw
+/// the assets.
 ///
 /// Assets never change and live as long as their table. Equal content gets the same id, so a texture that a
 /// hundred presets use is stored once. Threads: any thread may add and read. A mutex serializes additions;
 /// reading takes no lock.
 #pragma once
 
+#include "foundation/assets/voxel_volume.h"
 #include "foundation/result/status.h"
 
 #include <glm/vec2.hpp>
@@ -69,14 +70,19 @@ public:
     /// @return the id; InvalidArgument without a triangle, with an index that is too large or with a value
     ///         that is not finite; Capacity if the table is full
     Result<AssetId> addMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t> indices);
+    /// Adds a volume. If the table already has a volume with this hash, its id is returned.
+    /// @param hash hash of the content  @return the id; Capacity if the table is full
+    Result<AssetId> addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash);
 
-    /// The image (or mesh) of `id`; null if this table has no image (or mesh) with this id.
+    /// The image (or mesh, or volume) of `id`; null if this table has no image (or mesh, or volume) with this
+    /// id.
     const ImageAsset* image(AssetId id) const;
     const MeshAsset* mesh(AssetId id) const;
+    std::shared_ptr<const VoxelVolume> volume(AssetId id) const;
 
     /// Number of assets; their ids are 1 to size().
     uint32_t size() const { return size_.load(std::memory_order_acquire); }
-    /// [byte] size of all images and meshes
+    /// [byte] size of all images, meshes and volumes
     uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
 private:
@@ -85,6 +91,7 @@ private:
         uint64_t hash = 0;
         std::unique_ptr<ImageAsset> image;
         std::unique_ptr<MeshAsset> mesh;
+        std::shared_ptr<const VoxelVolume> volume;
     };
 
     const Entry* entry(AssetId id) const;

@@ -19,6 +19,14 @@ inline uint32_t toHalf(float x)
     return (bits - (112u << 23) + 0xFFFu + ((bits >> 13) & 1u)) >> 13;
 }
 
+/// The value of a half float that is not negative. Infinities and NaN give values of 65536 and more.
+inline float fromHalf(uint32_t half)
+{
+    if (half < 0x400u)
+        return float(half) * 0x1p-24f; // exact: subnormal
+    return std::bit_cast<float>((half << 13) + (112u << 23));
+}
+
 /// Packs a value of the column "color": red is in the lowest 16 bits, then green, blue and opacity.
 inline uint64_t packHalfs(float red, float green, float blue, float opacity)
 {

@@ -3,6 +3,7 @@
 #include "foundation/math/hash.h"
 #include "fxsdk/assets/obj_reader.h"
 #include "fxsdk/assets/png_reader.h"
+#include "fxsdk/assets/volume_file.h"
 
 #include <glm/geometric.hpp>
 
@@ -114,6 +115,18 @@ base::Result<base::AssetId> AssetLoader::mesh(std::string_view name, std::string
         return id;
     outWarning = id.status().message() + "; a tetrahedron stands in";
     return placeholderMesh(table_);
+}
+
+base::Result<base::AssetId> AssetLoader::volume(std::string_view name)
+{
+    const base::Result<std::string> bytes = read(name, kMaxVolumeFileBytes);
+    if (!bytes)
+        return bytes.status();
+    base::Result<base::VoxelVolume> volume = parseVolume(*bytes);
+    if (!volume)
+        return inAsset(name, volume.status());
+    return table_.addVolume(std::make_shared<const base::VoxelVolume>(std::move(*volume)),
+                            base::hashBytes(2, bytes->data(), bytes->size()));
 }
 
 } // namespace fx::asset

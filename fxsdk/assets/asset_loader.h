@@ -1,6 +1,6 @@
 /// @file asset_loader.h
-/// Loads the images and meshes that one document names, and returns their ids in the asset table. Presets
-/// access files only through this class.
+/// Loads the images, meshes and volumes that one document names, and returns their ids in the asset table.
+/// Presets access files only through this class.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -54,6 +54,9 @@ public:
     base::Result<base::AssetId> image(std::string_view name, ImageUse use, int columns, int rows,
                                       std::string& outWarning);
     base::Result<base::AssetId> mesh(std::string_view name, std::string& outWarning);
+    /// Loads a volume (volume_file.h). A missing or damaged volume is always an error, because no other
+    /// medium could stand in.
+    base::Result<base::AssetId> volume(std::string_view name);
 
 private:
     base::Result<base::AssetId> readImage(std::string_view name, ImageUse use, int columns, int rows);

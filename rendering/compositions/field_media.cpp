@@ -1,9 +1,12 @@
 #include "rendering/compositions/field_media.h"
 
 #include "rendering/field/field_fill_pass.h"
+#include "rendering/field/field_volume_pass.h"
+#include "rendering/frame/exposure.h"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace fx::render {
 
@@ -35,7 +38,9 @@ int networkCellsOf(const ViewSettings& settings)
 } // namespace
 
 FieldMedia::FieldMedia(const TechniqueSetup& setup, Use use)
-    : device_(*setup.device), plan_(setup.memory), texelList_(setup.memory), details_(setup.memory), use_(use)
+    : device_(*setup.device), plan_(setup.memory), texelList_(setup.memory), details_(setup.memory),
+      voxels_(*setup.device, setup.memory), effects_(setup.memory), groupVolumes_(setup.memory),
+      fieldVolumes_(setup.memory), use_(use)
 {}
 
 bool FieldMedia::asksForNetworks(const ViewSettings& settings)
@@ -54,12 +59,35 @@ void FieldMedia::build(const GatherInputs& in, const GatheredFrame& from)
     for (const GroupDetail& detail : from.details)
         details_.push_back(detailBlock(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : from.materials;
-    blobs_ = details_.empty() || !isShown ? std::span<const BlobInstance>() : from.blobs;
+    gatherVolumes(in, from);
+    const bool isFilledEarly = isShown && (!details_.empty() || !groupVolumes_.empty());
+    blobs_ = isFilledEarly ? from.blobs : std::span<const BlobInstance>();
     networkCells_ = networkCellsOf(*in.settings);
-    plan_.build({from.blobs, from.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
-                 in.settings->slices.multiple, networkCells_, in.settings->slices.automatic});
+    plan_.build({from.blobs, effects_, in.camera, targets.width, targets.height, in.settings->voxels, 0,
+                 in.settings->slices.multiple, networkCells_, in.settings->slices.automatic, fieldVolumes_});
     networkCells_ = plan_.hasNetworks() ? networkCells_ : 0;
     texelList_.build(plan_, details_);
+}
+
+/// Effects whose volume is not in the asset table are drawn as their balls.
+void FieldMedia::gatherVolumes(const GatherInputs& in, const GatheredFrame& from)
+{
+    exposure_ = exposureFromEv100(in.settings->exposureEv100);
+    effects_.assign(from.effects.begin(), from.effects.end());
+    groupVolumes_.clear();
+    fieldVolumes_.clear();
+    for (BlobEffect& effect : effects_) {
+        if (effect.volume < 0)
+            continue;
+        const GroupVolume& volume = from.volumes[size_t(effect.volume)];
+        const MediumVolume* const medium = voxels_.find(in.assets, volume.asset);
+        effect.volume = medium ? int(groupVolumes_.size()) : -1;
+        if (!medium)
+            continue;
+        groupVolumes_.push_back(volume);
+        fieldVolumes_.push_back({volume.origin(), volume.side, volume.isAligned,
+                                 float(double(medium->largest()) * volume.density)});
+    }
 }
 
 std::array<std::span<const std::byte>, FieldMedia::Lists> FieldMedia::contents() const
@@ -85,6 +113,9 @@ base::Status FieldMedia::makeRoom()
             !status)
             return status;
     base::Status status;
+    for (const PlacedVolume& placed : plan_.volumes())
+        if (status)
+            status = voxels_.makeRoom(groupVolumes_[placed.volume].asset, placed.level);
     for (size_t i = 0; status && i < textures_.size(); ++i)
         if (isUsed(i))
             status = makeTexture(i);
@@ -121,7 +152,9 @@ base::Status FieldMedia::makeTexels(GlTexture& io, size_t count, int columns, Fo
 /// Whether a texture is needed.
 bool FieldMedia::isUsed(size_t texture) const
 {
-    return texture < 2 || (texture == 2 ? layers_ : !details_.empty());
+    constexpr size_t kChange = 5;
+    return texture < 2 || (texture == 2 ? layers_ : !details_.empty()) ||
+           (texture == kChange && !plan_.volumes().empty());
 }
 
 /// A half more than is needed when it grows, so that it does not grow in each frame.
@@ -189,6 +222,37 @@ void FieldMedia::fill(FrameGraph& graph, ResourceId blobs)
         FieldFillPass::addTo(graph, {blobs, fieldTexels_, ids_[Bricks], ids_[Balls], texturesIds_,
                                      uint32_t(plan_.bricks().size()), ids_[Materials], lumpTileId_})
             .textures;
+    fillVolumes(graph, blobs);
+}
+
+void FieldMedia::fillVolumes(FrameGraph& graph, ResourceId blobs)
+{
+    for (const PlacedVolume& placed : plan_.volumes()) {
+        if (placed.brickCount == 0)
+            continue;
+        const GroupVolume& volume = groupVolumes_[placed.volume];
+        FieldVolumePass::Inputs in{};
+        in.balls = blobs;
+        in.fieldTexels = fieldTexels_;
+        in.bricks = ids_[Bricks];
+        in.brickBalls = ids_[Balls];
+        in.textures = texturesIds_;
+        in.brickCount = placed.brickCount;
+        in.block.low.w = int(placed.firstBrick);
+        const double perLevel = std::ldexp(1.0, -placed.level);
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column)
+                in.block.rows[row][column] = float(volume.toVoxels[column][row] * perLevel);
+            in.block.rows[row].w = float(volume.first[row] * perLevel);
+        }
+        const double light = double(voxels_.brightest(volume.asset, placed.level)) * double(exposure_);
+        const bool isFire = volume.layer == 0, isDust = volume.layer == 2;
+        const float fire = isFire ? 1.0f : volume.fireShare;
+        in.block.factors = {float(volume.density), float(volume.density * light), volume.anisotropy, 0.0f};
+        in.block.share = {fire, isDust ? 1.0f - fire : 0.0f, isFire ? 1.0f : 0.0f, isDust ? 1.0f : 0.0f};
+        voxels_.import(graph, volume.asset, placed.level, in);
+        texturesIds_ = FieldVolumePass::addTo(graph, in).textures;
+    }
 }
 
 FieldGlowPass::Inputs FieldMedia::sources() const
@@ -211,11 +275,12 @@ void FieldMedia::release()
     texelTexture_ = {};
     table_ = {};
     lumpTile_.release();
+    voxels_.release();
 }
 
 uint64_t FieldMedia::bytes() const
 {
-    uint64_t sum = lumpTile_.bytes();
+    uint64_t sum = lumpTile_.bytes() + voxels_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
     const auto add = [&](const GlTexture& texture) { sum += texture.name() != 0 ? texture.bytes() : 0; };

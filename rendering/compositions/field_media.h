@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rendering/compositions/detail_resources.h"
+#include "rendering/compositions/volume_voxels.h"
 #include "rendering/field/field_glow_pass.h"
 #include "rendering/field/field_plan.h"
 #include "rendering/field/field_texels.h"
@@ -30,7 +31,8 @@ public:
         Texels,
         Tiles,
         Materials, ///< empty if no field has detail
-        /// Balls, for fields that are filled before PassFrame::blobs is set; empty if no field has detail.
+        /// Balls, for fields that are filled before PassFrame::blobs is set; empty if no field has detail
+        /// or is that of a volume.
         Blobs,
         Stacks,     ///< SliceStackBlocks of the lights
         NearBricks, ///< empty if no ball is near the eye
@@ -66,6 +68,8 @@ public:
     const FieldPlan& plan() const { return plan_; }
     bool isEmpty() const { return plan_.isEmpty(); }
     bool hasDetail() const { return !details_.empty(); }
+    /// True if samples differ from the smooth balls that light slices contain.
+    bool differsFromBalls() const { return hasDetail() || !plan_.volumes().empty(); }
     /// As FieldPlanInputs::networkCells in this frame; 0: no networks.
     int networkCells() const { return networkCells_; }
     /// Grids of illumination networks; empty if there are none.
@@ -93,6 +97,8 @@ public:
     uint64_t bytes() const;
 
 private:
+    void gatherVolumes(const GatherInputs& in, const GatheredFrame& from);
+    void fillVolumes(FrameGraph& graph, ResourceId blobs);
     std::array<std::span<const std::byte>, Lists> contents() const;
     bool isUsed(size_t texture) const;
     base::Status makeTexture(size_t i);
@@ -103,7 +109,12 @@ private:
     FieldTexels texelList_;
     std::pmr::vector<FieldDetailBlock> details_;
     std::span<const BlobMaterial> materials_; ///< materials of the balls in this frame
-    std::span<const BlobInstance> blobs_;     ///< balls of this frame; empty if none has detail
+    std::span<const BlobInstance> blobs_; ///< balls of this frame; empty if none has detail or is a volume's
+    VolumeVoxels voxels_;
+    std::pmr::vector<BlobEffect> effects_;       ///< effects of this frame
+    std::pmr::vector<GroupVolume> groupVolumes_; ///< volumes of this frame, by BlobEffect::volume
+    std::pmr::vector<FieldVolume> fieldVolumes_; ///< the same for FieldPlan
+    float exposure_ = 1.0f;                      ///< [m2/cd] exposed value per luminance
     std::span<const std::byte> stacks_;
     int networkCells_ = 0;
     bool layers_ = false; ///< true: the frame has layer outputs

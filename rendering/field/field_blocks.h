@@ -24,8 +24,9 @@ struct FieldBlock
     glm::vec4 corner; ///< xyz position of the first sample relative to the eye [m]; w side of a voxel [m]
     /// xyz number of bricks along each axis; w index of the field's first entry in the table of bricks.
     glm::ivec4 bricks;
-    /// x least radius of a ball [m]; y upper bound of the extinction [1/m]; z index of the field's detail +
-    /// 1, 0: no detail; w index of the field's FieldGlowBlock + 1, 0: no grid
+    /// x least radius of a ball [m]; below 0: the field is filled from a volume, and -x is the radius of the
+    /// balls that stand for the volume in the light slices; y upper bound of the extinction [1/m]; z index of
+    /// the field's detail + 1, 0: no detail; w index of the field's FieldGlowBlock + 1, 0: no grid
     glm::vec4 limits;
 };
 static_assert(sizeof(FieldBlock) == 48);

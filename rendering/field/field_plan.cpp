@@ -28,6 +28,9 @@ constexpr int kMaxTries = 64;              ///< to keep the budget of bricks
 constexpr int kSmoothFirst = 8;            ///< of them, in which fields with detail stay as fine
 constexpr float kMinVoxel = 1e-4f;         ///< [m]
 constexpr float kTouch = 1.0001f;          ///< radii are compared with a margin, for what the GPU rounds
+constexpr float kWithinBrick = 0.1f;       ///< [voxel] from the middle of a brick
+constexpr float kCoarseReach = 1.5f;       ///< [voxel] that coarser voxels reach beyond finer ones
+constexpr float kCasterVoxels = 4.0f;      ///< radius of a caster, see gatherBlobs(), in voxels of its volume
 constexpr uint32_t kUnseen = ~0u;          ///< entry of the table: medium that no ray meets
 
 const float kStep = std::exp2(0.25f); ///< between the sides of voxels
@@ -55,11 +58,12 @@ struct BrickRange
     glm::vec3 center; ///< in bricks
     float radius;     ///< in bricks
 
-    BrickRange(const FieldBlock& field, const BlobInstance& ball)
+    /// @param reach [m] radius of the ball with its margin
+    BrickRange(const FieldBlock& field, const BlobInstance& ball, float reach)
     {
         const float side = field.corner.w * float(kBrickCells);
         center = (glm::vec3(ball.centerRadius) - glm::vec3(field.corner)) / side;
-        radius = std::max(ball.centerRadius.w, field.limits.x) * kTouch / side;
+        radius = reach / side;
         const glm::ivec3 end = glm::ivec3(field.bricks) - 1;
         first = glm::clamp(glm::ivec3(glm::floor(center - radius)), glm::ivec3(0), end);
         last = glm::clamp(glm::ivec3(glm::floor(center + radius)), glm::ivec3(0), end);
@@ -88,8 +92,8 @@ struct BrickRange
 
 FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
     : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
-      peaks_(memory), emitted_(memory), media_(memory), glow_(memory), near_(memory), stamps_(memory),
-      seen_(memory), tiles_(memory), tileFields_(memory)
+      volumes_(memory), peaks_(memory), emitted_(memory), media_(memory), glow_(memory), near_(memory),
+      stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
 {}
 
 void FieldPlan::clear()
@@ -100,6 +104,7 @@ void FieldPlan::clear()
     table_.clear();
     balls_.clear();
     loose_.clear();
+    volumes_.clear();
     tiles_.clear();
     tileFields_.clear();
     glow_.clear();
@@ -119,6 +124,7 @@ void FieldPlan::build(const FieldPlanInputs& in)
     for (int i = 0; i < kMaxTries && !place(in); ++i)
         enlargeVoxels(in, isMixed && i < kSmoothFirst);
     listBricks();
+    listVolumes(in);
     listBalls(in);
     listNear(in);
     listTiles(in);
@@ -140,15 +146,48 @@ void FieldPlan::buildGlow(const FieldPlanInputs& in)
 void FieldPlan::enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly)
 {
     for (size_t i = 0; i < lattices_.size(); ++i)
-        if (!smoothOnly || in.effects[i].detail < 0)
-            lattices_[i].voxel *= kStep;
+        if ((in.effects[i].volume < 0 ? isOverBalls_ : isOverVolumes_) &&
+            (!smoothOnly || in.effects[i].detail < 0))
+            enlarge(lattices_[i], in.effects[i], in);
+}
+
+void FieldPlan::enlarge(Lattice& lattice, const BlobEffect& effect, const FieldPlanInputs& in)
+{
+    if (effect.volume < 0) {
+        lattice.voxel *= kStep;
+        return;
+    }
+    lattice.wanted *= kStep;
+    chooseLevel(lattice, in.volumes[size_t(effect.volume)]);
+}
+
+/// The level whose voxels are nearest to the wanted side, or finer.
+void FieldPlan::chooseLevel(Lattice& lattice, const FieldVolume& volume)
+{
+    const float side = float(volume.side);
+    lattice.level = std::max(int(std::floor(std::log2(lattice.wanted / side) + 0.5f)), 0);
+    lattice.voxel = std::ldexp(side, lattice.level);
+}
+
+/// [m] How far from the center of a ball there may be medium in the voxels, with a margin. Around the center
+/// of a brick of a volume in the axes of the world, only this brick is wanted.
+float FieldPlan::reachOf(const BlobInstance& ball, const BlobEffect& effect, const Lattice& lattice,
+                         const FieldPlanInputs& in)
+{
+    if (effect.volume < 0)
+        return std::max(ball.centerRadius.w, leastRadius(lattice.voxel)) * kTouch;
+    const FieldVolume& volume = in.volumes[size_t(effect.volume)];
+    if (volume.isAligned && lattice.level == 0)
+        return kWithinBrick * lattice.voxel;
+    const float wider = lattice.level == 0 ? 0.0f : kCoarseReach * lattice.voxel;
+    return brickReach(float(volume.side)) * kTouch + wider;
 }
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
 {
     const bool isFire = ball.layer.x < 2.0f;
-    return ball.centerRadius.w <
-           std::max(kLooseShare * effect.radius, (isFire ? kLooseFire : kLooseVoxels) * voxel);
+    return effect.volume < 0 && ball.centerRadius.w < std::max(kLooseShare * effect.radius,
+                                                               (isFire ? kLooseFire : kLooseVoxels) * voxel);
 }
 
 /// From the whole effect, so that voxels stay as large when the view turns.
@@ -162,6 +201,12 @@ void FieldPlan::chooseVoxels(const FieldPlanInputs& in)
         const BlobEffect& effect = in.effects[i];
         const float depth = camera.orthographic ? 1.0f : distanceToBox(effect.low, effect.high);
         const float pixel = depth / pixelsPerSlope; // [m]
+        if (effect.volume >= 0) {
+            const FieldVolume& volume = in.volumes[size_t(effect.volume)];
+            lattices_[i].wanted = std::max({float(volume.side), kPixelsPerVoxel * pixel, kMinVoxel});
+            chooseLevel(lattices_[i], volume);
+            continue;
+        }
         lattices_[i].voxel =
             quantized(std::max({effect.radius / perRadius, kPixelsPerVoxel * pixel, kMinVoxel}));
     }
@@ -176,26 +221,29 @@ void FieldPlan::bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEff
         if (isLoose(in.balls[ball], effect, lattice.voxel))
             continue;
         const glm::vec4& place = in.balls[ball].centerRadius;
-        const float radius = std::max(place.w, leastRadius(lattice.voxel)) * kTouch;
+        const float radius = reachOf(in.balls[ball], effect, lattice, in);
         lattice.low = glm::min(lattice.low, glm::vec3(place) - radius);
         lattice.high = glm::max(lattice.high, glm::vec3(place) + radius);
     }
 }
 
 /// The box of bricks of one field.  @return false: it has too many
-bool FieldPlan::placeField(Lattice& lattice, int detail, const CameraGeometry& camera)
+bool FieldPlan::placeField(Lattice& lattice, const BlobEffect& effect, const FieldPlanInputs& in)
 {
     const double side = double(lattice.voxel) * kBrickCells;
+    const FieldVolume* const volume = effect.volume >= 0 ? &in.volumes[size_t(effect.volume)] : nullptr;
+    // relative to the eye; its own lattice moves with a volume
+    const glm::dvec3 anchor = volume && volume->isAligned ? volume->origin : -in.camera->eye;
     FieldBlock field{};
     glm::dvec3 corner;
     int64_t count = 1;
     for (int a = 0; a < 3; ++a) {
-        const double first = std::floor((camera.eye[a] + double(lattice.low[a])) / side);
-        const double last = std::floor((camera.eye[a] + double(lattice.high[a])) / side);
+        const double first = std::floor((double(lattice.low[a]) - anchor[a]) / side);
+        const double last = std::floor((double(lattice.high[a]) - anchor[a]) / side);
         if (last - first >= double(kMaxBricksPerAxis))
             return false;
         field.bricks[a] = int(last - first) + 1;
-        corner[a] = first * side - camera.eye[a];
+        corner[a] = first * side + anchor[a];
         count *= field.bricks[a];
     }
     if (count > kMaxBoxBricks)
@@ -203,7 +251,11 @@ bool FieldPlan::placeField(Lattice& lattice, int detail, const CameraGeometry& c
     field.corner = glm::vec4(glm::vec3(corner), lattice.voxel);
     field.bricks.w = int(table_.size());
     field.limits.x = leastRadius(lattice.voxel);
-    field.limits.z = float(detail + 1);
+    if (volume) {
+        field.limits.x = -std::max(kCasterVoxels * float(volume->side), leastRadius(lattice.voxel));
+        field.limits.y = volume->largest;
+    }
+    field.limits.z = float(effect.detail + 1);
     base::reserveAmortized(table_, table_.size() + size_t(count));
     table_.resize(table_.size() + size_t(count), 0u);
     lattice.field = uint32_t(fields_.size());
@@ -218,32 +270,30 @@ bool FieldPlan::place(const FieldPlanInputs& in)
     for (size_t i = 0; i < lattices_.size(); ++i) {
         Lattice& lattice = lattices_[i];
         bound(lattice, in, in.effects[i]);
-        for (int k = 0;
-             k < kMaxTries && lattice.hasBalls() && !placeField(lattice, in.effects[i].detail, *in.camera);
-             ++k)
-        {
-            lattice.voxel *= kStep; // a wide effect
+        for (int k = 0; k < kMaxTries && lattice.hasBalls() && !placeField(lattice, in.effects[i], in); ++k) {
+            enlarge(lattice, in.effects[i], in); // a wide effect
             bound(lattice, in, in.effects[i]);
         }
     }
-    const uint32_t across = uint32_t(std::clamp(in.resolution, kMinVoxels, kMaxVoxels) / kBrickCells);
-    return countBalls(in) <= (in.mostBricks > 0 ? in.mostBricks : across * across * across);
+    return countBalls(in);
 }
 
 /// Counts the balls of each brick in the table, and leaves out bricks that are not in the view.
-/// @return bricks
-uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
+/// @return false if there are more bricks than the budgets allow
+bool FieldPlan::countBalls(const FieldPlanInputs& in)
 {
     for (size_t e = 0; e < in.effects.size(); ++e)
         for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
             if (isLoose(in.balls[i], in.effects[e], lattices_[e].voxel))
                 continue;
             const FieldBlock& field = fields_[lattices_[e].field];
-            BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) { ++table_[index]; });
+            BrickRange(field, in.balls[i], reachOf(in.balls[i], in.effects[e], lattices_[e], in))
+                .forEach(field, [&](size_t index) { ++table_[index]; });
         }
     const ViewVolume volume(*in.camera);
-    uint32_t bricks = 0;
+    uint32_t bricks = 0, ofVolumes = 0;
     for (const FieldBlock& field : fields_) {
+        uint32_t& counted = field.limits.x < 0.0f ? ofVolumes : bricks;
         const float side = field.corner.w * float(kBrickCells);
         size_t index = size_t(field.bricks.w);
         for (int z = 0; z < field.bricks.z; ++z)
@@ -253,12 +303,16 @@ uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
                         continue;
                     const glm::vec3 middle = glm::vec3(field.corner) + side * (glm::vec3(x, y, z) + 0.5f);
                     if (volume.touches(middle, brickReach(field.corner.w)))
-                        ++bricks;
+                        ++counted;
                     else
                         table_[index] = kUnseen;
                 }
     }
-    return bricks;
+    const uint32_t across = uint32_t(std::clamp(in.resolution, kMinVoxels, kMaxVoxels) / kBrickCells);
+    const uint32_t most = in.mostBricks > 0 ? in.mostBricks : across * across * across;
+    isOverBalls_ = bricks > most;
+    isOverVolumes_ = ofVolumes > kVolumeBudget * most;
+    return !isOverBalls_ && !isOverVolumes_;
 }
 
 /// Gives numbers to bricks in the order of the table. Their counts are those of countBalls().
@@ -284,6 +338,20 @@ void FieldPlan::listBricks()
     base::assignAmortized(peaks_, bricks_.size(), 0.0f);
 }
 
+void FieldPlan::listVolumes(const FieldPlanInputs& in)
+{
+    for (size_t e = 0; e < in.effects.size(); ++e)
+        if (in.effects[e].volume >= 0 && lattices_[e].hasBalls())
+            volumes_.push_back(
+                {lattices_[e].field, uint32_t(in.effects[e].volume), lattices_[e].level, 0, 0});
+    std::ranges::sort(volumes_, {}, &PlacedVolume::field);
+    for (PlacedVolume& placed : volumes_) {
+        const auto range = std::ranges::equal_range(bricks_, placed.field, {}, &FieldBrickBlock::field);
+        placed.firstBrick = uint32_t(range.begin() - bricks_.begin());
+        placed.brickCount = uint32_t(range.size());
+    }
+}
+
 void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
     const bool choosesNetworks = in.networkCells > 0 && in.choosesNetworks;
@@ -296,7 +364,7 @@ void FieldPlan::listBalls(const FieldPlanInputs& in)
                 loose_.push_back(i);
                 continue;
             }
-            listBall(fields_[lattices_[e].field], ball, i);
+            listBall(fields_[lattices_[e].field], ball, reachOf(ball, in.effects[e], lattices_[e], in), i);
             emitted_[lattices_[e].field] +=
                 ball.medium.x * (ball.emission.x + ball.emission.y + ball.emission.z) / 3.0f;
             if (choosesNetworks)
@@ -304,8 +372,9 @@ void FieldPlan::listBalls(const FieldPlanInputs& in)
                                                double(ball.medium.x), glm::dvec3(ball.scatter));
         }
     for (size_t i = 0; i < bricks_.size(); ++i) {
-        float& most = fields_[bricks_[i].field].limits.y;
-        most = std::max(most, peaks_[i]);
+        FieldBlock& field = fields_[bricks_[i].field];
+        if (field.limits.x > 0.0f)
+            field.limits.y = std::max(field.limits.y, peaks_[i]);
     }
 }
 
@@ -317,7 +386,7 @@ void FieldPlan::listNear(const FieldPlanInputs& in)
     for (size_t e = 0; e < in.effects.size(); ++e) {
         const BlobEffect& effect = in.effects[e];
         const Lattice& lattice = lattices_[e];
-        if (effect.detail >= 0 ||
+        if (effect.detail >= 0 || effect.volume >= 0 ||
             distanceToBox(effect.low, effect.high) > FieldNearPlan::kReach * lattice.voxel)
             continue;
         for (uint32_t i = effect.begin; i < effect.end; ++i)
@@ -327,7 +396,8 @@ void FieldPlan::listNear(const FieldPlanInputs& in)
     near_.choose();
     for (const NearBall& ball : near_.balls()) {
         const FieldBlock& field = fields_[ball.field];
-        BrickRange(field, in.balls[ball.number]).forEach(field, [&](size_t index) {
+        const float reach = std::max(in.balls[ball.number].centerRadius.w, field.limits.x) * kTouch;
+        BrickRange(field, in.balls[ball.number], reach).forEach(field, [&](size_t index) {
             if (table_[index] != 0)
                 near_.addToBrick(table_[index] - 1, ball);
         });
@@ -335,12 +405,12 @@ void FieldPlan::listNear(const FieldPlanInputs& in)
     near_.listBricks();
 }
 
-void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number)
+void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, float reach, uint32_t number)
 {
     const float radius = std::max(ball.centerRadius.w, field.limits.x);
     const float fineness = field.corner.w * field.corner.w / (radius * radius);
     const float peak = formula::fxKernelPeak(ball.medium.x, radius) * formula::fxVoxelKernel(0.0f, fineness);
-    BrickRange(field, ball).forEach(field, [&](size_t index) {
+    BrickRange(field, ball, reach).forEach(field, [&](size_t index) {
         if (table_[index] == 0)
             return;
         FieldBrickBlock& brick = bricks_[table_[index] - 1];

@@ -24,6 +24,28 @@
 
 namespace fx::render {
 
+/// A medium on voxels, from which the field of an effect is filled instead of from its balls. Each ball of
+/// the effect is concentric with a brick of 8 x 8 x 8 cells, and each brick with medium has a ball.
+struct FieldVolume
+{
+    glm::dvec3 origin{0.0}; ///< [m] center of the voxel (0, 0, 0) relative to the eye; a corner of a brick
+    double side = 1.0;      ///< [m] side of a voxel
+    bool isAligned = true;  ///< true: the axes of voxels are those of the world
+    float largest = 0.0f;   ///< [1/m] largest extinction
+};
+
+constexpr uint32_t kVolumeBudget = 8; ///< see FieldPlanInputs::mostBricks
+
+/// A field that is filled from a volume.
+struct PlacedVolume
+{
+    uint32_t field;
+    uint32_t volume;     ///< index in FieldPlanInputs::volumes
+    int level;           ///< voxels of the field have 2^level times the side of those of the volume
+    uint32_t firstBrick; ///< range of the field's bricks
+    uint32_t brickCount;
+};
+
 struct FieldPlanInputs
 {
     std::span<const BlobInstance> balls; ///< the balls that may be visible
@@ -32,7 +54,7 @@ struct FieldPlanInputs
     int width, height;   ///< [pixel] size of the picture
     int resolution = 96; ///< number of voxels along 16 radii of an effect's balls, 16..256
     /// Largest number of bricks of all fields together. 0: the number of bricks of a cube with `resolution`
-    /// voxels along a side.
+    /// voxels along a side. Fields of volumes may have kVolumeBudget times as many together.
     uint32_t mostBricks = 0;
     bool glows = true; ///< true: emitted light is propagated in grids, see FieldPlan::glows()
     /// Side of the cube of as many cells as the grid of an illumination network may have; 0: no networks.
@@ -40,6 +62,7 @@ struct FieldPlanInputs
     /// True: only media that gain from a network have one, see networkUse(); without any such medium, emitted
     /// light is propagated as with networkCells 0.
     bool choosesNetworks = false;
+    std::span<const FieldVolume> volumes = {}; ///< volumes of effects, by BlobEffect::volume
 };
 
 /// Builds the layout of a frame. The memory is kept from frame to frame. Threads: one at a time.
@@ -70,6 +93,7 @@ public:
     /// Grids in which light is propagated. FieldBlock::limits.w gives the grid of each field.
     std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
     bool hasNetworks() const { return hasNetworks_; } ///< true: glows() are grids of illumination networks
+    std::span<const PlacedVolume> volumes() const { return volumes_; } ///< in the order of fields
     bool isEmpty() const { return bricks_.empty(); }
 
     /// [m] Least radius of a ball in a field. A smaller ball could fall between samples. Therefore its
@@ -83,6 +107,8 @@ private:
         glm::vec3 low{0.0f};  ///< [m] lower corner of the visible balls, relative to the eye
         glm::vec3 high{0.0f}; ///< [m] upper corner
         uint32_t field = 0;   ///< index among the fields with balls
+        float wanted = 0.0f;  ///< [m] of a volume: side of a voxel before it is rounded to a level
+        int level = 0;        ///< of a volume
 
         bool hasBalls() const { return low.x <= high.x; }
     };
@@ -92,12 +118,17 @@ private:
     void buildGlow(const FieldPlanInputs& in);
     void enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly);
     bool place(const FieldPlanInputs& in); ///< returns false if there are too many bricks
-    bool placeField(Lattice& lattice, int detail, const CameraGeometry& camera);
+    bool placeField(Lattice& lattice, const BlobEffect& effect, const FieldPlanInputs& in);
+    static void enlarge(Lattice& lattice, const BlobEffect& effect, const FieldPlanInputs& in);
+    static void chooseLevel(Lattice& lattice, const FieldVolume& volume);
+    static float reachOf(const BlobInstance& ball, const BlobEffect& effect, const Lattice& lattice,
+                         const FieldPlanInputs& in);
     static bool isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel);
-    uint32_t countBalls(const FieldPlanInputs& in);
+    bool countBalls(const FieldPlanInputs& in); ///< returns false if there are too many bricks
     void listBalls(const FieldPlanInputs& in);
     void listNear(const FieldPlanInputs& in);
-    void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);
+    void listBall(const FieldBlock& field, const BlobInstance& ball, float reach, uint32_t number);
+    void listVolumes(const FieldPlanInputs& in);
     void listBricks();
     void listTiles(const FieldPlanInputs& in);
     void markTiles(const FieldPlanInputs& in, const FieldBrickBlock& brick);
@@ -110,6 +141,8 @@ private:
     std::pmr::vector<uint32_t> table_;
     std::pmr::vector<uint32_t> balls_;
     std::pmr::vector<uint32_t> loose_;
+    std::pmr::vector<PlacedVolume> volumes_;
+    bool isOverBalls_ = false, isOverVolumes_ = false; ///< whether a budget of bricks is exceeded
     std::pmr::vector<float> peaks_;   ///< [1/m] for each brick: sum of the central extinctions of its balls
     std::pmr::vector<float> emitted_; ///< [exposed m2] for each field: emitted light
     /// for each field; empty unless networks are chosen by medium

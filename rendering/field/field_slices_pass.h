@@ -1,5 +1,5 @@
 /// @file field_slices_pass.h
-/// The pass that corrects light slices for the detail of fields.
+/// The pass that corrects light slices for the detail of fields, and for volumes.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -11,7 +11,8 @@ namespace fx::render {
 
 extern const ProgramDesc kFieldSlicesProgram;
 
-/// Detail of fields changes their extinction. This pass adds the change to the light slices.
+/// Detail of fields changes their extinction; volumes have another one than the balls that stand for them.
+/// This pass adds the change to the light slices.
 /// reads   fieldTexels    texture written by FieldTexelPass
 ///         table          table of bricks, written by FieldFillPass
 ///         change         change of extinction by detail, see FieldTextures

@@ -21,7 +21,8 @@ struct FieldTextures
     /// RGBA16F rgb: offset of the noise coordinates of each generation, weighted by extinction; invalid
     /// without detail
     std::array<ResourceId, 2> material = {};
-    /// R32F change of the extinction by detail, over the field's largest extinction; invalid without detail
+    /// R32F change of the extinction by detail, or between volumes and their balls, over the field's largest
+    /// extinction; invalid without detail and volumes
     ResourceId change = {};
 };
 

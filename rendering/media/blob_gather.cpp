@@ -4,6 +4,7 @@
 #include "foundation/math/hash.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/streak.h"
+#include "foundation/snapshot/volume_kind.h"
 #include "rendering/frame/ball_window.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/frame/view_volume.h"
@@ -25,6 +26,8 @@ namespace constant = base::blob_constant;
 
 constexpr uint32_t kMinImpostorBlobs = 16; ///< blobs; fewer are cheaper than their picture
 constexpr size_t kMaxFarCasters = 16;      ///< of an effect that is drawn as a picture
+/// Radius of the ball within a brick over that of the ball around it.
+constexpr float kBrickCaster = 4.0f / base::kVolumeBallRadius;
 
 float mix(float a, float b, float t)
 {
@@ -148,13 +151,17 @@ public:
 
     /// Whether what is beside the view is left out.
     void cullToView(bool isCulled) { isCulled_ = isCulled; }
+    /// Whether the blobs of the next groups stand for the bricks of a volume, of which none may be left out.
+    void standForBricks(bool areBricks) { areBricks_ = areBricks; }
 
     /// @param detail of the group  @param outDetailed receives its balls if it has detail
     void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds,
              const BlobDetail& detail, std::pmr::vector<DetailedCaster>* outDetailed)
     {
         const base::Placement place = placementAt(newer, older, t, camera_.eye);
-        level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
+        level_ = lod_ && !areBricks_ ? lod_->levelOf(newer.info(), place) : LodLevel();
+        const float shown = areBricks_ ? 1.0f : share_;
+        const float casterRadius = areBricks_ ? kBrickCaster : 1.0f;
         const PlaceDrift drift = placeDrift(newer, older, stepSeconds);
         const std::span<const float> constants = newer.constants();
         ElementReader reader(newer, older, t, stepSeconds);
@@ -178,15 +185,15 @@ public:
             }
             if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
                 continue;
-            medium_.push_back({blob.center, blob.radius, blob.crossSection * shadowWeight});
+            medium_.push_back({blob.center, blob.radius * casterRadius, blob.crossSection * shadowWeight});
             if (detail.isGiven()) {
                 blob.carried = reader.carried(detail);
                 outDetailed->push_back({medium_.back(), blob.carried, reader.id()});
             }
-            const float shownWeight = rank < share_ ? weightOf(rank / share_) : 0.0f; // uniform again
+            const float shownWeight = rank < shown ? weightOf(rank / shown) : 0.0f; // uniform again
             if (shownWeight == 0.0f)
                 continue;
-            blob.crossSection *= shownWeight / share_;
+            blob.crossSection *= shownWeight / shown;
             blob.velocity = place.rotation * (reader.velocity() * place.scale) + drift.at(reader.position());
             add(blob, velocity * constants[constant::Shutter], newer.info().instance, reader.id());
         }
@@ -274,6 +281,7 @@ private:
     LevelOfDetail* lod_;
     LodLevel level_;
     bool isCulled_ = true;
+    bool areBricks_ = false;
     std::pmr::vector<GatheredBlob>& visible_;
     std::pmr::vector<MediumCaster>& medium_;
     GatherCounts& counts_;
@@ -320,8 +328,9 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
 /// Neighboring groups without detail are one run.
 void addRun(const BlobRun& run, std::pmr::vector<BlobRun>& ioRuns)
 {
-    const bool goesOn = run.detail < 0 && !ioRuns.empty() && ioRuns.back().instance == run.instance &&
-                        ioRuns.back().detail < 0;
+    const bool goesOn = run.detail < 0 && run.volume < 0 && !ioRuns.empty() &&
+                        ioRuns.back().instance == run.instance && ioRuns.back().detail < 0 &&
+                        ioRuns.back().volume < 0;
     if (!goesOn) {
         ioRuns.push_back(run);
         return;
@@ -364,6 +373,8 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
         const BlobDetail detail = outFields ? BlobDetail(snapshots, g, t) : BlobDetail();
+        const base::SnapshotGroup* const volume = outFields ? volumeGroup(newer, g) : nullptr;
+        gather.standForBricks(volume != nullptr);
         const size_t visibleBegin = outVisible.size(), mediumBegin = outMedium.size();
         if (detail.isGiven())
             outFields->casters.clear();
@@ -379,8 +390,12 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
             made.factor = outFields->conservation.of(made, outFields->casters);
             outFields->details.push_back(made);
         }
+        if (volume)
+            outFields->volumes.push_back(
+                groupVolume(group, *volume, placementAt(group, older, t, camera.eye)));
         addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,
-                visibleBegin, outVisible.size(), mediumBegin, outMedium.size()},
+                visibleBegin, outVisible.size(), mediumBegin, outMedium.size(),
+                volume ? int(outFields->volumes.size()) - 1 : -1},
                outFields->runs);
     }
     return counts;

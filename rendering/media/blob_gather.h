@@ -8,6 +8,7 @@
 #include "rendering/lights/medium_caster.h"
 #include "rendering/lod/impostor_field.h"
 #include "rendering/lod/level_of_detail.h"
+#include "rendering/volumes/volume_place.h"
 
 #include <glm/vec3.hpp>
 
@@ -48,23 +49,25 @@ struct InstanceBlobs
     ImpostorPlan plan; ///< whether the instance is drawn as blobs, as an impostor, or as both
 };
 
-/// Consecutive blobs of an instance: the blobs of one group with detail, or of consecutive groups without
-/// detail.
+/// Consecutive blobs of an instance: the blobs of one group with detail or with a volume, or of consecutive
+/// groups without.
 struct BlobRun
 {
     size_t instance;                 ///< index in the list of instances
     int detail;                      ///< index of the detail of the group; -1: no detail
     size_t visibleBegin, visibleEnd; ///< range among the visible blobs
     size_t mediumBegin, mediumEnd;   ///< range among all blobs, visible or not
+    int volume = -1;                 ///< index of the volume of the group; -1: no volume
 };
 
 /// Additional data, for blobs that are drawn as fields.
 struct FieldGather
 {
     explicit FieldGather(std::pmr::memory_resource* memory)
-        : details(memory), runs(memory), casters(memory), conservation(memory)
+        : details(memory), volumes(memory), runs(memory), casters(memory), conservation(memory)
     {}
     std::pmr::vector<GroupDetail> details;
+    std::pmr::vector<GroupVolume> volumes;
     std::pmr::vector<BlobRun> runs;
     std::pmr::vector<DetailedCaster> casters; ///< balls of the last group with detail
     ConservationFactor conservation;
@@ -99,7 +102,8 @@ struct GatherCounts
 /// @param lod reduces the number of blobs of groups that are small on the picture, also for shadows; null:
 ///     no reduction
 /// @param castsShadows true: effects that are drawn only as an impostor cast shadows
-/// @param outFields receives the detail of groups, and runs of blobs; may be null
+/// @param outFields receives the detail and the volumes of groups, and runs of blobs; may be null. Blobs that
+///     stand for a volume are then not thinned, and cast shadows as balls that their bricks contain
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,

@@ -54,6 +54,7 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
     casters_.clear();
     instances_.clear();
     fields_.details.clear();
+    fields_.volumes.clear();
     fields_.runs.clear();
     names_ = request.instances;
     isMarked_ = settings.outputs != 0;
@@ -128,7 +129,8 @@ void FrameBuilder::addEffect(const BlobRun& run, size_t begin)
                       shaded_[begin].centerRadius,
                       shaded_[begin].centerRadius,
                       shaded_[begin].centerRadius.w,
-                      run.detail};
+                      run.detail,
+                      run.volume};
     const auto casters = std::span(casters_).subspan(run.mediumBegin, run.mediumEnd - run.mediumBegin);
     radii_.clear();
     float left = 0.0f;

@@ -42,6 +42,7 @@ public:
     /// sorted.
     std::span<const BlobMaterial> materials() const { return materials_; }
     std::span<const GroupDetail> details() const { return fields_.details; }
+    std::span<const GroupVolume> volumes() const { return fields_.volumes; }
     /// Marks of blobs(), in the order of blobs(). Empty without ViewSettings::outputs.
     std::span<const BlobMark> marks() const { return sortedMarks_; }
     bool anyHeat() const { return anyHeat_; }     ///< true if a blob causes heat shimmer

@@ -44,6 +44,7 @@ struct BlobEffect
     /// [m] quantile of the radii: a quarter of the total cross section is in balls with smaller radii
     float radius;
     int detail = -1; ///< index of the detail of the balls' field; -1: no detail
+    int volume = -1; ///< index of the volume that the balls stand for; -1: none
 };
 
 } // namespace fx::render

@@ -26,6 +26,7 @@
 #include "rendering/passes/media_source.h"
 #include "rendering/passes/output_marks.h"
 #include "rendering/techniques/quality_knob.h"
+#include "rendering/volumes/volume_place.h"
 
 #include <memory>
 #include <memory_resource>
@@ -78,6 +79,8 @@ struct GatheredFrame
     std::span<const BlobMaterial> materials{};
     /// Detail of effects; empty if blobs are not in the order of instances.
     std::span<const GroupDetail> details{};
+    /// Volumes of effects; empty if blobs are not in the order of instances.
+    std::span<const GroupVolume> volumes{};
     bool anyHeat = false; ///< true: a blob causes heat shimmer
 };
 

@@ -10,6 +10,7 @@ namespace {
 constexpr const DrawTechnique* kTechniques[] = {
     &kBlobTechnique,          //
     &kFieldDetailTechnique,   //
+    &kVolumeTechnique,        //
     &kLightSliceTechnique,    //
     &kSpriteTechnique,        //
     &kRibbonTechnique,        //

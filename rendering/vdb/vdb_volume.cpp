@@ -95,7 +95,8 @@ struct VdbVolume::Grids
         : voxelSize(size), density(makeGrid<openvdb::FloatGrid>("density", "1/m", size)),
           temperature(makeGrid<openvdb::FloatGrid>("temperature", "K", size)),
           flame(makeGrid<openvdb::FloatGrid>("flame", "cd/m3", size)),
-          velocity(makeGrid<openvdb::Vec3SGrid>("v", "m/s", size))
+          velocity(makeGrid<openvdb::Vec3SGrid>("v", "m/s", size)),
+          albedo(makeGrid<openvdb::Vec3SGrid>("Cd", "1", size))
     {
         density->setGridClass(openvdb::GRID_FOG_VOLUME);
         velocity->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
@@ -103,7 +104,7 @@ struct VdbVolume::Grids
 
     double voxelSize;
     openvdb::FloatGrid::Ptr density, temperature, flame;
-    openvdb::Vec3SGrid::Ptr velocity;
+    openvdb::Vec3SGrid::Ptr velocity, albedo;
     openvdb::GridBase::Ptr points; ///< null: none
 };
 
@@ -137,6 +138,10 @@ void VdbVolume::add(std::span<const VoxelBlock> blocks)
             const glm::vec3& velocity = block.velocity[v];
             return openvdb::Vec3s(velocity.x, velocity.y, velocity.z);
         });
+        addLeaf(*grids_->albedo, block, [&](size_t v) {
+            const glm::vec3& albedo = block.albedo[v];
+            return openvdb::Vec3s(albedo.x, albedo.y, albedo.z);
+        });
     }
 }
 
@@ -166,7 +171,8 @@ try {
     g.temperature->setSaveFloatAsHalf(half && fitsHalf(*g.temperature));
     g.flame->setSaveFloatAsHalf(half && fitsHalf(*g.flame));
     g.velocity->setSaveFloatAsHalf(half && fitsHalf(*g.velocity));
-    openvdb::GridCPtrVec grids{g.density, g.temperature, g.flame, g.velocity};
+    g.albedo->setSaveFloatAsHalf(half && fitsHalf(*g.albedo));
+    openvdb::GridCPtrVec grids{g.density, g.temperature, g.flame, g.velocity, g.albedo};
     if (g.points)
         grids.push_back(g.points);
     std::string bytes = MemoryArchive().bytesOf(grids, map);

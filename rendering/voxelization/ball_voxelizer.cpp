@@ -14,7 +14,7 @@ constexpr double kSamplesPerRadius = 4.0; // at least
 constexpr double kSummedSamples = 32.0;   // per radius, up to which the weights are summed one by one
 constexpr int kPadded = kBlockSide + 2;   // a block and one voxel more on each side
 constexpr int kMaxAlong = 24;             // samples along an axis that reach into one block
-constexpr size_t kSums = 6;               // density, temperature, flame, velocity
+constexpr size_t kSums = 9;               // density, temperature, flame, velocity, albedo
 constexpr uint32_t kMinBalls = 256;       // of a task
 
 double samplesAlongVoxel(double radius)
@@ -123,7 +123,10 @@ public:
                                                density * ball.luminance,
                                                density * ball.velocity.x,
                                                density * ball.velocity.y,
-                                               density * ball.velocity.z};
+                                               density * ball.velocity.z,
+                                               density * ball.albedo.x,
+                                               density * ball.albedo.y,
+                                               density * ball.albedo.z};
         const int firstZ = std::max(weights.low.z, 1), lastZ = std::min(weights.high.z, kBlockSide);
         for (int i = std::max(weights.low.x, 1); i <= std::min(weights.high.x, kBlockSide); ++i)
             for (int j = std::max(weights.low.y, 1); j <= std::min(weights.high.y, kBlockSide); ++j) {
@@ -145,6 +148,8 @@ public:
             out.flame[v] = float(sums_[2][v]);
             out.velocity[v] = {float(sums_[3][v] * share), float(sums_[4][v] * share),
                                float(sums_[5][v] * share)};
+            out.albedo[v] = {float(sums_[6][v] * share), float(sums_[7][v] * share),
+                             float(sums_[8][v] * share)};
         }
     }
 

@@ -21,6 +21,7 @@ struct VoxelBall
     double temperature = 0.0;  ///< [K]
     double luminance = 0.0;    ///< [cd/m2] emitted luminance per optical depth
     glm::dvec3 velocity{0.0};  ///< [m/s] velocity in the world
+    glm::dvec3 albedo{0.0};    ///< [1]
     uint64_t id = 0;           ///< id of the ball in its effect
     uint64_t instance = 0;     ///< instance of the effect in the scene
 };
@@ -37,6 +38,7 @@ struct VoxelBlock
     std::array<float, kBlockVoxels> temperature;  ///< [K] mean, weighted with the extinction
     std::array<float, kBlockVoxels> flame;        ///< [cd/m3] luminance that the medium emits per meter
     std::array<glm::vec3, kBlockVoxels> velocity; ///< [m/s] mean, weighted with the extinction
+    std::array<glm::vec3, kBlockVoxels> albedo;   ///< [1] mean, weighted with the extinction
 };
 
 } // namespace fx::render

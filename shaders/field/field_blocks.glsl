@@ -3,7 +3,7 @@ struct VoxelField
 {
     vec4 corner;  // xyz [m] of the first sample relative to the eye; w side of a voxel [m]
     ivec4 bricks; // xyz bricks along each axis; w first entry in the table of bricks
-    vec4 limits;  // x least radius of a ball [m]; y no extinction is larger [1/m]; z first texel of its detail, or 0;
+    vec4 limits;  // x least radius of a ball [m], or below 0 minus the radius of casters of a volume; y no extinction is larger [1/m]; z first texel of its detail, or 0;
                   // in buffers number of its detail + 1, or 0; w number of its glow + 1, or 0
 };
 

@@ -3,6 +3,7 @@
 #include "shared/blob_instance.glsl"
 #include "field/field_blocks.glsl"
 #include "field/field_ball.glsl"
+#include "field/field_seen.glsl"
 
 // Sums the balls of each brick at its samples, in the order of its list: one workgroup a brick. What is added to a field
 // besides is one more image and one more sum here. FX_LAYERS 1 also keeps what the light is sorted by. One invocation has all
@@ -10,7 +11,6 @@
 layout(local_size_x = 81) in;
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(std430, binding = 3) readonly buffer BrickBalls { uint brickBalls[]; };
-layout(r32f, binding = 5) uniform writeonly image2D brickTable; // see field_blocks.glsl
 layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted light [exposed/m]; a extinction [1/m]
 layout(rgba16f, binding = 1) uniform writeonly image3D scatter; // rgb mean albedo; a mean cosine of the phase function
 #if FX_LAYERS
@@ -29,12 +29,12 @@ struct BlobMaterial
 layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]; };
 #endif
 
-shared uint most[8]; // bits of the largest extinction of a sample that is seen, in each eighth of the brick [1/m], regardless of its sign
-
 void main()
 {
     FieldBrick brick = bricks[gl_WorkGroupID.x];
     VoxelField field = fieldOf(int(brick.field));
+    if (field.limits.x < 0.0)
+        return; // field_volume.comp.glsl fills it
     ivec3 first = sampleOfBrick(int(gl_LocalInvocationIndex));
     vec3 places[kBrickSamples];
     vec4 mediumSums[kBrickSamples], scatterSums[kBrickSamples];
@@ -60,8 +60,7 @@ void main()
     bool isDetailed = field.limits.z > 0.5;
     FieldDetail numbers = fieldDetail(int(isDetailed ? field.limits.z : 0.0));
 #endif
-    if (gl_LocalInvocationIndex < 8u)
-        most[gl_LocalInvocationIndex] = 0u;
+    clearSeen();
     barrier();
     for (uint k = brick.first; k < brick.first + brick.count; ++k) {
         uint number = brickBalls[k];
@@ -95,13 +94,7 @@ void main()
 #endif
         largest = max(largest, seen * vec2(z <= kBrickCells / 2, z >= kBrickCells / 2));
     }
-    for (int k = 0; k < 8; ++k) {
-        bvec2 isHigh = bvec2(k & 1, k & 2);
-        bvec2 isOf = bvec2(isHigh.x ? first.x >= kBrickCells / 2 : first.x <= kBrickCells / 2,
-                           isHigh.y ? first.y >= kBrickCells / 2 : first.y <= kBrickCells / 2);
-        if (all(isOf))
-            atomicMax(most[k], floatBitsToUint(k < 4 ? largest.x : largest.y));
-    }
+    addSeen(first, largest);
     ivec3 texel = brickTexel(int(gl_WorkGroupID.x)) + first;
     for (int z = 0; z < kBrickSamples; ++z) {
         float extinction = mediumSums[z].a; // below 0 at rims, see voxel-kernel
@@ -127,11 +120,5 @@ void main()
 #endif
     }
     barrier();
-    if (gl_LocalInvocationIndex > 0u)
-        return;
-    float seen = 0.0;
-    for (int k = 0; k < 8; ++k)
-        seen += most[k] > 0u ? exp2(float(k - 8)) : 0.0;
-    float number = float(gl_WorkGroupID.x) + 1.0;
-    imageStore(brickTable, tableTexel(tableEntry(field, placeOfBrick(brick))), vec4(seen > 0.0 ? number + seen : -number));
+    storeSeen(field, brick, int(gl_WorkGroupID.x));
 }

@@ -1,7 +1,8 @@
 #include "field/field_blocks.glsl"
 #include "lights/slice_stack.glsl"
 
-// Adds to the optical depths of light slices what detail makes of the fields: planes hold those of smooth balls. One invocation
+// Adds to the optical depths of light slices what detail makes of the fields, and what volumes have beside the balls that stand for
+// them: planes hold those of smooth balls. One invocation
 // a column of texels.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
@@ -12,7 +13,7 @@ layout(std140, binding = 0) uniform FieldSliceBlock { ivec4 fieldCount; };
 
 const int kMaxParts = 4; // of the way between two planes
 
-// [1/m] change of extinction by detail, of all fields
+// [1/m] change of extinction by detail and volumes, of all fields
 float changeAt(vec3 p)
 {
     float sum = 0.0;
@@ -20,7 +21,8 @@ float changeAt(vec3 p)
         VoxelField field = fieldOf(f);
         vec3 local = (p - field.corner.xyz) / field.corner.w;
         vec3 size = vec3(kBrickCells * field.bricks.xyz);
-        bool isInside = field.limits.z > 0.5 && all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
+        bool changes = field.limits.z > 0.5 || field.limits.x < 0.0;
+        bool isInside = changes && all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
         ivec3 brick = clamp(ivec3(floor(local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
         float number = isInside ? abs(texelFetch(brickTable, tableTexel(tableEntry(field, brick)), 0).r) : 0.0;
         int turns = number > 0.0 ? 1 : 0;

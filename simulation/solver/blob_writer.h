@@ -57,7 +57,8 @@ public:
         std::fill(column(index) + begin, column(index) + end, value);
     }
 
-    void closeBounds() { addBounds(0, count_); } ///< computes the bounds of all rows
+    const base::Bounds& bounds() const { return group_.info().bounds; } ///< computed so far
+    void closeBounds() { addBounds(0, count_); }                        ///< computes the bounds of all rows
     /// Extends the bounds by the rows [begin, end), which have been written. The bounds contain the balls,
     /// stretched along their path by the open shutter, at any time since the previous snapshot. Blobs born
     /// since then are included for the whole time. Their age does not show this birth, because the time of

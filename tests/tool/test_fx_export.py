@@ -34,6 +34,10 @@ for grid in grids:
             most = max(most, item.value)
             moment = [m + item.value * volume * p for m, p in zip(moment, place)]
         facts |= {"sum": total, "moment": moment, "most": most}
+        low, high = grid.evalActiveVoxelBoundingBox()
+        facts |= {"low": grid.transform.indexToWorld(low), "high": grid.transform.indexToWorld(high)}
+    elif grid.name == "Cd":
+        facts["values"] = sorted({tuple(round(c, 3) for c in item.value) for item in grid.citerOnValues()})
     out["grids"][grid.name] = facts
 print(json.dumps(out))
 """
@@ -173,13 +177,17 @@ class Export(FxTest):
         self.export(self.list_of_balls(), "-o", self.folder / "a.vdb", "--voxel-size", "0.1")
         found = read(self.folder / "a.vdb")
         grids = found["grids"]
-        self.assertEqual({name: grids[name]["unit"] for name in ("density", "temperature", "flame", "v")},
-                         {"density": "1/m", "temperature": "K", "flame": "cd/m3", "v": "m/s"})
-        self.assertEqual(grids["v"]["type"], "vec3s")
+        self.assertEqual({name: grids[name]["unit"] for name in ("density", "temperature", "flame", "v", "Cd")},
+                         {"density": "1/m", "temperature": "K", "flame": "cd/m3", "v": "m/s", "Cd": "1"})
+        self.assertEqual((grids["v"]["type"], grids["Cd"]["type"]), ("vec3s", "vec3s"))
+        self.assertEqual(grids["Cd"]["values"], [[0.5, 0.5, 0.5]])
         density = grids["density"]
         self.assertAlmostEqual(density["voxel_size"], 0.1, delta=1e-12)
         self.assertAlmostEqual(density["sum"], 3.5, delta=3.5 * 0.005)
         for axis in range(3):
+            low, high = min(b[axis] - b[3] for b in BALLS), max(b[axis] + b[3] for b in BALLS)
+            self.assertLess(abs(density["low"][axis] - low), 0.11)
+            self.assertLess(abs(density["high"][axis] - high), 0.11)
             exact = sum(ball[axis] * ball[4] for ball in BALLS)
             self.assertAlmostEqual(density["moment"][axis], exact, delta=1e-4)
         self.assertAlmostEqual(grids["flame"]["sum"], 3.5 * 0.5 * 4, delta=0.01)  # (1 - albedo) e cross section

@@ -33,6 +33,7 @@ MomentBalls ballsOf(const std::vector<render::MediumBlob>& blobs)
         ball.temperature = blob.temperature;
         ball.luminance = glm::dot(kLuminance, blob.source);
         ball.velocity = blob.velocity;
+        ball.albedo = blob.albedo;
         ball.id = blob.id;
         ball.instance = blob.instance;
     }

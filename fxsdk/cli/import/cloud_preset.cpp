@@ -1,9 +1,8 @@
 #include "fxsdk/cli/import/cloud_preset.h"
 
-#include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/cli/import/preset_files.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/cli/support/progress.h"
-#include "rendering/optics/black_body.h"
 #include "rendering/voxelization/opacity_view.h"
 
 #include <glm/common.hpp>
@@ -19,17 +18,6 @@ namespace {
 
 constexpr int kPixels = 256; // along the longer side of the pictures that are compared
 constexpr float kAir = 293.0f;
-constexpr glm::vec3 kLuminance{0.2126f, 0.7152f,
-                               0.0722f}; // of linear Rec. 709, as rendering/optics/black_body.h
-constexpr std::string_view kPresetSuffix = ".fx.json";
-
-/// A color of luminance 1: that of a black body, where it is hot enough to have one.
-glm::vec3 colorOf(double temperature)
-{
-    const glm::vec3 light = render::blackBodyLuminance(float(temperature));
-    const float luminance = glm::dot(light, kLuminance);
-    return luminance > 0.0f ? light / luminance : glm::vec3(1.0f);
-}
 
 double massOf(const sim::BallList& list)
 {
@@ -37,15 +25,6 @@ double massOf(const sim::BallList& list)
     for (const sim::ListedBall& ball : list)
         sum += double(ball.crossSection);
     return sum;
-}
-
-std::string presetText(const std::string& name, const std::string& file)
-{
-    const nlohmann::ordered_json preset{{"version", 1},
-                                        {"name", name},
-                                        {"composition", "volume"},
-                                        {"clouds", {{{"name", name}, {"file", file}}}}};
-    return preset.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 } // namespace
@@ -78,11 +57,9 @@ base::Result<CloudFitReport> writeCloudPreset(const render::MediumGrid& grid,
                                               const std::filesystem::path& preset, base::TaskRunner& tasks,
                                               bool showProgress)
 {
-    std::string stem = preset.filename().string();
-    if (!stem.ends_with(kPresetSuffix) || stem.size() == kPresetSuffix.size())
-        return base::Status(base::Code::InvalidArgument,
-                            preset.string() + ": the name of a preset ends in .fx.json");
-    stem.resize(stem.size() - kPresetSuffix.size());
+    const base::Result<std::string> stem = presetStem(preset);
+    if (!stem)
+        return stem.status();
     CloudFitReport report;
     const auto start = std::chrono::steady_clock::now();
     std::vector<render::FitBall> balls;
@@ -107,10 +84,12 @@ base::Result<CloudFitReport> writeCloudPreset(const render::MediumGrid& grid,
     const double mass = render::sumsOf(grid).crossSection;
     report.massError = (massOf(list) - mass) / mass;
     report.viewErrors = render::viewErrors(grid, balls, kPixels, tasks);
-    report.ballFile = preset.parent_path() / (stem + ".fxballs");
-    if (base::Status status = writeFileAtomically(report.ballFile, bytes); !status)
-        return status;
-    if (base::Status status = writeFileAtomically(preset, presetText(stem, stem + ".fxballs")); !status)
+    report.ballFile = preset.parent_path() / (*stem + ".fxballs");
+    const nlohmann::ordered_json text{{"version", 1},
+                                      {"name", *stem},
+                                      {"composition", "volume"},
+                                      {"clouds", {{{"name", *stem}, {"file", *stem + ".fxballs"}}}}};
+    if (base::Status status = writePresetFiles(preset, text, report.ballFile, bytes); !status)
         return status;
     return report;
 }

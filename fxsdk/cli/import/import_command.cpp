@@ -2,6 +2,7 @@
 /// fx import: volumes of other programs.
 
 #include "fxsdk/cli/commands.h"
+#include "fxsdk/cli/import/brick_volume.h"
 #include "fxsdk/cli/import/cloud_preset.h"
 #include "fxsdk/cli/import/volume_import.h"
 #include "fxsdk/cli/support/atomic_file.h"
@@ -27,6 +28,7 @@ struct ImportArguments
     uint64_t memory = 4096; ///< [MiB]
     unsigned seconds = 120;
     std::string output; ///< empty: none
+    bool bricks = false;
     render::FitOptions fit;
     double albedo = 0.8;
     bool json = false;
@@ -66,13 +68,18 @@ void addImportOptions(CLI::App& command, ImportArguments& a)
         ->capture_default_str();
     CLI::Option* const output =
         command.add_option("-o,--output", a.output, "NAME.fx.json: a preset with balls, in NAME.fxballs");
+    CLI::Option* const bricks =
+        command.add_flag("--bricks", a.bricks, "Keep the voxels, in NAME.fxvolume, instead of fitting balls")
+            ->needs(output);
     command.add_option("--fit", a.fit.count, "Most balls")
         ->check(CLI::Range(uint32_t(1), uint32_t(sim::kMaxListedBalls)))
         ->needs(output)
+        ->excludes(bricks)
         ->capture_default_str();
     command.add_option("--iterations", a.fit.iterations, "Steps of the fit")
         ->check(CLI::Range(0u, 1000u))
         ->needs(output)
+        ->excludes(bricks)
         ->capture_default_str();
     command.add_option("--albedo", a.albedo, "Of volumes without a grid of colors")
         ->check(CLI::Range(0.0, 1.0))
@@ -94,7 +101,7 @@ nlohmann::json arrayOf(const glm::dvec3& v)
 }
 
 void report(const ImportArguments& arguments, const render::MediumGrid& grid, const ChildReport& child,
-            const CloudFitReport* fit)
+            const CloudFitReport* fit, const BrickReport* bricks)
 {
     const render::MediumGridSums sums = render::sumsOf(grid);
     std::vector<std::string> names{"density"};
@@ -127,6 +134,12 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
             line["view_errors"] = fit->viewErrors;
             line["fit_s"] = fit->seconds;
         }
+        if (bricks) {
+            line["bricks"] = bricks->bricks;
+            line["voxel_side"] = bricks->side;
+            line["resampled"] = bricks->isResampled;
+            line["mass_error"] = bricks->massError;
+        }
         printJsonLine(withMachine(std::move(line), readMachine()));
         return;
     }
@@ -145,6 +158,10 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
                     arguments.output.c_str(), fit->balls, fit->ballFile.string().c_str(),
                     100.0 * fit->massError, 100.0 * fit->viewErrors[0], 100.0 * fit->viewErrors[1],
                     100.0 * fit->viewErrors[2], fit->seconds);
+    if (bricks)
+        std::printf("%s: %zu bricks of voxels of %.4g m in %s%s, mass %+.2g %%\n", arguments.output.c_str(),
+                    bricks->bricks, bricks->side, bricks->file.string().c_str(),
+                    bricks->isResampled ? ", interpolated to cubes" : "", 100.0 * bricks->massError);
 }
 
 int failed(const base::Status& status)
@@ -170,7 +187,14 @@ int runImport(ImportArguments arguments)
     for (const std::string& warning : grid->warnings)
         std::fprintf(stderr, "warning: %s: %s\n", arguments.input.c_str(), warning.c_str());
     if (arguments.output.empty()) {
-        report(arguments, *grid, child, nullptr);
+        report(arguments, *grid, child, nullptr, nullptr);
+        return kSuccess;
+    }
+    if (arguments.bricks) {
+        const auto written = writeVolumePreset(*grid, arguments.albedo, arguments.output);
+        if (!written)
+            return failed(written.status());
+        report(arguments, *grid, child, nullptr, &*written);
         return kSuccess;
     }
     const auto tasks = base::makeTbbRunner(); // threads begin here, after the child
@@ -178,7 +202,7 @@ int runImport(ImportArguments arguments)
         writeCloudPreset(*grid, arguments.fit, arguments.albedo, arguments.output, *tasks, !arguments.json);
     if (!fit)
         return failed(fit.status());
-    report(arguments, *grid, child, &*fit);
+    report(arguments, *grid, child, &*fit, nullptr);
     return kSuccess;
 }
 

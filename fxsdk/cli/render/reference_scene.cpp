@@ -2,6 +2,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "rendering/techniques/draw_techniques.h"
+#include "simulation/volume/volume_solver.h"
 
 #include <cmath>
 #include <numbers>
@@ -64,6 +65,23 @@ ReferenceSceneSource::create(const scene_file::SceneFile& file, const EffectScen
     return source;
 }
 
+std::shared_ptr<const render::MediumVolume> ReferenceSceneSource::volumeOf(const base::GroupInfo& group)
+{
+    const uint32_t number = effects_->numberOf(group.instance);
+    if (number == 0)
+        return nullptr;
+    const auto& solvers = file_.presets[file_.instances[number - 1].preset].effect->solvers;
+    const auto* const def = group.solver < solvers.size()
+                                ? dynamic_cast<const sim::VolumeDef*>(solvers[group.solver].get())
+                                : nullptr;
+    if (!def || !def->voxels)
+        return nullptr;
+    std::shared_ptr<const render::MediumVolume>& held = volumes_[def->voxels.get()];
+    if (!held)
+        held = std::make_shared<const render::MediumVolume>(*def->voxels);
+    return held;
+}
+
 base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
 {
     if (base::Status status = effects_->showMoment(tick); !status)
@@ -72,7 +90,9 @@ base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
     if (!moment.ok())
         return moment.status();
     ReferenceFrame frame;
-    render::MediumList medium = render::mediumOf(moment->snapshots, moment->interpolation);
+    render::MediumList medium =
+        render::mediumOf(moment->snapshots, moment->interpolation,
+                         [this](const base::GroupInfo& group) { return volumeOf(group); });
     frame.scene.blobs = std::move(medium.blobs);
     frame.scene.details = std::move(medium.details);
     for (render::MediumBlob& blob : frame.scene.blobs)

@@ -6,6 +6,7 @@
 #include "fxsdk/cli/scene/effect_scene.h"
 #include "rendering/reference/render/reference_renderer.h"
 
+#include <map>
 #include <memory>
 
 namespace fx::cli {
@@ -32,8 +33,12 @@ public:
 private:
     explicit ReferenceSceneSource(const scene_file::SceneFile& file) : file_(file) {}
 
+    /// Voxels of the solver that published a group; null if it has none.
+    std::shared_ptr<const render::MediumVolume> volumeOf(const base::GroupInfo& group);
+
     const scene_file::SceneFile& file_;
     std::unique_ptr<EffectScene> effects_;
+    std::map<const base::VoxelVolume*, std::shared_ptr<const render::MediumVolume>> volumes_;
 };
 
 /// The camera of a path at a time [s], in double precision.

@@ -80,7 +80,7 @@ public:
             if (!frame.ok())
                 return frame.status();
             if (!drawsDetail(scene))
-                frame->scene.details = {};
+                render::removeNoise(frame->scene.details);
             if (base::Status status = renderFrame(moment, *frame); !status)
                 return status;
         }

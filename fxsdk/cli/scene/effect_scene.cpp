@@ -3,6 +3,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/particle_kind.h"
+#include "foundation/snapshot/volume_kind.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/scene/field_cache.h"
@@ -65,11 +66,12 @@ base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uin
     return {};
 }
 
-/// Media, what they carry for their detail, and the lights that they shed; nothing else is shown without a
-/// view.
+/// Media, what they carry for their detail, their voxels, and the lights that they shed; nothing else is
+/// shown without a view.
 bool isCopied(std::string_view kind)
 {
-    return kind == base::kBlobKind.name || kind == base::kMaterialKind.name || kind == base::kLightKind.name;
+    return kind == base::kBlobKind.name || kind == base::kMaterialKind.name ||
+           kind == base::kVolumeKind.name || kind == base::kLightKind.name;
 }
 
 base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, const FxSnapshotInfo& info,

@@ -5,6 +5,7 @@
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_glow_pass.h"
 #include "rendering/field/field_texels.h"
+#include "rendering/field/field_volume_pass.h"
 #include "rendering/field/lump_tile_pass.h"
 #include "rendering/network/network_passes.h"
 #include "rendering/passes/blob_light_pass.h"
@@ -17,14 +18,14 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"slab balls", "media"},      {"slab detail upload", "media"},
-                                {"field texels", "media"},    {"lump tile", "media"},
-                                {"slab upload", "media"},     {"slab cards", "media"},
-                                {"slab tiles", "media"},      {"slabs", "media"},
-                                {"field upload", "media"},    {"field fill", "media"},
-                                {"glow source", "media"},     {"network upload", "media"},
-                                {"network prepare", "media"}, {"network rays", "media"},
-                                {"network sum", "media"}};
+constexpr TimedPass kTimed[] = {{"slab balls", "media"},     {"slab detail upload", "media"},
+                                {"field texels", "media"},   {"lump tile", "media"},
+                                {"slab upload", "media"},    {"slab cards", "media"},
+                                {"slab tiles", "media"},     {"slabs", "media"},
+                                {"field upload", "media"},   {"field fill", "media"},
+                                {"field volume", "media"},   {"glow source", "media"},
+                                {"network upload", "media"}, {"network prepare", "media"},
+                                {"network rays", "media"},   {"network sum", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
@@ -43,7 +44,8 @@ std::span<const ProgramDesc* const> programs()
                                              &kNetworkSumProgram,
                                              &blobLightProgram(true),
                                              &fieldFillProgram(false, false),
-                                             &fieldFillProgram(false, true)};
+                                             &fieldFillProgram(false, true),
+                                             &fieldVolumeProgram(false)};
         for (size_t i = 0; i < kSlabPrograms; ++i)
             list.push_back(&slabProgramAt(i));
         for (size_t i = 0; i < size_t(BatchShape::Count); ++i)

@@ -15,7 +15,7 @@ constexpr TimedPass kTimed[] = {
     {"field light", "volume"},       {"glow upload", "volume"},    {"glow source", "volume"},
     {"glow rays", "volume"},         {"network upload", "volume"}, {"network prepare", "volume"},
     {"network rays", "volume"},      {"network sum", "volume"},    {"glow sum", "volume"},
-    {"field texels", "volume"},      {"field march", "media"}};
+    {"field texels", "volume"},      {"field volume", "volume"},   {"field march", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
@@ -31,6 +31,7 @@ std::span<const ProgramDesc* const> programs()
                 for (const bool network : {false, true})
                     list.push_back(&fieldLightProgram(layers, detail, network));
         }
+        list.push_back(&fieldVolumeProgram(true));
         for (size_t i = 0; i < kFieldMarchPrograms; ++i)
             list.push_back(&fieldMarchProgramAt(i));
         return list;

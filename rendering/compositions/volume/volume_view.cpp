@@ -116,7 +116,7 @@ void VolumeView::addLooseBalls(FrameGraph& graph, const PassFrame& frame)
 /// and not again by addFields().
 LightBindings VolumeView::addLightPasses(FrameGraph& graph, const LightBindings& lights)
 {
-    const bool corrects = fields_.hasDetail() && !fields_.isEmpty() && !lights.stacks.empty() &&
+    const bool corrects = fields_.differsFromBalls() && !fields_.isEmpty() && !lights.stacks.empty() &&
                           lights.planes.valid() && corrected_ != lights.filled;
     if (!corrects || !fields_.setStacks(lights.stacks))
         return lights; // that of smooth balls

@@ -87,11 +87,11 @@ public:
             const BlobPathMedium::Substance& substance = medium_.substance(ball.place);
             const double extinction = leftOf(ball, substance, parameter);
             point.extinction += extinction;
-            point.scattering += extinction * substance.albedo;
+            point.scattering += extinction * albedoOf(ball, substance);
             point.emission +=
                 extinction * (isDetailed_ ? mix_.source(ball.place, substance.source, substance.albedo)
                                           : substance.source);
-            scattered += extinction * strength(substance);
+            scattered += extinction * strength(ball, substance);
         }
         if (met_.empty())
             return point;
@@ -127,9 +127,15 @@ private:
         return u * (1.0 - u2 * (2.0 / 3.0 - 0.2 * u2));
     }
     static double exitOf(const MetBall& ball) { return ball.nearest + std::sqrt(ball.chord2); }
-    static double strength(const BlobPathMedium::Substance& substance)
+    /// At the place of the last look().
+    glm::dvec3 albedoOf(const MetBall& ball, const BlobPathMedium::Substance& substance) const
     {
-        return substance.albedo.x + substance.albedo.y + substance.albedo.z;
+        return isDetailed_ ? mix_.albedo(ball.place, substance.albedo) : substance.albedo;
+    }
+    double strength(const MetBall& ball, const BlobPathMedium::Substance& substance) const
+    {
+        const glm::dvec3 albedo = albedoOf(ball, substance);
+        return albedo.x + albedo.y + albedo.z;
     }
     static double extinctionOf(const MetBall& ball, const BlobPathMedium::Substance& substance,
                                double parameter)
@@ -169,9 +175,9 @@ private:
         for (const MetBall& ball : met_) {
             const BlobPathMedium::Substance& substance = medium_.substance(ball.place);
             const double extinction = leftOf(ball, substance, parameter);
-            const double share = extinction * strength(substance);
+            const double share = extinction * strength(ball, substance);
             if (chosen < share) {
-                io.scattering = extinction * substance.albedo * (scattered / share);
+                io.scattering = extinction * albedoOf(ball, substance) * (scattered / share);
                 io.phase = substance.phase;
                 return;
             }
@@ -311,7 +317,8 @@ double BlobPathMedium::majorant() const
     double gain = 1.0;
     for (size_t group = 0; group < details_.groupCount(); ++group)
         gain = std::max(gain, details_.mostGain(group));
-    return *std::max_element(sums.begin(), sums.end()) * gain * (1.0 + 1e-9);
+    const double voxels = details_.isGiven() ? details_.largestOfVolumes() : 0.0;
+    return (*std::max_element(sums.begin(), sums.end()) * gain + voxels) * (1.0 + 1e-9);
 }
 
 } // namespace fx::render

@@ -67,6 +67,11 @@ public:
     /// [1] Eroded extinction of a blob divided by its smooth extinction, at the parameter passed to look().
     /// @param hit index in `hits`
     double share(size_t hit) const { return mix_.share(hits_->place[hit]); }
+    /// [1] Albedo of a blob at that parameter. @param albedo of the blob, unless it stands for a volume
+    glm::dvec3 albedo(size_t hit, const glm::dvec3& albedo) const
+    {
+        return mix_.albedo(hits_->place[hit], albedo);
+    }
 
 private:
     /// Light that reaches the eye: per meter of the ray, or from the whole ray.

@@ -26,10 +26,12 @@ namespace constant = base::blob_constant;
 class GroupMoment
 {
 public:
-    /// @param detail of the group
+    /// @param detail of the group  @param volume for which the elements stand; null: none
     GroupMoment(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, double t,
-                double stepSeconds, const BlobDetail& detail)
-        : newer_(newer), older_(older), t_(older ? t : 1.0), stepSeconds_(stepSeconds), detail_(detail)
+                double stepSeconds, const BlobDetail& detail, const base::SnapshotGroup* volumeGroup,
+                std::shared_ptr<const MediumVolume> volume)
+        : newer_(newer), older_(older), t_(older ? t : 1.0), stepSeconds_(stepSeconds), detail_(detail),
+          volumeGroup_(volumeGroup), volume_(std::move(volume))
     {
         place_ = newer.info().placement;
         if (!older)
@@ -42,6 +44,13 @@ public:
 
     void appendTo(MediumList& out)
     {
+        if (volume_) {
+            base::Placement here = place_;
+            here.position = glm::dvec3(0.0);
+            group_ = int32_t(out.details.groups.size());
+            out.details.groups.push_back(
+                {{}, place_.position, volume_, groupVolume(newer_, *volumeGroup_, here)});
+        }
         if (detail_.isGiven()) {
             base::Placement here = place_; // relative to its own origin, from where floats are exact enough
             here.position = glm::dvec3(0.0);
@@ -119,7 +128,13 @@ private:
         if (!(blob.crossSection > 0.0 && blob.radius > 0.0))
             return;
         appendStreak(blob, streak, out);
-        MediumDetails::Ball ball{group_, {}, temperature, 0.0f};
+        MediumDetails::Ball ball{group_, {}, temperature, 0.0f, 0.0f};
+        if (volume_) {
+            const GroupVolume& own = out.details.groups.back().place;
+            const glm::dvec3 voxel = own.voxelAt(out.blobs.back().center - place_.position);
+            const glm::ivec3 brick(glm::floor(voxel / double(base::kVolumeBrickSide)));
+            ball.largest = float(double(volume_->largestIn(brick)) * own.density);
+        }
         if (detail_.isGiven()) {
             ball.carried = detail_.carried(i, old, old != kNone, glm::vec3(position));
             const MediumBlob& piece = out.blobs.back();
@@ -174,6 +189,8 @@ private:
     double t_;
     double stepSeconds_;
     const BlobDetail& detail_;
+    const base::SnapshotGroup* volumeGroup_;
+    std::shared_ptr<const MediumVolume> volume_;
     GroupDetail groupDetail_;
     int32_t group_ = -1; ///< number of the detail
     std::vector<DetailedCaster> casters_;
@@ -192,7 +209,7 @@ const base::SnapshotGroup* sameGroup(const base::FrameSnapshot* older, const bas
 
 } // namespace
 
-MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation)
+MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation, const VolumeLookup& volumes)
 {
     MediumList list;
     if (!snapshots.newer)
@@ -206,8 +223,9 @@ MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation)
         if (group.info().kind != kind)
             continue;
         const BlobDetail detail(snapshots, g, float(glm::clamp(interpolation, 0.0, 1.0)));
+        const base::SnapshotGroup* const volume = volumes ? volumeGroup(newer, g) : nullptr;
         GroupMoment(group, sameGroup(snapshots.older, group.info()), glm::clamp(interpolation, 0.0, 1.0),
-                    stepSeconds, detail)
+                    stepSeconds, detail, volume, volume ? volumes(group.info()) : nullptr)
             .appendTo(list);
     }
     if (!list.details.isGiven())

@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace fx::render {
@@ -31,6 +33,9 @@ struct MediumBlob
     uint64_t id = 0;                                  ///< id of the ball in its group of the snapshot
 };
 
+/// Returns the volume of the solver that published a group; null if it has none.
+using VolumeLookup = std::function<std::shared_ptr<const MediumVolume>(const base::GroupInfo&)>;
+
 /// Blobs of all groups, and the number of blobs that were omitted because a value was not finite.
 struct MediumList
 {
@@ -46,6 +51,9 @@ struct MediumList
 /// source = (1 - albedo) black body + emission. The detail of fields is included. The noise of single balls
 /// (`detailAmount`) is omitted; only GPU passes have this noise.
 /// @param interpolation moment between the older (0) and the newer (1) snapshot
-MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation);
+/// @param volumes finds the voxels of groups of blobs that stand for a volume; where it is empty or returns
+///        null, the blobs are the medium
+MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation,
+                    const VolumeLookup& volumes = {});
 
 } // namespace fx::render

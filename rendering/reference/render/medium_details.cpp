@@ -11,9 +11,26 @@ namespace fx::render {
 
 namespace {
 
-constexpr double kMinPixel = 1e-9; ///< [m]
+constexpr double kMinPixel = 1e-9;     ///< [m]
+constexpr double kVoxelsPerLump = 4.0; ///< of a volume: what varies as much as a lump of this size
 
 } // namespace
+
+void removeNoise(MediumDetails& io)
+{
+    std::vector<int32_t> kept(io.groups.size(), -1);
+    std::vector<MediumDetails::Group> volumes;
+    for (size_t group = 0; group < io.groups.size(); ++group)
+        if (io.groups[group].volume) {
+            kept[group] = int32_t(volumes.size());
+            volumes.push_back(std::move(io.groups[group]));
+        }
+    io.groups = std::move(volumes);
+    for (MediumDetails::Ball& ball : io.balls)
+        ball.group = ball.group < 0 ? -1 : kept[size_t(ball.group)];
+    if (io.groups.empty())
+        io.balls.clear();
+}
 
 PixelWidth::PixelWidth(const ReferenceCamera& camera, int height) : forward(camera.forward)
 {
@@ -31,7 +48,7 @@ DetailedMedium::DetailedMedium(const MediumDetails& details, const BallTree& tre
     : pixel_(pixel), octaves_(details.octaves)
 {
     for (const MediumDetails::Group& group : details.groups)
-        groups_.push_back({group.detail, group.origin - eye});
+        groups_.push_back({group.detail, group.origin - eye, group.volume, group.place});
     if (!isGiven())
         return;
     balls_.reserve(tree.count());
@@ -44,6 +61,8 @@ DetailedMedium::DetailedMedium(const MediumDetails& details, const BallTree& tre
 
 double DetailedMedium::lumpSize(size_t group) const
 {
+    if (isVolume(group))
+        return kVoxelsPerLump * groups_[group].place.side;
     const GroupDetail& detail = groups_[group].detail;
     return double(detail.numbers.length()) * double(detail.scale);
 }
@@ -79,8 +98,28 @@ double DetailedMedium::maxErodedExtinction(size_t group, double most) const
     return double(detail.factor) * left;
 }
 
+MediumVolume::Sample DetailedMedium::volumeAt(size_t group, const glm::dvec3& point) const
+{
+    const Group& own = groups_[group];
+    MediumVolume::Sample sample = own.volume->at(own.place.voxelAt(point - own.origin));
+    sample.extinction *= own.place.density;
+    sample.emitted *= own.place.density;
+    sample.scattered *= own.place.density;
+    return sample;
+}
+
+double DetailedMedium::largestOfVolumes() const
+{
+    double sum = 0.0;
+    for (const Group& group : groups_)
+        sum += group.volume ? double(group.volume->largest()) * group.place.density : 0.0;
+    return sum;
+}
+
 double DetailedMedium::mostGain(size_t group) const
 {
+    if (isVolume(group))
+        return 1.0; // largestOfVolumes() bounds it
     return double(groups_[group].detail.factor) * double(kMaxDetailGain) * (1.0 + 1e-5);
 }
 
@@ -92,6 +131,7 @@ void DetailMix::clear()
         sum.extinction = 0.0;
         sum.carried = {};
         sum.thinning = 0.0;
+        sum.largest = 0.0;
     }
 }
 
@@ -105,6 +145,10 @@ void DetailMix::add(uint32_t place, double extinction)
     const MediumDetails::Ball& ball = medium_.ball(place);
     Sum& sum = sums_[size_t(group)];
     sum.extinction += extinction;
+    if (medium_.isVolume(size_t(group))) {
+        sum.largest = std::max(sum.largest, double(ball.largest));
+        return;
+    }
     sum.thinning += extinction * double(ball.thinning);
     for (size_t g = 0; g < 2; ++g)
         sum.carried[g] += extinction * glm::dvec3(ball.carried[g]);
@@ -117,6 +161,10 @@ void DetailMix::finish(const glm::dvec3& point)
         sum.detail = {0.0f, 1.0f, 0.0f};
         if (!(sum.extinction > 0.0))
             continue;
+        if (medium_.isVolume(group)) {
+            finishVolume(group, point);
+            continue;
+        }
         for (glm::dvec3& carried : sum.carried)
             carried /= sum.extinction;
         sum.detail = medium_.at(group, sum.extinction, sum.carried, sum.thinning / sum.extinction, point);
@@ -125,6 +173,8 @@ void DetailMix::finish(const glm::dvec3& point)
 
 glm::dvec3 DetailMix::source(uint32_t place, const glm::dvec3& source, const glm::dvec3& albedo) const
 {
+    if (const Sum* const volume = volumeOf(place))
+        return volume->source;
     const float change = temperature(place);
     if (change == 1.0f)
         return source;
@@ -133,11 +183,35 @@ glm::dvec3 DetailMix::source(uint32_t place, const glm::dvec3& source, const glm
     return glm::max(source + (1.0 - albedo) * more, glm::dvec3(0.0));
 }
 
+const DetailMix::Sum* DetailMix::volumeOf(uint32_t place) const
+{
+    const int32_t group = medium_.groupOf(place);
+    return group >= 0 && medium_.isVolume(size_t(group)) ? &sums_[size_t(group)] : nullptr;
+}
+
+glm::dvec3 DetailMix::albedo(uint32_t place, const glm::dvec3& albedo) const
+{
+    const Sum* const volume = volumeOf(place);
+    return volume ? volume->albedo : albedo;
+}
+
+/// The balls share the medium of the voxels in proportion to their own extinction.
+void DetailMix::finishVolume(size_t group, const glm::dvec3& point)
+{
+    Sum& sum = sums_[group];
+    const MediumVolume::Sample sample = medium_.volumeAt(group, point);
+    sum.detail.share = float(sample.extinction / sum.extinction);
+    const double perExtinction = sample.extinction > 0.0 ? 1.0 / sample.extinction : 0.0;
+    sum.source = sample.emitted * perExtinction;
+    sum.albedo = sample.scattered * perExtinction;
+}
+
 double DetailMix::maxErodedExtinction() const
 {
     double sum = smooth_;
     for (size_t group = 0; group < sums_.size(); ++group)
-        sum += medium_.maxErodedExtinction(group, sums_[group].extinction);
+        sum += medium_.isVolume(group) ? sums_[group].largest
+                                       : medium_.maxErodedExtinction(group, sums_[group].extinction);
     return sum;
 }
 

@@ -5,16 +5,20 @@
 #include "rendering/field_detail/blob_detail.h"
 #include "rendering/reference/render/reference_camera.h"
 #include "rendering/reference/trace/ball_tree.h"
+#include "rendering/volumes/medium_volume.h"
+#include "rendering/volumes/volume_place.h"
 
 #include <glm/vec3.hpp>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace fx::render {
 
-/// The detail of a list of balls. Without groups there is no detail.
+/// The detail of a list of balls. Without groups there is no detail. A group may be a volume: voxels replace
+/// the sum of its balls, which only say where there is medium.
 struct MediumDetails
 {
     /// Data that all blobs of a group share.
@@ -22,7 +26,9 @@ struct MediumDetails
     {
         /// Parameters of the detail, for positions relative to `origin`, along world axes.
         GroupDetail detail;
-        glm::dvec3 origin{0.0}; ///< [m] position of the origin in the world
+        glm::dvec3 origin{0.0};                               ///< [m] position of the origin in the world
+        std::shared_ptr<const MediumVolume> volume = nullptr; ///< null: the group is no volume
+        GroupVolume place = {}; ///< of `volume`, for positions relative to `origin`
     };
     /// Data of one ball.
     struct Ball
@@ -31,6 +37,7 @@ struct MediumDetails
         std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
         float temperature = 0.0f;           ///< [K]
         float thinning = 0.0f;              ///< [1] symbol v of formula field-detail
+        float largest = 0.0f; ///< [1/m] of a volume: largest extinction in the brick of the ball
     };
     std::vector<Group> groups;
     std::vector<Ball> balls;         ///< detail of each ball of the list; empty if there is no detail
@@ -38,6 +45,9 @@ struct MediumDetails
 
     bool isGiven() const { return !groups.empty(); }
 };
+
+/// Removes the detail of all groups but volumes.
+void removeNoise(MediumDetails& io);
 
 /// Width of a pixel as a function of distance. Octaves of noise fade out by equation (3) of lump-noise.
 struct PixelWidth
@@ -74,6 +84,11 @@ public:
     /// @param carried, thinning [cell], [1] means over the balls of the group, weighted by extinction
     MediumDetail at(size_t group, double extinction, const std::array<glm::dvec3, 2>& carried,
                     double thinning, const glm::dvec3& point) const;
+    bool isVolume(size_t group) const { return groups_[group].volume != nullptr; }
+    /// The medium of a group that is a volume, at a point. Extinction and light have their factors.
+    MediumVolume::Sample volumeAt(size_t group, const glm::dvec3& point) const;
+    /// [1/m] Sum over volumes of their largest extinction.
+    double largestOfVolumes() const;
     /// [cd/m2] Black-body luminance at the temperature of a ball.
     const glm::vec3& thermal(uint32_t place) const { return thermal_[place]; }
     /// [1/m] Upper bound of the eroded extinction at points where the smooth extinction is at most `most`
@@ -86,6 +101,8 @@ private:
     {
         GroupDetail detail;
         glm::dvec3 origin; ///< [m] origin of the group's coordinates, relative to the eye
+        std::shared_ptr<const MediumVolume> volume;
+        GroupVolume place;
     };
     std::vector<Group> groups_;
     std::vector<MediumDetails::Ball> balls_; ///< by place
@@ -123,6 +140,9 @@ public:
     /// @param source emitted light without detail
     glm::dvec3 source(uint32_t place, const glm::dvec3& source, const glm::dvec3& albedo) const;
 
+    /// [1] Albedo of a ball, or of the volume for which it stands.
+    glm::dvec3 albedo(uint32_t place, const glm::dvec3& albedo) const;
+
     /// [1/m] Upper bound of the eroded extinction of all added balls. Requires that add() was called with
     /// upper bounds.
     double maxErodedExtinction() const;
@@ -134,7 +154,12 @@ private:
         std::array<glm::dvec3, 2> carried{};
         double thinning = 0.0;
         MediumDetail detail;
+        double largest = 0.0;                ///< [1/m] of a volume, over the bricks of the added balls
+        glm::dvec3 source{0.0}, albedo{0.0}; ///< of a volume: [cd/m2] emitted per optical depth; [1]
     };
+    const Sum* volumeOf(uint32_t place) const;
+    void finishVolume(size_t group, const glm::dvec3& point);
+
     const DetailedMedium& medium_;
     std::vector<Sum> sums_; ///< by group
     double smooth_ = 0.0;   ///< [1/m] sum of the extinctions of balls without detail

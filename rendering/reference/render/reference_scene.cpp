@@ -79,6 +79,13 @@ void addDetails(KeyHash& hash, const MediumDetails& details)
     for (const MediumDetails::Group& group : details.groups) {
         const FieldDetailNumbers& n = group.detail.numbers;
         hash.add(group.origin);
+        if (group.volume) {
+            hash.addWord(group.volume->hash());
+            for (int column = 0; column < 3; ++column)
+                hash.add(group.place.toVoxels[column]);
+            hash.add(group.place.first);
+            hash.add(group.place.density);
+        }
         for (size_t g = 0; g < 2; ++g) {
             for (int column = 0; column < 3; ++column)
                 add(hash, group.detail.toCells[g][column]);

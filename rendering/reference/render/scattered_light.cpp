@@ -200,7 +200,9 @@ void ScatteredLight::addNode(const Ray& ray, double t, double length, size_t lam
             anisotropy = s.anisotropy;
             light = inflow(ray.ray.direction, anisotropy);
         }
-        io[size_t(s.layer)] += light * glm::dvec3(s.albedo) * extinction; // (1)
+        const glm::dvec3 albedo(s.albedo);
+        io[size_t(s.layer)] +=
+            light * (isDetailed ? detailed_.albedo(i, albedo) : albedo) * extinction; // (1)
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/material_kind.h"
+#include "foundation/snapshot/volume_kind.h"
 #include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/techniques/blobs/blob_parts.h"
@@ -58,6 +59,11 @@ constexpr DrawTechnique kBlobTechnique{
 constexpr DrawTechnique kFieldDetailTechnique{
     .name = "detail of fields",
     .kind = &base::kMaterialKind,
+};
+
+constexpr DrawTechnique kVolumeTechnique{
+    .name = "volumes of voxels",
+    .kind = &base::kVolumeKind,
 };
 
 } // namespace fx::render

@@ -28,6 +28,7 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     io.marks = builder_.marks();
     io.materials = builder_.materials();
     io.details = builder_.details();
+    io.volumes = builder_.volumes();
     base::reserveAmortized(*io.casters, io.casters->size() + builder_.casters().size());
     io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());
     io.anyHeat = builder_.anyHeat();

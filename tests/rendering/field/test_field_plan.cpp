@@ -339,3 +339,59 @@ TEST(FieldPlan, equalInputsGiveEqualPlans)
     EXPECT_TRUE(std::equal(a.table().begin(), a.table().end(), b.table().begin(), b.table().end()));
     EXPECT_TRUE(std::equal(a.balls().begin(), a.balls().end(), b.balls().begin(), b.balls().end()));
 }
+
+namespace {
+
+/// Balls in the middles of 4 x 3 x 2 bricks of voxels of `side` [m], whose lattice begins at `origin`.
+std::vector<FieldBall> brickBalls(const glm::dvec3& origin, double side)
+{
+    std::vector<FieldBall> balls;
+    for (int i = 0; i < 24; ++i)
+        balls.push_back({.center = origin + 8.0 * side * (glm::dvec3(i % 4, i / 4 % 3, i / 12) + 0.5),
+                         .radius = float(8.0 * side)});
+    return balls;
+}
+
+FieldPlan planOfVolume(const glm::dvec3& eye, const FieldVolume& volume, uint32_t mostBricks)
+{
+    FieldScene scene(brickBalls(eye + volume.origin, volume.side), cameraAt(eye, eye - glm::dvec3(0, 0, 1)));
+    scene.effects[0].volume = 0;
+    FieldPlan plan(std::pmr::new_delete_resource());
+    FieldPlanInputs in = scene.inputs(kWidth, kHeight, 64);
+    in.mostBricks = mostBricks;
+    in.volumes = {&volume, 1};
+    plan.build(in);
+    return plan;
+}
+
+} // namespace
+
+TEST(FieldPlan, theFieldOfAVolumeHasItsLatticeAndItsBricksOnly)
+{
+    const FieldVolume volume{
+        .origin = {-0.51, -0.37, -4.03}, .side = 0.037, .isAligned = true, .largest = 7.0f};
+    const FieldPlan plan = planOfVolume({1e4, 0.3, -2.7}, volume, 0);
+    ASSERT_EQ(plan.volumes().size(), 1u);
+    EXPECT_EQ(plan.volumes()[0].level, 0);
+    EXPECT_EQ(plan.volumes()[0].brickCount, 24u);
+    EXPECT_EQ(plan.bricks().size(), 24u);
+    EXPECT_TRUE(plan.loose().empty());
+    const FieldBlock& field = plan.fields()[0];
+    EXPECT_FLOAT_EQ(field.corner.w, 0.037f);
+    EXPECT_EQ(glm::ivec3(field.bricks), glm::ivec3(4, 3, 2));
+    for (int a = 0; a < 3; ++a)
+        EXPECT_NEAR(field.corner[a], volume.origin[a], 1e-5);
+    EXPECT_LT(field.limits.x, 0.0f);
+    EXPECT_EQ(field.limits.y, 7.0f);
+}
+
+TEST(FieldPlan, aVolumeBeyondItsBudgetHasVoxelsOfAPowerOfTwo)
+{
+    const FieldVolume volume{
+        .origin = {-0.51, -0.37, -4.03}, .side = 0.037, .isAligned = true, .largest = 7.0f};
+    const FieldPlan plan = planOfVolume({0, 0, 0}, volume, 1); // 8 bricks of volumes
+    ASSERT_EQ(plan.volumes().size(), 1u);
+    EXPECT_GT(plan.volumes()[0].level, 0);
+    EXPECT_LE(plan.bricks().size(), 8u);
+    EXPECT_FLOAT_EQ(plan.fields()[0].corner.w, std::ldexp(0.037f, plan.volumes()[0].level));
+}

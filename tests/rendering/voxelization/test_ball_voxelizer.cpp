@@ -115,12 +115,19 @@ TEST(BallVoxelizer, meansOfTwoBallsAreWeightedWithTheirDensityAndLightIsAdded)
     balls[1].temperature = 2000.0;
     balls[1].luminance = 1e5;
     balls[1].velocity = {0.0, 9.0, 0.0};
+    balls[0].albedo = {0.2, 0.4, 0.6};
+    balls[1].albedo = {0.8, 0.4, 0.0};
     const auto blocks = voxelize(balls, kVoxel);
     const VoxelSums sums = sumsOf(blocks, kVoxel);
     EXPECT_NEAR(sums.mass, 3.0, 3e-6);
     EXPECT_NEAR(sums.heat, 2.5 * 900.0 + 0.5 * 2000.0, 0.01);
     EXPECT_NEAR(sums.light, 2.5 * 40.0 + 0.5 * 1e5, 0.2);
     EXPECT_NEAR(glm::distance(sums.momentum, 2.5 * balls[0].velocity + 0.5 * balls[1].velocity), 0.0, 1e-5);
+    glm::dvec3 scattered(0.0); // [m2]
+    for (const VoxelBlock& block : blocks)
+        for (size_t v = 0; v < size_t(kBlockVoxels); ++v)
+            scattered += kVoxel * kVoxel * kVoxel * double(block.density[v]) * glm::dvec3(block.albedo[v]);
+    EXPECT_NEAR(glm::distance(scattered, 2.5 * balls[0].albedo + 0.5 * balls[1].albedo), 0.0, 1e-5);
     for (const VoxelBlock& block : blocks)
         for (size_t v = 0; v < size_t(kBlockVoxels); ++v)
             if (block.density[v] > 0.0f) {

@@ -1,0 +1,39 @@
+/// @file volume_kind.h
+/// The kind "volume": a medium on sparse voxels (foundation/assets/voxel_volume.h). Techniques that publish
+/// volumes and passes that draw them include this header; the snapshot container does not.
+///
+/// A group of this kind has no elements. It follows a group of the kind "blob" of the same solver, which has
+/// one ball for each brick that contains medium. The ball has the cross section of the brick, is concentric
+/// with the brick, and contains the brick. Readers that know this kind replace the balls by the voxels.
+/// Other readers, and compositions without voxels, use the balls.
+#pragma once
+
+#include "foundation/snapshot/snapshot_schema.h"
+
+namespace fx::base {
+
+/// Indices of the constants of a group.
+namespace volume_constant {
+enum : size_t
+{
+    Asset,   ///< id of the volume in the asset table
+    OriginX, ///< [m] center of the voxel (0, 0, 0), in the local space of the group
+    OriginY,
+    OriginZ,
+    Side,    ///< [m] side of a voxel, along the axes of the local space
+    Density, ///< [1] factor of the extinction and of the emission, per length of the local space
+    Count
+};
+}
+
+/// [1] Radius of a ball over the side of a voxel. The ball contains its brick: half of the brick's diagonal
+/// is 6.93 voxels. The extinction of the ball is above 0 at the corners of the brick.
+constexpr float kVolumeBallRadius = 8.0f;
+
+inline constexpr ColumnDesc kVolumeConstants[volume_constant::Count] = {
+    {"asset", "1"}, {"originX", "m"}, {"originY", "m"}, {"originZ", "m"}, {"side", "m"}, {"density", "1"},
+};
+
+inline constexpr KindDesc kVolumeKind{"volume", {}, kVolumeConstants, false};
+
+} // namespace fx::base

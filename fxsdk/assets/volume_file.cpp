@@ -1,0 +1,323 @@
+#include "fxsdk/assets/volume_file.h"
+
+#include "foundation/math/half.h"
+#include "foundation/math/hash.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+namespace fx::asset {
+
+namespace {
+
+using base::Code;
+using base::Status;
+
+constexpr size_t kVoxels = base::kVolumeBrickVoxels;
+constexpr float kMostLight = 1e12f, kFarthest = 1e6f, kThinnest = 1e-6f;
+constexpr uint32_t kHalfOne = 0x3C00;
+
+/// A kind of values.
+struct Channel
+{
+    std::string_view name;
+    float most; ///< largest value that a file may state
+    size_t components;
+};
+constexpr std::array<Channel, 4> kChannels{
+    {{"extinction", 1e12f, 1}, {"temperature", 1e5f, 1}, {"emission", kMostLight, 3}, {"albedos", 1.0f, 3}}};
+enum : size_t
+{
+    Extinction,
+    Temperature,
+    Emission,
+    Albedo
+};
+
+std::span<const float> asFloats(const std::vector<glm::vec3>& v)
+{
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    return {v.empty() ? nullptr : &v.front().x, v.size() * 3};
+}
+
+std::span<float> asFloats(std::vector<glm::vec3>& v)
+{
+    return {v.empty() ? nullptr : &v.front().x, v.size() * 3};
+}
+
+/// Reads the lines of the header.
+class Header
+{
+public:
+    explicit Header(std::string_view bytes) : rest_(bytes) {}
+
+    /// Takes the words behind `name` if this is the name of the next line.
+    bool line(std::string_view name)
+    {
+        if (!rest_.starts_with(name) || rest_.size() == name.size() ||
+            (rest_[name.size()] != ' ' && rest_[name.size()] != '\n'))
+            return false;
+        const size_t end = rest_.find('\n');
+        if (end == std::string_view::npos)
+            return false;
+        words_ = rest_.substr(name.size(), end - name.size());
+        rest_.remove_prefix(end + 1);
+        ++number_;
+        return true;
+    }
+    /// @return false: the next word of the line is no number
+    template <class T, class... Format>
+    bool number(T& out, Format... format)
+    {
+        if (!words_.starts_with(' '))
+            return false;
+        const char* const last = words_.data() + words_.size();
+        const auto [end, error] = std::from_chars(words_.data() + 1, last, out, format...);
+        if (error != std::errc())
+            return false;
+        words_.remove_prefix(size_t(end - words_.data()));
+        return true;
+    }
+    bool isAtEnd() const { return words_.empty(); } ///< of the line
+    Status expected(std::string_view what) const
+    {
+        return {Code::Parse, "line " + std::to_string(number_) + ": expected " + std::string(what) +
+                                 "; \"fx import FILE.vdb --bricks\" writes such files"};
+    }
+    std::string_view rest() const { return rest_; }
+
+private:
+    std::string_view rest_, words_;
+    int number_ = 1; ///< of the next line
+};
+
+bool isIn(float value, float low, float high)
+{
+    return value >= low && value <= high; // not with NaN
+}
+
+struct Contents
+{
+    base::VoxelVolume volume;
+    size_t bricks = 0;
+    std::array<float, kChannels.size()> largest{}; ///< 0: the channel is absent
+    uint64_t hash = 0;
+};
+
+/// The lines between the version and the channels.
+Status readShape(Header& io, Contents& out)
+{
+    base::VoxelVolume& v = out.volume;
+    if (!io.line("bricks") || !io.number(out.bricks) || !io.isAtEnd())
+        return io.expected("'bricks' and their number");
+    if (out.bricks < 1 || out.bricks > base::kMaxVolumeBricks)
+        return {Code::TooLarge, "found " + std::to_string(out.bricks) + " bricks; allowed are 1 to " +
+                                    std::to_string(base::kMaxVolumeBricks)};
+    if (!io.line("side") || !io.number(v.side) || !io.isAtEnd() || !isIn(v.side, kThinnest, kFarthest))
+        return io.expected("'side' and 1e-6 to 1e6");
+    if (!io.line("origin"))
+        return io.expected("'origin'");
+    for (int a = 0; a < 3; ++a)
+        if (!io.number(v.origin[a]) || !isIn(v.origin[a], -kFarthest, kFarthest))
+            return io.expected("three numbers within 1e6");
+    if (!io.isAtEnd() || !io.line("albedo"))
+        return io.expected("'albedo'");
+    for (int a = 0; a < 3; ++a)
+        if (!io.number(v.evenAlbedo[a]) || !isIn(v.evenAlbedo[a], 0.0f, 1.0f))
+            return io.expected("three numbers from 0 to 1");
+    return io.isAtEnd() ? Status() : io.expected("the end of the line");
+}
+
+Status readChannels(Header& io, Contents& out)
+{
+    for (size_t c = 0; c < kChannels.size(); ++c) {
+        if (!io.line(kChannels[c].name)) {
+            if (c == Extinction)
+                return io.expected("'extinction'");
+            continue;
+        }
+        if (!io.number(out.largest[c]) || !io.isAtEnd() || !(out.largest[c] > 0.0f) ||
+            !(out.largest[c] <= kChannels[c].most))
+            return io.expected("a largest value above 0 and in the range of '" +
+                               std::string(kChannels[c].name) + "'");
+    }
+    if (!io.line("hash") || !io.number(out.hash, 16) || !io.isAtEnd())
+        return io.expected("a channel or 'hash'");
+    return io.line("data") && io.isAtEnd() ? Status() : io.expected("'data'");
+}
+
+uint32_t wordAt(std::string_view data, size_t word)
+{
+    return uint32_t(static_cast<unsigned char>(data[2 * word])) |
+           uint32_t(static_cast<unsigned char>(data[2 * word + 1])) << 8;
+}
+
+Status readBricks(std::string_view data, Contents& io)
+{
+    std::vector<glm::ivec3>& bricks = io.volume.bricks;
+    bricks.reserve(io.bricks);
+    for (size_t i = 0; i < io.bricks; ++i) {
+        const glm::ivec3 b(int(wordAt(data, 3 * i)), int(wordAt(data, 3 * i + 1)),
+                           int(wordAt(data, 3 * i + 2)));
+        for (int a = 0; a < 3; ++a)
+            if (b[a] < 1 || b[a] >= base::kMaxVolumeBricksPerAxis)
+                return {Code::InvalidArgument, "brick " + std::to_string(i) +
+                                                   ": a coordinate is not in 1 to " +
+                                                   std::to_string(base::kMaxVolumeBricksPerAxis - 1)};
+        const auto key = [](const glm::ivec3& p) { return std::tuple(p.z, p.y, p.x); };
+        if (i > 0 && !(key(bricks.back()) < key(b)))
+            return {Code::InvalidArgument, "brick " + std::to_string(i) + ": is not behind the one before"};
+        bricks.push_back(b);
+    }
+    return {};
+}
+
+Status readValues(std::string_view data, const Channel& channel, float largest, std::span<float> out)
+{
+    for (size_t i = 0; i < out.size(); ++i) {
+        const uint32_t half = wordAt(data, i);
+        if (half > kHalfOne)
+            return {Code::InvalidArgument,
+                    std::string(channel.name) + ": value " + std::to_string(i) + " is out of range"};
+        out[i] = largest * base::fromHalf(half);
+    }
+    return {};
+}
+
+void appendWord(std::string& io, uint32_t word)
+{
+    io += char(word & 0xFF);
+    io += char(word >> 8 & 0xFF);
+}
+
+std::string shortest(float number)
+{
+    char text[48];
+    const auto [end, error] = std::to_chars(std::begin(text), std::end(text), number);
+    return {std::begin(text), end};
+}
+
+std::array<std::span<const float>, kChannels.size()> channelsOf(const base::VoxelVolume& v)
+{
+    return {v.extinction, v.temperature, asFloats(v.emission), asFloats(v.albedo)};
+}
+
+Status checkShape(const base::VoxelVolume& v)
+{
+    if (v.bricks.empty() || v.bricks.size() > base::kMaxVolumeBricks)
+        return {Code::TooLarge, std::to_string(v.bricks.size()) +
+                                    " bricks of 8 x 8 x 8 voxels; allowed are 1 to " +
+                                    std::to_string(base::kMaxVolumeBricks) + ": use larger voxels"};
+    if (!isIn(v.side, kThinnest, kFarthest) || !isIn(v.origin.x, -kFarthest, kFarthest) ||
+        !isIn(v.origin.y, -kFarthest, kFarthest) || !isIn(v.origin.z, -kFarthest, kFarthest))
+        return {Code::InvalidArgument, "side or place of the voxels is out of range; change --length-scale"};
+    for (const glm::ivec3& b : v.bricks)
+        for (int a = 0; a < 3; ++a)
+            if (b[a] < 1 || b[a] >= base::kMaxVolumeBricksPerAxis)
+                return {Code::TooLarge, "more than " +
+                                            std::to_string((base::kMaxVolumeBricksPerAxis - 1) * 8) +
+                                            " voxels along an axis: use larger voxels"};
+    return {};
+}
+
+} // namespace
+
+uint64_t volumeHash(std::string_view data)
+{
+    return base::hashBytes(1, data.data(), data.size());
+}
+
+base::Result<base::VoxelVolume> parseVolume(std::string_view bytes)
+{
+    if (!bytes.starts_with("fxvolume "))
+        return Header(bytes).expected("'fxvolume'");
+    Header header(bytes);
+    uint32_t version = 0;
+    if (!header.line("fxvolume") || !header.number(version) || !header.isAtEnd() || version != 1)
+        return Status(Code::Version, "line 1: expected version 1");
+    Contents contents;
+    if (Status status = readShape(header, contents); !status)
+        return status;
+    if (Status status = readChannels(header, contents); !status)
+        return status;
+    std::string_view data = header.rest();
+    size_t words = 3;
+    for (size_t c = 0; c < kChannels.size(); ++c)
+        words += contents.largest[c] > 0.0f ? kChannels[c].components * kVoxels : 0;
+    if (data.size() != contents.bricks * words * 2)
+        return Status(Code::Parse, "found " + std::to_string(data.size()) +
+                                       " bytes of data; the header needs " +
+                                       std::to_string(contents.bricks * words * 2));
+    if (volumeHash(data) != contents.hash)
+        return Status(Code::Parse, "the data are damaged: their hash is another one");
+    if (Status status = readBricks(data, contents); !status)
+        return status;
+    data.remove_prefix(contents.bricks * 6);
+    base::VoxelVolume& v = contents.volume;
+    const size_t voxels = contents.bricks * kVoxels;
+    for (size_t c = 0; c < kChannels.size(); ++c) {
+        if (!(contents.largest[c] > 0.0f))
+            continue;
+        std::span<float> values;
+        if (c == Extinction || c == Temperature) {
+            std::vector<float>& numbers = c == Extinction ? v.extinction : v.temperature;
+            numbers.resize(voxels);
+            values = numbers;
+        } else {
+            std::vector<glm::vec3>& colors = c == Emission ? v.emission : v.albedo;
+            colors.resize(voxels);
+            values = asFloats(colors);
+        }
+        if (Status status = readValues(data, kChannels[c], contents.largest[c], values); !status)
+            return status;
+        data.remove_prefix(values.size() * 2);
+    }
+    if (std::ranges::none_of(v.extinction, [](float x) { return x > 0.0f; }))
+        return Status(Code::InvalidArgument, "no voxel has medium");
+    return std::move(contents.volume);
+}
+
+base::Result<std::string> writeVolume(const base::VoxelVolume& volume)
+{
+    if (Status status = checkShape(volume); !status)
+        return status;
+    const auto channels = channelsOf(volume);
+    std::string data, lines;
+    for (const glm::ivec3& brick : volume.bricks)
+        for (int a = 0; a < 3; ++a)
+            appendWord(data, uint32_t(brick[a]));
+    for (size_t c = 0; c < kChannels.size(); ++c) {
+        float largest = 0.0f;
+        for (const float value : channels[c]) {
+            if (!isIn(value, 0.0f, kChannels[c].most))
+                return Status(Code::InvalidArgument, std::string(kChannels[c].name) +
+                                                         ": a value is out of range; change its --...-scale");
+            largest = std::max(largest, value);
+        }
+        if (!(largest > 0.0f))
+            continue;
+        lines += std::string(kChannels[c].name) + " " + shortest(largest) + "\n";
+        for (const float value : channels[c])
+            appendWord(data, base::toHalf(value / largest));
+    }
+    if (!lines.starts_with(kChannels[Extinction].name))
+        return Status(Code::InvalidArgument, "the volume has no medium");
+    char hash[20];
+    const auto [end, error] = std::to_chars(std::begin(hash), std::end(hash), volumeHash(data), 16);
+    std::string digits(std::begin(hash), end);
+    digits.insert(0, 16 - digits.size(), '0');
+    std::string text = "fxvolume 1\nbricks " + std::to_string(volume.bricks.size()) + "\nside " +
+                       shortest(volume.side) + "\norigin";
+    for (int a = 0; a < 3; ++a)
+        text += " " + shortest(volume.origin[a]);
+    text += "\nalbedo";
+    for (int a = 0; a < 3; ++a)
+        text += " " + shortest(volume.evenAlbedo[a]);
+    return text + "\n" + lines + "hash " + digits + "\ndata\n" + data;
+}
+
+} // namespace fx::asset

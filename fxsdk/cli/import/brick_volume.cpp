@@ -1,0 +1,257 @@
+#include "fxsdk/cli/import/brick_volume.h"
+
+#include "fxsdk/assets/volume_file.h"
+#include "fxsdk/cli/import/preset_files.h"
+#include "rendering/voxelization/block_table.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace fx::cli {
+namespace {
+
+constexpr size_t kVoxels = base::kVolumeBrickVoxels;
+constexpr double kStraight = 1e-6;              // of the side of a voxel
+constexpr double kMostTemperature = 1e5;        // [K]
+constexpr int64_t kFarthest = int64_t(1) << 28; // [voxel]
+
+/// A lattice of cubes along the axes of the world.
+struct Lattice
+{
+    double side = 1.0;      // [m]
+    glm::dvec3 origin{0.0}; // [m] of the voxel (0, 0, 0)
+};
+
+bool isStraight(const render::MediumGrid& grid)
+{
+    const double side = grid.axes[0][0];
+    if (!(side > 0.0))
+        return false;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (std::abs(grid.axes[c][r] - (c == r ? side : 0.0)) > kStraight * side)
+                return false;
+    return true;
+}
+
+/// What a voxel has.
+struct Voxel
+{
+    double density = 0.0, heat = 0.0, flame = 0.0; // heat: density times temperature
+    glm::dvec3 albedo{0.0};                        // times density
+};
+
+class GridSampler
+{
+public:
+    explicit GridSampler(const render::MediumGrid& grid) : grid_(grid), toVoxels_(glm::inverse(grid.axes)) {}
+
+    Voxel atVoxel(const glm::ivec3& voxel, double weight) const
+    {
+        const glm::ivec3 origin(voxel.x >> 3, voxel.y >> 3, voxel.z >> 3);
+        const size_t block = render::findBlock(grid_.blocks, origin * 8);
+        if (block == render::kNoBlock)
+            return {};
+        const glm::ivec3 in = voxel - origin * 8;
+        const size_t at = block * size_t(render::kBlockVoxels) + render::voxelInBlock(in.x, in.y, in.z);
+        Voxel out;
+        out.density = weight * double(grid_.density[at]);
+        if (!grid_.temperature.empty())
+            out.heat = out.density * double(grid_.temperature[at]);
+        if (!grid_.flame.empty())
+            out.flame = weight * double(grid_.flame[at]);
+        if (!grid_.albedo.empty())
+            out.albedo = out.density * glm::dvec3(grid_.albedo[at]);
+        return out;
+    }
+
+    Voxel atPlace(const glm::dvec3& place) const
+    {
+        const glm::dvec3 index = toVoxels_ * (place - grid_.origin);
+        const glm::dvec3 low = glm::floor(index), part = index - low;
+        Voxel sum;
+        for (int k = 0; k < 8; ++k) {
+            const glm::ivec3 corner(k & 1, k >> 1 & 1, k >> 2);
+            double weight = 1.0;
+            for (int a = 0; a < 3; ++a)
+                weight *= corner[a] == 1 ? part[a] : 1.0 - part[a];
+            const Voxel own = atVoxel(glm::ivec3(low) + corner, weight);
+            sum.density += own.density;
+            sum.heat += own.heat;
+            sum.flame += own.flame;
+            sum.albedo += own.albedo;
+        }
+        return sum;
+    }
+
+private:
+    const render::MediumGrid& grid_;
+    glm::dmat3 toVoxels_;
+};
+
+std::array<int, 3> keyOf(const glm::ivec3& brick)
+{
+    return {brick.z, brick.y, brick.x};
+}
+
+/// Bricks of the lattice that blocks of the grid touch, ascending.
+std::vector<glm::ivec3> bricksOf(const render::MediumGrid& grid, const Lattice& lattice, bool isCopied)
+{
+    std::map<std::array<int, 3>, bool> found;
+    for (const glm::ivec3& block : grid.blocks) {
+        if (isCopied) {
+            found[keyOf(block / 8)] = true; // multiples of 8
+            continue;
+        }
+        glm::dvec3 low(1e300), high(-1e300);
+        for (int k = 0; k < 8; ++k) {
+            const glm::dvec3 corner(k & 1 ? 8.0 : -1.0, k & 2 ? 8.0 : -1.0, k & 4 ? 8.0 : -1.0);
+            const glm::dvec3 place =
+                (grid.place(glm::dvec3(block) + corner) - lattice.origin) / lattice.side / 8.0;
+            low = glm::min(low, place);
+            high = glm::max(high, place);
+        }
+        for (int z = int(std::floor(low.z)); z <= int(std::floor(high.z)); ++z)
+            for (int y = int(std::floor(low.y)); y <= int(std::floor(high.y)); ++y)
+                for (int x = int(std::floor(low.x)); x <= int(std::floor(high.x)); ++x)
+                    found[{z, y, x}] = true;
+        if (found.size() > 64 * base::kMaxVolumeBricks)
+            break; // far too many
+    }
+    std::vector<glm::ivec3> bricks;
+    bricks.reserve(found.size());
+    for (const auto& [key, isThere] : found)
+        bricks.push_back({key[2], key[1], key[0]});
+    return bricks;
+}
+
+base::Status tooLarge(const std::string& what)
+{
+    return {base::Code::TooLarge, what + "; write the volume with larger voxels, or fit balls to it (--fit)"};
+}
+
+void append(const Voxel& voxel, bool hasFlame, base::VoxelVolume& io, const render::MediumGrid& grid)
+{
+    const bool isThere = voxel.density > 0.0;
+    const double per = isThere ? 1.0 / voxel.density : 0.0;
+    const double temperature = std::min(voxel.heat * per, kMostTemperature);
+    io.extinction.push_back(float(voxel.density));
+    if (hasFlame)
+        io.emission.push_back(float(voxel.flame) * colorOf(temperature));
+    else if (!grid.temperature.empty())
+        io.temperature.push_back(float(temperature));
+    if (!grid.albedo.empty())
+        io.albedo.push_back(glm::clamp(glm::vec3(voxel.albedo * per), glm::vec3(0.0f), glm::vec3(1.0f)));
+}
+
+double massOf(const base::VoxelVolume& volume)
+{
+    double sum = 0.0;
+    for (const float extinction : volume.extinction)
+        sum += double(extinction);
+    return sum * std::pow(double(volume.side), 3.0);
+}
+
+} // namespace
+
+base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo)
+{
+    const bool isCopied = isStraight(grid);
+    Lattice lattice;
+    lattice.side =
+        isCopied
+            ? grid.axes[0][0]
+            : std::min({glm::length(grid.axes[0]), glm::length(grid.axes[1]), glm::length(grid.axes[2])});
+    lattice.origin = isCopied ? grid.origin : glm::dvec3(0.0);
+    const double mass = render::sumsOf(grid).crossSection;
+    if (!(mass > 0.0))
+        return base::Status(base::Code::InvalidArgument, "the volume has no medium");
+    for (const glm::ivec3& block : grid.blocks)
+        if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(grid.place(block)) - lattice.origin),
+                                      glm::dvec3(double(kFarthest) * lattice.side))))
+            return tooLarge("the volume is too far from the origin for its voxels");
+    const std::vector<glm::ivec3> bricks = bricksOf(grid, lattice, isCopied);
+    if (bricks.size() > 64 * base::kMaxVolumeBricks)
+        return tooLarge("the volume has too many voxels");
+    const GridSampler sampler(grid);
+    base::VoxelVolume volume;
+    volume.side = float(lattice.side);
+    volume.evenAlbedo = glm::vec3(float(albedo));
+    for (const glm::ivec3& brick : bricks) {
+        std::array<Voxel, kVoxels> voxels;
+        bool isEmpty = true;
+        for (size_t v = 0; v < kVoxels; ++v) {
+            const glm::ivec3 voxel = brick * 8 + glm::ivec3(int(v % 8), int(v / 8 % 8), int(v / 64));
+            voxels[v] = isCopied ? sampler.atVoxel(voxel, 1.0)
+                                 : sampler.atPlace(lattice.origin + lattice.side * glm::dvec3(voxel));
+            isEmpty = isEmpty && !(voxels[v].density > 0.0);
+        }
+        if (isEmpty)
+            continue;
+        if (volume.bricks.size() == base::kMaxVolumeBricks)
+            return tooLarge("the volume has more than " + std::to_string(base::kMaxVolumeBricks) +
+                            " bricks of 8 x 8 x 8 voxels");
+        volume.bricks.push_back(brick);
+        for (const Voxel& voxel : voxels)
+            append(voxel, !grid.flame.empty(), volume, grid);
+    }
+    if (volume.bricks.empty())
+        return base::Status(base::Code::InvalidArgument, "the volume has no medium");
+    glm::ivec3 low = volume.bricks.front(), high = low;
+    for (const glm::ivec3& brick : volume.bricks) {
+        low = glm::min(low, brick);
+        high = glm::max(high, brick);
+    }
+    for (int a = 0; a < 3; ++a)
+        if (high[a] - low[a] >= base::kMaxVolumeBricksPerAxis - 1)
+            return tooLarge("the volume has more than " +
+                            std::to_string((base::kMaxVolumeBricksPerAxis - 1) * 8) +
+                            " voxels along an axis");
+    for (glm::ivec3& brick : volume.bricks)
+        brick += 1 - low;
+    volume.origin = glm::vec3(lattice.origin + lattice.side * 8.0 * glm::dvec3(low - 1));
+    if (!isCopied)
+        for (const double factor = mass / massOf(volume); float& extinction : volume.extinction)
+            extinction = float(double(extinction) * factor);
+    return volume;
+}
+
+base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, double albedo,
+                                            const std::filesystem::path& preset)
+{
+    const base::Result<std::string> stem = presetStem(preset);
+    if (!stem)
+        return stem.status();
+    const base::Result<base::VoxelVolume> volume = voxelVolumeOf(grid, albedo);
+    if (!volume)
+        return volume.status();
+    const base::Result<std::string> bytes = asset::writeVolume(*volume);
+    if (!bytes)
+        return bytes.status();
+    const base::Result<base::VoxelVolume> readBack = asset::parseVolume(*bytes);
+    if (!readBack)
+        return readBack.status();
+    BrickReport report;
+    report.bricks = volume->bricks.size();
+    report.side = double(volume->side);
+    const double mass = render::sumsOf(grid).crossSection;
+    report.massError = (massOf(*readBack) - mass) / mass;
+    report.isResampled = !isStraight(grid);
+    report.file = preset.parent_path() / (*stem + ".fxvolume");
+    const nlohmann::ordered_json text{{"version", 1},
+                                      {"name", *stem},
+                                      {"composition", "volume"},
+                                      {"volumes", {{{"name", *stem}, {"file", *stem + ".fxvolume"}}}}};
+    if (base::Status status = writePresetFiles(preset, text, report.file, *bytes); !status)
+        return status;
+    return report;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,27 @@
+/// @file preset_files.h
+/// What all presets of imported volumes share.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace fx::cli {
+
+/// The name of a preset's file without ".fx.json". @return InvalidArgument for other names
+base::Result<std::string> presetStem(const std::filesystem::path& preset);
+
+/// A color of luminance 1: that of a black body of this temperature [K], where it is hot enough to have one;
+/// otherwise white.
+glm::vec3 colorOf(double temperature);
+
+/// Writes the file that a preset names, and then the preset. @return Io
+base::Status writePresetFiles(const std::filesystem::path& preset, const nlohmann::ordered_json& text,
+                              const std::filesystem::path& file, std::string_view bytes);
+
+} // namespace fx::cli

@@ -1,0 +1,176 @@
+#include "rendering/volumes/medium_volume.h"
+
+#include "foundation/math/half.h"
+#include "foundation/math/hash.h"
+#include "rendering/optics/black_body.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+namespace fx::render {
+
+namespace {
+
+constexpr int kSide = base::kVolumeBrickSide;
+constexpr size_t kVoxels = base::kVolumeBrickVoxels;
+
+glm::ivec3 voxelInBrick(size_t v)
+{
+    return {int(v % 8), int(v / 8 % 8), int(v / 64)};
+}
+
+bool isBefore(const glm::ivec3& a, const glm::ivec3& b)
+{
+    return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+}
+
+template <class T>
+uint64_t hashOf(uint64_t hash, const std::vector<T>& values)
+{
+    return base::hashBytes(hash, values.data(), values.size() * sizeof(T));
+}
+
+} // namespace
+
+MediumVolume::MediumVolume(const base::VoxelVolume& volume)
+    : bricks_(volume.bricks), index_(volume.bricks), extinction_(volume.extinction)
+{
+    const size_t voxels = extinction_.size();
+    scattered_.reserve(voxels);
+    const bool emits = !volume.temperature.empty() || !volume.emission.empty();
+    emitted_.reserve(emits ? voxels : 0);
+    for (size_t v = 0; v < voxels; ++v) {
+        const glm::vec3 albedo = volume.albedo.empty() ? volume.evenAlbedo : volume.albedo[v];
+        scattered_.push_back(extinction_[v] * albedo);
+        if (!emits)
+            continue;
+        glm::vec3 light = volume.emission.empty() ? glm::vec3(0.0f) : volume.emission[v];
+        if (!volume.temperature.empty() && extinction_[v] > 0.0f)
+            light += extinction_[v] * (1.0f - albedo) * blackBodyLuminance(volume.temperature[v]);
+        emitted_.push_back(light);
+    }
+    hash_ = hashOf(hashOf(hashOf(hashOf(3, bricks_), extinction_), scattered_), emitted_);
+    findLargest();
+}
+
+MediumVolume::MediumVolume(std::vector<glm::ivec3> bricks, uint64_t hash)
+    : bricks_(std::move(bricks)), index_(bricks_), hash_(hash)
+{}
+
+void MediumVolume::findLargest()
+{
+    for (const float extinction : extinction_)
+        largest_ = std::max(largest_, extinction);
+    float most = 0.0f;
+    for (const glm::vec3& light : emitted_)
+        most = std::max({most, light.x, light.y, light.z});
+    brightest_ = most > 0.0f ? most : 1.0f;
+}
+
+size_t MediumVolume::voxelAt(const glm::ivec3& voxel) const
+{
+    const glm::ivec3 brick(voxel.x >> 3, voxel.y >> 3, voxel.z >> 3);
+    const uint32_t found = index_.find(brick);
+    if (found == base::BrickIndex::kNone)
+        return kNone;
+    const glm::ivec3 in = voxel - kSide * brick;
+    return size_t(found) * kVoxels + size_t(in.x + kSide * (in.y + kSide * in.z));
+}
+
+MediumVolume MediumVolume::halved() const
+{
+    std::vector<glm::ivec3> bricks;
+    for (const glm::ivec3& brick : bricks_)
+        for (int k = 0; k < 8; ++k) { // the last voxels also belong to the brick behind
+            const glm::ivec3 last = (brick * kSide + glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * kSide);
+            bricks.push_back({last.x >> 4, last.y >> 4, last.z >> 4});
+        }
+    std::ranges::sort(bricks, isBefore);
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    MediumVolume half(std::move(bricks), base::hashWord(hash_, 2));
+    const size_t voxels = half.bricks_.size() * kVoxels;
+    half.extinction_.assign(voxels, 0.0f);
+    half.scattered_.assign(voxels, glm::vec3(0.0f));
+    half.emitted_.assign(emitted_.empty() ? 0 : voxels, glm::vec3(0.0f));
+    for (size_t v = 0; v < extinction_.size(); ++v) {
+        if (extinction_[v] == 0.0f && (emitted_.empty() || emitted_[v] == glm::vec3(0.0f)))
+            continue;
+        const glm::ivec3 from = bricks_[v / kVoxels] * kSide + voxelInBrick(v % kVoxels);
+        for (int k = 0; k < 8; ++k) {
+            float weight = 1.0f;
+            glm::ivec3 to;
+            for (int a = 0; a < 3; ++a) {
+                const bool isOdd = (from[a] & 1) != 0, isSecond = (k >> a & 1) != 0;
+                to[a] = (from[a] >> 1) + (isSecond ? 1 : 0);
+                weight *= isOdd ? 0.25f : isSecond ? 0.0f : 0.5f;
+            }
+            if (weight == 0.0f)
+                continue;
+            const size_t at = half.voxelAt(to);
+            half.extinction_[at] += weight * extinction_[v];
+            half.scattered_[at] += weight * scattered_[v];
+            if (!emitted_.empty())
+                half.emitted_[at] += weight * emitted_[v];
+        }
+    }
+    half.findLargest();
+    return half;
+}
+
+MediumVolume::Sample MediumVolume::at(const glm::dvec3& place) const
+{
+    Sample sample;
+    const glm::dvec3 low = glm::floor(place);
+    const glm::dvec3 part = place - low;
+    const glm::dvec3 first = glm::dvec3(index_.low() * kSide - 1);
+    const glm::dvec3 last = glm::dvec3((index_.low() + index_.size()) * kSide);
+    for (int a = 0; a < 3; ++a)
+        if (!(low[a] >= first[a] && low[a] <= last[a]))
+            return sample;
+    for (int k = 0; k < 8; ++k) {
+        const glm::ivec3 corner(k & 1, k >> 1 & 1, k >> 2);
+        double weight = 1.0;
+        for (int a = 0; a < 3; ++a)
+            weight *= corner[a] == 1 ? part[a] : 1.0 - part[a];
+        const size_t v = voxelAt(glm::ivec3(low) + corner);
+        if (v == kNone || weight == 0.0)
+            continue;
+        sample.extinction += weight * double(extinction_[v]);
+        sample.scattered += weight * glm::dvec3(scattered_[v]);
+        if (!emitted_.empty())
+            sample.emitted += weight * glm::dvec3(emitted_[v]);
+    }
+    return sample;
+}
+
+float MediumVolume::largestIn(const glm::ivec3& brick) const
+{
+    float most = 0.0f;
+    for (int z = 0; z <= kSide; ++z)
+        for (int y = 0; y <= kSide; ++y)
+            for (int x = 0; x <= kSide; ++x)
+                if (const size_t v = voxelAt(brick * kSide + glm::ivec3(x, y, z)); v != kNone)
+                    most = std::max(most, extinction_[v]);
+    return most;
+}
+
+std::vector<MediumVolume::Packed> MediumVolume::packed() const
+{
+    std::vector<Packed> voxels(extinction_.size());
+    for (size_t v = 0; v < voxels.size(); ++v) {
+        const glm::vec3 light = emitted_.empty() ? glm::vec3(0.0f) : emitted_[v] / brightest_;
+        const glm::vec3 albedo = extinction_[v] > 0.0f ? scattered_[v] / extinction_[v] : glm::vec3(0.0f);
+        uint32_t bits = 0;
+        for (int c = 0; c < 3; ++c)
+            bits |= uint32_t(std::lround(std::clamp(albedo[c], 0.0f, 1.0f) * 1023.0f)) << (10 * c);
+        voxels[v] = {std::bit_cast<uint32_t>(extinction_[v]),
+                     base::toHalf(light.x) | base::toHalf(light.y) << 16, base::toHalf(light.z), bits};
+    }
+    return voxels;
+}
+
+} // namespace fx::render

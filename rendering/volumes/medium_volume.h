@@ -1,0 +1,69 @@
+/// @file medium_volume.h
+/// A medium on sparse voxels with the light that it emits, at one resolution.
+///
+/// Extinction, emitted light and scattering coefficient are interpolated linearly along each axis between the
+/// centers of voxels. Places are given in voxels: the center of voxel (i, j, k) is at (i, j, k).
+#pragma once
+
+#include "foundation/assets/voxel_volume.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace fx::render {
+
+/// Threads: any thread may call const functions.
+class MediumVolume
+{
+public:
+    /// The medium at a place.
+    struct Sample
+    {
+        double extinction = 0.0;   ///< [1/m]
+        glm::dvec3 emitted{0.0};   ///< [cd/m3]
+        glm::dvec3 scattered{0.0}; ///< [1/m] extinction times albedo
+    };
+
+    /// Emitted light is that of a gray body at the temperature of the voxel, and the emission of the voxel:
+    /// extinction (1 - albedo) B(T) + emission.
+    explicit MediumVolume(const base::VoxelVolume& volume);
+
+    /// The same medium with voxels of twice the side. Each value is the mean of 3 x 3 x 3 values with weights
+    /// 1/4, 1/2, 1/4 along each axis, so that integrals over space keep their values. Voxel (i, j, k) of the
+    /// result has the center of voxel (2i, 2j, 2k).
+    MediumVolume halved() const;
+
+    Sample at(const glm::dvec3& place) const;
+    /// [1/m] Largest extinction in the cells of a brick, see base::VolumeCells.
+    float largestIn(const glm::ivec3& brick) const;
+    float largest() const { return largest_; } ///< [1/m] largest extinction
+    uint64_t hash() const { return hash_; }    ///< of the content
+    const base::BrickIndex& index() const { return index_; }
+    size_t bricks() const { return bricks_.size(); }
+
+    /// A voxel in the layout of shaders/field/field_volume.comp.glsl: bits of the extinction [1/m]; emitted
+    /// light over brightest() as half floats, red and green, then blue; albedo with 10 bits a component.
+    using Packed = std::array<uint32_t, 4>;
+    /// The voxels of all bricks in the order of the bricks, x fastest.
+    std::vector<Packed> packed() const;
+    float brightest() const { return brightest_; } ///< [cd/m3] largest component of emitted light, or 1
+
+private:
+    MediumVolume(std::vector<glm::ivec3> bricks, uint64_t hash);
+    size_t voxelAt(const glm::ivec3& voxel) const; ///< index in the arrays, or kNone
+    void findLargest();
+
+    static constexpr size_t kNone = ~size_t(0);
+    std::vector<glm::ivec3> bricks_;
+    base::BrickIndex index_;
+    std::vector<float> extinction_;
+    std::vector<glm::vec3> emitted_;   ///< empty: no light
+    std::vector<glm::vec3> scattered_; ///< [1/m] extinction times albedo
+    float largest_ = 0.0f, brightest_ = 1.0f;
+    uint64_t hash_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,60 @@
+#include "rendering/volumes/volume_place.h"
+
+#include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/volume_kind.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+constexpr double kTurned = 1e-6; ///< largest component of a rotation about an axis that counts as none
+
+} // namespace
+
+glm::dvec3 GroupVolume::origin() const
+{
+    return glm::transpose(toVoxels) * (side * side) * -first; // the inverse of a rotation over `side`
+}
+
+const base::SnapshotGroup* volumeGroup(const base::FrameSnapshot& snapshot, size_t group)
+{
+    if (group + 1 >= snapshot.groupCount())
+        return nullptr;
+    const base::GroupName blobs = snapshot.name(group);
+    const base::GroupName next = snapshot.name(group + 1);
+    const bool isOwn = next.instance == blobs.instance && next.solver == blobs.solver &&
+                       snapshot.schema().kind(next.kind) == base::kVolumeKind;
+    return isOwn ? &snapshot.group(group + 1) : nullptr;
+}
+
+GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGroup& volume,
+                        const base::Placement& place)
+{
+    namespace c = base::volume_constant;
+    const auto constants = volume.constants();
+    const double scale = double(place.scale), own = double(constants[c::Side]);
+    GroupVolume out;
+    out.asset = uint32_t(constants[c::Asset]);
+    out.side = own * scale;
+    out.density = double(constants[c::Density]) / scale;
+    const glm::dquat rotation(place.rotation);
+    out.isAligned = std::max({std::abs(rotation.x), std::abs(rotation.y), std::abs(rotation.z)}) < kTurned;
+    out.toVoxels =
+        (out.isAligned ? glm::dmat3(1.0) : glm::transpose(glm::mat3_cast(rotation))) * (1.0 / out.side);
+    const glm::dvec3 origin{constants[c::OriginX], constants[c::OriginY], constants[c::OriginZ]};
+    out.first = -(out.toVoxels * place.position) - origin / own;
+    if (blobs.count() > 0)
+        out.fireShare = glm::clamp(blobs.column(base::blob_column::FireShare)[0], 0.0f, 1.0f);
+    out.anisotropy = blobs.constants()[base::blob_constant::Anisotropy];
+    out.layer = uint32_t(blobs.constants()[base::blob_constant::Layer]);
+    return out;
+}
+
+} // namespace fx::render

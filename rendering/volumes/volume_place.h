@@ -1,0 +1,42 @@
+/// @file volume_place.h
+/// Volumes of a snapshot: which groups have one, and where it is.
+#pragma once
+
+#include "foundation/snapshot/frame_snapshot.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fx::render {
+
+/// The volume of a group of blobs at its interpolated placement.
+struct GroupVolume
+{
+    uint32_t asset = 0; ///< id in the asset table
+    /// From a place p [m] in the axes of the world to voxels: toVoxels p + first. p is relative to the origin
+    /// of the placement's position.
+    glm::dmat3 toVoxels{1.0};
+    glm::dvec3 first{0.0};  ///< [voxel]
+    double side = 1.0;      ///< [m] side of a voxel in the world
+    double density = 1.0;   ///< [1] factor of the extinction and emission of the file, per meter of the world
+    bool isAligned = true;  ///< true: the axes of the voxels are those of the world
+    float fireShare = 0.0f; ///< [1] of the first blob
+    float anisotropy = 0.0f;
+    uint32_t layer = 0; ///< MediaLayer
+
+    glm::dvec3 voxelAt(const glm::dvec3& p) const { return toVoxels * p + first; }
+    /// Place of the center of the voxel (0, 0, 0).
+    glm::dvec3 origin() const;
+};
+
+/// The group of the kind "volume" that belongs to the group of blobs `group`; null: there is none.
+const base::SnapshotGroup* volumeGroup(const base::FrameSnapshot& snapshot, size_t group);
+
+/// @param blobs group of blobs to which `volume` belongs
+GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGroup& volume,
+                        const base::Placement& place);
+
+} // namespace fx::render

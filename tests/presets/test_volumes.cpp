@@ -1,0 +1,174 @@
+#include "foundation/snapshot/volume_kind.h"
+#include "fxsdk/assets/volume_file.h"
+#include "fxsdk/presets/preset_loader.h"
+#include "simulation/volume/volume_solver.h"
+#include "tests/presets/temp_folder.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace fx;
+
+namespace {
+
+/// Two bricks that touch at an edge, with extinctions that differ from voxel to voxel.
+base::VoxelVolume twoBricks()
+{
+    base::VoxelVolume volume;
+    volume.side = 0.5f;
+    volume.origin = {1.0f, -2.0f, 3.0f};
+    volume.bricks = {{1, 1, 1}, {2, 2, 1}};
+    for (size_t v = 0; v < 2 * base::kVolumeBrickVoxels; ++v)
+        volume.extinction.push_back(v % 3 == 0 ? 0.0f : float(v % 17) * 0.25f);
+    return volume;
+}
+
+base::VoxelVolume colored()
+{
+    base::VoxelVolume volume = twoBricks();
+    for (size_t v = 0; v < volume.extinction.size(); ++v) {
+        volume.temperature.push_back(300.0f + float(v));
+        volume.emission.push_back(glm::vec3(float(v), 1.0f, 0.0f));
+        volume.albedo.push_back(glm::vec3(0.25f, 0.5f, 0.75f));
+    }
+    return volume;
+}
+
+double massOf(const base::VoxelVolume& volume)
+{
+    double sum = 0.0;
+    for (const float extinction : volume.extinction)
+        sum += double(extinction);
+    return sum * std::pow(double(volume.side), 3.0);
+}
+
+} // namespace
+
+TEST(VolumeFile, isReadAsItWasWrittenUpToRounding)
+{
+    const base::VoxelVolume volume = colored();
+    const auto bytes = asset::writeVolume(volume);
+    ASSERT_TRUE(bytes.ok()) << bytes.status().message();
+    const auto read = asset::parseVolume(*bytes);
+    ASSERT_TRUE(read.ok()) << read.status().message();
+    EXPECT_EQ(read->bricks, volume.bricks);
+    EXPECT_EQ(read->side, volume.side);
+    EXPECT_EQ(read->origin, volume.origin);
+    for (size_t v = 0; v < volume.extinction.size(); ++v) {
+        EXPECT_NEAR(read->extinction[v], volume.extinction[v], 0x1p-11f * volume.extinction[v]) << v;
+        EXPECT_NEAR(read->temperature[v], volume.temperature[v], 0x1p-11f * volume.temperature[v]) << v;
+        EXPECT_NEAR(read->emission[v].x, volume.emission[v].x, 0x1p-11f * volume.emission[v].x) << v;
+        EXPECT_NEAR(read->albedo[v].y, 0.5f, 0x1p-12f) << v;
+    }
+    EXPECT_EQ(*asset::writeVolume(*read), *bytes);
+}
+
+TEST(VolumeFile, damagedFilesAreRefused)
+{
+    const std::string bytes = *asset::writeVolume(colored());
+    for (size_t size = 0; size < bytes.size(); size += size < 300 ? 1 : 61)
+        EXPECT_FALSE(asset::parseVolume(std::string_view(bytes).substr(0, size)).ok()) << size;
+    EXPECT_FALSE(asset::parseVolume(bytes + "x").ok());
+    for (size_t at = 0; at < bytes.size(); at += 7) {
+        std::string damaged = bytes;
+        damaged[at] = char(damaged[at] ^ 0x15);
+        const auto read = asset::parseVolume(damaged); // numbers of the header may still be numbers
+        if (at > bytes.find("\ndata\n"))
+            EXPECT_FALSE(read.ok()) << at;
+    }
+    EXPECT_EQ(asset::parseVolume("fxvolume 2\n").status().code(), base::Code::Version);
+    EXPECT_EQ(asset::parseVolume("fxvolume 1\nbricks 32769\n").status().code(), base::Code::TooLarge);
+}
+
+TEST(VolumeFile, whatCannotBeReadIsNotWritten)
+{
+    base::VoxelVolume volume = twoBricks();
+    volume.extinction[4] = -1.0f;
+    EXPECT_FALSE(asset::writeVolume(volume).ok());
+    volume.extinction[4] = NAN;
+    EXPECT_FALSE(asset::writeVolume(volume).ok());
+    volume = twoBricks();
+    volume.bricks[1].x = base::kMaxVolumeBricksPerAxis;
+    EXPECT_FALSE(asset::writeVolume(volume).ok());
+    volume.bricks.clear();
+    volume.extinction.clear();
+    EXPECT_FALSE(asset::writeVolume(volume).ok());
+}
+
+TEST(VolumeCells, haveTheMediumOfAllVoxelsAndReachTheBricksBefore)
+{
+    base::VoxelVolume volume;
+    volume.side = 0.5f;
+    volume.bricks = {{2, 2, 2}};
+    volume.extinction.assign(base::kVolumeBrickVoxels, 0.0f);
+    volume.extinction[0] = 8.0f; // on the corner of eight bricks
+    volume.extinction[3 + 8 * 3 + 64 * 3] = 1.0f;
+    const std::vector<base::VolumeCells> cells = base::volumeCells(volume);
+    ASSERT_EQ(cells.size(), 8u);
+    for (size_t i = 0; i < 7; ++i)
+        EXPECT_FLOAT_EQ(cells[i].crossSection, 0.125f) << i; // an eighth of 8 times the volume of a voxel
+    EXPECT_EQ(cells[7].brick, glm::ivec3(2));
+    EXPECT_FLOAT_EQ(cells[7].crossSection, 0.25f);
+    double sum = 0.0;
+    for (const base::VolumeCells& brick : base::volumeCells(twoBricks()))
+        sum += double(brick.crossSection);
+    EXPECT_NEAR(sum, massOf(twoBricks()), 1e-5 * sum);
+}
+
+TEST(Volume, publishesABallAroundEachBrickAndThePlaceOfTheVoxels)
+{
+    base::SnapshotSchema schema;
+    schema.add(base::kBlobKind);
+    schema.add(base::kVolumeKind);
+    sim::VolumeDef def;
+    def.voxels = std::make_shared<base::VoxelVolume>(twoBricks());
+    def.cells = base::volumeCells(*def.voxels);
+    def.asset = 7;
+    def.position = {10, 20, 30};
+    def.scale = 2.0f;
+    def.density = 3.0f;
+    const auto solver = def.create(schema, {}, std::pmr::get_default_resource());
+    base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+    solver->publish({}, snapshot);
+    ASSERT_EQ(snapshot.groupCount(), 2u);
+    const base::SnapshotGroup& blobs = snapshot.group(0);
+    ASSERT_EQ(blobs.count(), def.cells.size());
+    namespace blob = base::blob_column;
+    double sum = 0.0;
+    for (size_t i = 0; i < blobs.count(); ++i) {
+        sum += double(blobs.column(blob::CrossSection)[i]);
+        const glm::vec3 center(blobs.column(blob::PositionX)[i], blobs.column(blob::PositionY)[i],
+                               blobs.column(blob::PositionZ)[i]);
+        const glm::vec3 corner = // of the brick, farthest from the center
+            def.position + 2.0f * (def.voxels->origin + 4.0f * glm::vec3(def.cells[i].brick));
+        EXPECT_LT(glm::length(corner - center), blobs.column(blob::Radius)[i]) << i;
+    }
+    EXPECT_NEAR(sum, 3.0 * 4.0 * massOf(*def.voxels), 1e-5 * sum); // optical depths keep their values
+    const auto constants = snapshot.group(1).constants();
+    namespace c = base::volume_constant;
+    EXPECT_EQ(snapshot.group(1).count(), 0u);
+    EXPECT_EQ(constants[c::Asset], 7.0f);
+    EXPECT_EQ(constants[c::Side], 1.0f);
+    EXPECT_EQ(constants[c::OriginY], 16.0f);
+    EXPECT_EQ(constants[c::Density], 1.5f);
+}
+
+TEST(Volumes, presetsNameTheirFileAndWithoutOneAreErrors)
+{
+    const auto missing = preset::loadPresetText(R"({"version": 1, "volumes": [{}]})", "t");
+    ASSERT_FALSE(missing.ok());
+    EXPECT_NE(missing.status().message().find("fxvolume"), std::string::npos) << missing.status().message();
+    const test::TempFolder folder;
+    const std::string text = R"({"version": 1, "volumes": [{"file": "a.fxvolume", "density": 2}]})";
+    folder.write("a.fxvolume", *asset::writeVolume(twoBricks()));
+    const auto loaded = preset::loadPresetFile(folder.write("p.fx.json", text));
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    const auto* def = dynamic_cast<const sim::VolumeDef*>(loaded->effect->solvers[0].get());
+    ASSERT_NE(def, nullptr);
+    EXPECT_EQ(def->density, 2.0f);
+    EXPECT_NE(def->asset, 0u);
+    EXPECT_EQ(def->voxels->bricks.size(), 2u);
+}
