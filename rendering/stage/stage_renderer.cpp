@@ -1,6 +1,7 @@
 #include "rendering/stage/stage_renderer.h"
 
 #include "rendering/frame/exposure.h"
+#include "rendering/frame/hill_colors.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_buffer.h"
@@ -43,11 +44,11 @@ struct StageBlock
     glm::mat4 shadowFromMesh;
     glm::vec4 rayDirection, rayDirectionX, rayDirectionY;
     glm::vec4 sunDirection, sunLight, skyLight;
-    glm::vec4 meshOffset, background, horizon;
+    glm::vec4 meshOffset, background, horizon, farHills, nearTrees;
     std::array<StageLightBlock, kMaxStageLights> lights;
     std::array<MediaShadowBlock, kMaxStageShadows> mediaShadows;
 };
-static_assert(sizeof(StageBlock) == 128 + 9 * 16 + sizeof(StageLightBlock) * kMaxStageLights +
+static_assert(sizeof(StageBlock) == 128 + 11 * 16 + sizeof(StageLightBlock) * kMaxStageLights +
                                         sizeof(MediaShadowBlock) * kMaxStageShadows);
 
 /// Cone of a spot, as in shaders/shared/light_slices.glsl.
@@ -107,6 +108,7 @@ struct StageRenderer::Impl
     GlTexture color, depth, picture, shadow, shadowDepth;
     GlBuffer mesh;
     glm::dvec3 meshOrigin{0.0};
+    bool isSoil = false;
     uint32_t vertices = 0;
     BoundingBall ball;
     StageBackground background;
@@ -170,6 +172,7 @@ base::Status StageRenderer::setMesh(const StageMesh& mesh)
     impl_->mesh = std::move(buffer);
     impl_->vertices = uint32_t(mesh.positions.size());
     impl_->meshOrigin = mesh.origin;
+    impl_->isSoil = mesh.isSoil;
     impl_->ball = boundingBall(mesh.positions);
     impl_->shadowDirection = glm::vec3(0.0f);
     return {};
@@ -247,7 +250,12 @@ StageBlock StageRenderer::Impl::makeBlock(const CameraView& camera, const StageL
     const float kind = picture.name() == 0 ? 0.0f : (background.panorama ? 2.0f : 1.0f);
     block.meshOffset = {glm::vec3(meshOrigin - camera.origin), kind};
     block.background = {background.luminance * exposure, exposure};
-    block.horizon = {background.horizon * exposure, 0.0f};
+    block.horizon = {background.horizon * exposure, isSoil ? 1.0f : 0.0f};
+    const HillColors hills = hillColors(lighting, background.horizon);
+    block.farHills = {hills.far * exposure, background.hasHills ? 1.0f : 0.0f};
+    block.nearTrees = {hills.near * exposure,
+                       2.0f * glm::length(glm::vec3(view.rayDirectionY)) /
+                           (float(height) * std::max(glm::length(glm::vec3(view.rayDirection)), 1e-6f))};
     setLights(camera, lit, exposure, block);
     return block;
 }

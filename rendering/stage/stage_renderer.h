@@ -31,6 +31,8 @@ struct StageMesh
     std::vector<glm::vec3> positions; ///< [m] positions relative to `origin`
     std::vector<glm::vec3> normals;   ///< unit vectors
     std::vector<glm::vec3> colors;    ///< [0, 1] linear albedo
+    /// True: relief and color of the level mesh vary by formula soil-texture. `colors` are the mean.
+    bool isSoil = false;
 };
 
 /// Background behind the mesh.
@@ -42,6 +44,8 @@ struct StageBackground
     int width = 0, height = 0;    ///< [pixel] size of `image`
     std::vector<glm::vec3> image; ///< [cd/m2] top row first
     bool panorama = false; ///< true: `image` is equirectangular around the eye; false: it fills the picture
+    bool hasHills =
+        false; ///< true: wooded hills (formula wooded-horizon) hide the horizon, if `image` is empty
 };
 
 /// A light of the scene, other than sun and sky.

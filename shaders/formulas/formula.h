@@ -53,10 +53,12 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/network_cell.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/slab_light.fx.h"
+#include "shaders/formulas/soil_texture.fx.h"
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
 #include "shaders/formulas/voxel_kernel.fx.h"
 #include "shaders/formulas/widened_ball.fx.h"
+#include "shaders/formulas/wooded_horizon.fx.h"
 // clang-format on
 } // namespace fx::formula
 #undef FX_REAL
@@ -76,6 +78,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/field_glow.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
 #include "shaders/formulas/henyey_greenstein.fx.h"
+#include "shaders/formulas/soil_texture.fx.h"
 #include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/network_cell.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
@@ -83,6 +86,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/tone_curve.fx.h"
 #include "shaders/formulas/voxel_kernel.fx.h"
 #include "shaders/formulas/widened_ball.fx.h"
+#include "shaders/formulas/wooded_horizon.fx.h"
 // clang-format on
 } // namespace fx::formula64
 #undef FX_REAL

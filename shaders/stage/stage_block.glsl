@@ -21,7 +21,9 @@ layout(std140, binding = 0) uniform StageBlock
     vec4 skyLight;        // rgb [exposed]; w albedo of the ground
     vec4 meshOffset;      // xyz mesh origin relative to the view's origin; w background: 0 color, 1 picture, 2 panorama
     vec4 background;      // rgb overhead [exposed]; w exposure of the picture
-    vec4 horizon;         // rgb at eye height [exposed]
+    vec4 horizon;         // rgb at eye height [exposed]; w 1: the mesh is soil
+    vec4 farHills;        // rgb of distant hills [exposed]; w 1: the horizon has hills
+    vec4 nearTrees;       // rgb of trees in front of them [exposed]; w width of a pixel as a tangent
     StageLight stageLights[16];
     FxMediaShadow mediaShadows[5]; // the first is that of the sun
 };

@@ -1,4 +1,5 @@
 #include "stage/stage_block.glsl"
+#include "stage/soil_surface.glsl"
 
 // Diffuse surfaces under the sun with soft-edged shadows, the sky, and the light of the effects.
 layout(binding = 0) uniform sampler2D shadowMap;
@@ -41,6 +42,16 @@ vec3 stageLightAt(StageLight light, vec3 n)
 void main()
 {
     vec3 n = normalize(worldNormal);
+    vec3 reflectance = albedo;
+    vec2 place = worldPosition.xz - meshOffset.xz;
+    vec2 across = dFdx(place);
+    vec2 along = dFdy(place);
+    if (horizon.w > 0.5) {
+        bool isSwapped = dot(across, across) > dot(along, along);
+        SoilSurface soil = soilAt(place, isSwapped ? across : along, length(isSwapped ? along : across));
+        n = normalize(n - vec3(soil.slope.x, 0.0, soil.slope.y));
+        reflectance *= soil.share;
+    }
     float cosine = max(dot(n, sunDirection.xyz), 0.0);
     vec3 illuminance = vec3(0.0);
     if (cosine > 0.0)
@@ -50,5 +61,5 @@ void main()
     illuminance += 3.14159265 * mix(fromGround, skyLight.rgb, 0.5 + 0.5 * n.y);
     for (int i = 0; i < int(sunLight.w); ++i)
         illuminance += stageLightAt(stageLights[i], n);
-    color = vec4(albedo * kInvPi * illuminance, 1.0);
+    color = vec4(reflectance * kInvPi * illuminance, 1.0);
 }

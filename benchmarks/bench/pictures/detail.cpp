@@ -1,15 +1,18 @@
 // fx bench detail: what detail of fields costs. Effects of the library with detail, drawn in turn without it,
 // with 64 voxels and three octaves, with 128 and five, and ball by ball with the detail of each ball. Prints
 // one JSON object a scene, size and setting: least time of a frame and of a pixel, its ratio to the field
-// without detail in the same round, bytes of textures, bytes of a particle for its coordinates. Fails when
-// nothing was drawn, or when detail changes nothing.
+// without detail in the same round, reads of the noise texture of a covered pixel, bytes of textures, bytes
+// of a particle for its coordinates. Fails when nothing was drawn, or when detail changes nothing.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
 #include "benchmarks/scenes/detail_scene.h"
 #include "foundation/snapshot/material_kind.h"
 #include "fxsdk/cli/render/blob_snapshot.h"
 #include "fxsdk/cli/support/json_line.h"
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/gl/gl_device.h"
 #include "rendering/passes/blob_instance.h"
+#include "shaders/shader_library.h"
 
 #include <CLI/CLI.hpp>
 
@@ -42,6 +45,58 @@ constexpr Setting kSettings[] = {{"off-64", render::Composition::Volume, 64, fal
                                  {"field-64", render::Composition::Volume, 64, true},
                                  {"field-128", render::Composition::Volume, 128, true},
                                  {"balls", render::Composition::Sorted, 128, true}};
+
+/// Counts how often the march through fields reads the texture of noise. The program is changed for that, so
+/// that the count is of the work that is timed.
+class NoiseCounter
+{
+public:
+    explicit NoiseCounter(render::GlDevice& device)
+        : device_(device), reads_(taken(render::GlBuffer::create(device, sizeof(uint32_t), "noise reads")))
+    {
+        device_.setSourceOverride([](std::string_view name, std::string_view defines) {
+            return name == "field/field_march.frag.glsl" ? counting(name, defines) : std::nullopt;
+        });
+        device_.forgetPrograms();
+        const uint32_t none = 0;
+        device_.gl.NamedBufferSubData(reads_.name(), 0, sizeof none, &none);
+        device_.gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, kBinding, reads_.name(), 0, sizeof none);
+    }
+    ~NoiseCounter()
+    {
+        device_.setSourceOverride({});
+        device_.forgetPrograms();
+    }
+
+    /// Reads since the object was created.
+    uint32_t reads()
+    {
+        uint32_t count = 0;
+        device_.gl.GetNamedBufferSubData(reads_.name(), 0, sizeof count, &count);
+        return count;
+    }
+
+private:
+    static constexpr uint32_t kBinding = 15; ///< no program of the view uses it
+
+    static std::optional<std::string> counting(std::string_view name, std::string_view defines)
+    {
+        constexpr std::string_view kRead = "float lumpAt(vec3 u) { return";
+        std::optional<std::string> text = shaders::assemble(name, defines);
+        if (!text)
+            return text;
+        const size_t at = text->find(kRead);
+        if (at == std::string::npos)
+            fail("field/field_detail.glsl has no lumpAt() of one line any more");
+        text->replace(at, kRead.size(),
+                      "layout(std430, binding = 15) buffer NoiseReads { uint noiseReads; };\n"
+                      "float lumpAt(vec3 u) { atomicAdd(noiseReads, 1u); return");
+        return text;
+    }
+
+    render::GlDevice& device_;
+    render::GlBuffer reads_;
+};
 
 /// One scene and size.
 struct Painter
@@ -91,6 +146,12 @@ void report(Painter& painter, size_t k, const std::vector<std::vector<double>>& 
         covered += picture[i] > 0.01f;
     if (covered == 0)
         fail("nothing was drawn");
+    uint32_t reads = 0;
+    if (setting.composition == render::Composition::Volume) {
+        NoiseCounter counter(painter.renderer->device());
+        painter.draw(setting);
+        reads = counter.reads();
+    }
     const double least = *std::min_element(times[k].begin(), times[k].end());
     const size_t perParticle = base::material_column::Count * sizeof(float);
     printJsonLine(withMachine({{"name", "detail"},
@@ -102,6 +163,7 @@ void report(Painter& painter, size_t k, const std::vector<std::vector<double>>& 
                                {"ms_frame", least},
                                {"ns_pixel", 1e6 * least / (double(width) * double(height))},
                                {"ns_covered_pixel", 1e6 * least / double(covered)},
+                               {"noise_reads_covered_pixel", double(reads) / double(covered)},
                                {"time_ratio", ratios[ratios.size() / 2]},
                                {"bytes_textures", drawn.textureBytes},
                                {"bytes_particle_snapshot", perParticle + sizeof(uint64_t)},

@@ -15,9 +15,10 @@ constexpr size_t kMaxLights = 64; // of effects, the brightest
 render::OpaqueScene opaqueOf(const scene_file::SceneFile& file)
 {
     render::OpaqueScene scene;
-    scene.mesh = {file.mesh.origin, file.mesh.positions, file.mesh.normals, file.mesh.colors};
+    scene.mesh = {file.mesh.origin, file.mesh.positions, file.mesh.normals, file.mesh.colors,
+                  file.mesh.isSoil};
     const render::StageBackground& b = file.background;
-    scene.background = {b.luminance, b.horizon, b.width, b.height, b.image, b.panorama};
+    scene.background = {b.luminance, b.horizon, b.width, b.height, b.image, b.panorama, b.hasHills};
     scene.lighting = file.view.lighting;
     scene.lamps = file.lights;
     return scene;

@@ -174,6 +174,11 @@ bool SnapshotRenderer::fillsPlanes() const
     return std::ranges::count(impl_->view->executedPasses(), "light slices") > 0;
 }
 
+render::GlDevice& SnapshotRenderer::device()
+{
+    return *impl_->device;
+}
+
 double SnapshotRenderer::millisecondsRender() const
 {
     return impl_->milliseconds;

@@ -36,6 +36,7 @@ public:
     bool fillsPlanes() const;          ///< whether light slices of the last frame were filled
     double millisecondsRender() const; ///< [ms] time of the last frame, until the GPU has finished
     const std::string& rendererName() const;
+    render::GlDevice& device(); ///< the device of the pictures, for measurements that change its programs
 
 private:
     SnapshotRenderer();

@@ -53,6 +53,7 @@ base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scen
     const auto preview = scene_file::readPreview(*text, input, resolver, scene, &scene.warnings);
     if (!preview.ok())
         return preview.status();
+    scene.background.hasHills = scene.mesh.isSoil; // a preview may have a mesh of its own
     if (outPreview)
         *outPreview = *preview;
     return scene;

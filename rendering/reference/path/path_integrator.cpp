@@ -1,6 +1,7 @@
 #include "rendering/reference/path/path_integrator.h"
 
 #include "rendering/reference/path/path_equiangular.h"
+#include "rendering/reference/render/soil_surface.h"
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -141,15 +142,30 @@ glm::dvec3 PathIntegrator::scatter(const Way& way, PathSampler& sampler, FlightS
     return light;
 }
 
-void PathIntegrator::reflect(const SurfaceHit& hit, const TraceRay& ray, PathSampler& sampler,
+PathIntegrator::SurfacePoint PathIntegrator::surfaceAt(const SurfaceHit& hit, const TraceRay& ray,
+                                                       bool isSeen) const
+{
+    SurfacePoint point{hit.distance, glm::normalize(interpolate(scene_.mesh.normals, hit)),
+                       interpolate(scene_.mesh.colors, hit)};
+    if (scene_.mesh.isSoil && isSeen) {
+        const glm::dvec3 at = ray.origin + ray.direction * hit.distance;
+        const glm::dvec3 place = at + scene_.eye - scene_.mesh.origin;
+        const SoilSurface soil = soilSeen({place.x, place.z}, ray.direction, scene_.pixel.at(at));
+        point.normal = soil.normal(point.normal);
+        point.albedo *= soil.share;
+    }
+    if (glm::dot(point.normal, ray.direction) > 0.0)
+        point.normal = -point.normal;
+    return point;
+}
+
+void PathIntegrator::reflect(const SurfacePoint& at, const TraceRay& ray, PathSampler& sampler,
                              FlightStart& outNext, glm::dvec3& io, glm::dvec3& outLuminance)
 {
-    glm::dvec3 normal = glm::normalize(interpolate(scene_.mesh.normals, hit));
-    if (glm::dot(normal, ray.direction) > 0.0)
-        normal = -normal;
+    const glm::dvec3& normal = at.normal;
     const glm::dvec3 position =
-        ray.origin + ray.direction * hit.distance + normal * (kSurfaceLift * hit.distance);
-    io *= interpolate(scene_.mesh.colors, hit);
+        ray.origin + ray.direction * at.distance + normal * (kSurfaceLift * at.distance);
+    io *= at.albedo;
     for (const PathLight* source : scene_.lights) {
         const LightSample sample = source->sample(position, sampler.pair());
         const double cosine = glm::dot(normal, sample.direction);
@@ -195,7 +211,8 @@ PathResult PathIntegrator::trace(const TraceRay& camera, double begin, PathSampl
         if (way.flight.isScattered)
             result.luminance += throughput * scatter(way, sampler, next);
         else
-            reflect(hit, way.start.ray, sampler, next, throughput, result.luminance);
+            reflect(surfaceAt(hit, way.start.ray, bounce == 0), way.start.ray, sampler, next, throughput,
+                    result.luminance);
         least *= way.flight.colliding;
         if (!survives(least, throughput, sampler))
             return result;

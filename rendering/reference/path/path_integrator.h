@@ -4,6 +4,7 @@
 
 #include "rendering/reference/path/path_lights.h"
 #include "rendering/reference/path/path_tracking.h"
+#include "rendering/reference/render/medium_details.h"
 #include "rendering/reference/render/triangle_scene.h"
 
 #include <glm/vec3.hpp>
@@ -22,6 +23,8 @@ struct PathScene
     /// Triangles; may be null. `mesh` has their normals and colors.
     const TriangleScene* triangles = nullptr;
     OpaqueMesh mesh;
+    glm::dvec3 eye{0.0}; ///< [m] world position to which rays are relative
+    PixelWidth pixel;    ///< width of a pixel, over which soil that camera rays hit is averaged
     std::span<const PathLight* const> lights;
     const PathSky* sky = nullptr; ///< null: no light
 };
@@ -76,7 +79,16 @@ private:
         Flight flight;
     };
 
+    /// A place of a surface that reflects light.
+    struct SurfacePoint
+    {
+        double distance = 0.0; ///< [m] along the ray
+        glm::dvec3 normal{0.0, 1.0, 0.0}, albedo{0.0};
+    };
+
     SurfaceHit surface(const TraceRay& ray, double begin);
+    /// @param isSeen true: a camera ray; false: the relief of soil is not evaluated, its mean is
+    SurfacePoint surfaceAt(const SurfaceHit& hit, const TraceRay& ray, bool isSeen) const;
     /// [lx] Illuminance by a light sample, attenuated by media and surfaces.
     glm::dvec3 arriving(const LightSample& sample, const glm::dvec3& position, PathSampler& sampler);
 
@@ -104,7 +116,7 @@ private:
     static bool survives(double least, glm::dvec3& io, PathSampler& sampler);
     /// Reflects light at a surface: adds the reflected light of light sources, and samples the next
     /// direction.
-    void reflect(const SurfaceHit& hit, const TraceRay& ray, PathSampler& sampler, FlightStart& outNext,
+    void reflect(const SurfacePoint& surface, const TraceRay& ray, PathSampler& sampler, FlightStart& outNext,
                  glm::dvec3& io, glm::dvec3& outLuminance);
 
     PathScene scene_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kEdge = 8; ///< [pixel] of a tile
 constexpr uint32_t kMaxSamples = 1u << 24;
-constexpr uint64_t kVersion = 2; ///< of the arithmetic
+constexpr uint64_t kVersion = 3; ///< of the arithmetic
 /// Numbers of samples from which pilot paths are counted, so that no path is drawn twice.
 constexpr uint32_t kPilotBegin = 1u << 31;
 
@@ -118,7 +118,7 @@ struct PathRenderer::Shared
         triangles.build(scene.opaque.mesh, camera.eye, tasks);
         OpaqueScene behind = scene.opaque;
         behind.mesh = {};
-        background.build(behind, camera.eye, tasks);
+        background.build(behind, camera.eye, tasks, PixelWidth(camera, settings.height));
         if (scene.opaque.lighting.sunIlluminance != glm::vec3(0.0f))
             lights.push_back(&sun);
         for (const SceneLight& lamp : scene.opaque.lamps)
@@ -131,6 +131,8 @@ struct PathRenderer::Shared
         paths.medium = &medium;
         paths.triangles = &triangles;
         paths.mesh = scene.opaque.mesh;
+        paths.eye = camera.eye;
+        paths.pixel = PixelWidth(camera, settings.height);
         paths.lights = lights;
         paths.sky = &sky;
     }

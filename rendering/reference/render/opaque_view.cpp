@@ -1,5 +1,9 @@
 #include "rendering/reference/render/opaque_view.h"
 
+#include "rendering/frame/hill_colors.h"
+#include "rendering/reference/render/soil_surface.h"
+#include "shaders/formulas/formula.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -22,8 +26,10 @@ glm::dvec3 groundLuminance(const Lighting& lighting)
            (glm::dvec3(lighting.sunIlluminance) * sun + glm::dvec3(lighting.skyLuminance));
 }
 
-void OpaqueView::build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks)
+void OpaqueView::build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks,
+                       const PixelWidth& pixel)
 {
+    pixel_ = pixel;
     scene_ = scene;
     eye_ = eye;
     triangles_.build(scene_.mesh, eye, tasks);
@@ -58,14 +64,28 @@ glm::dvec3 OpaqueView::imageAt(double x, double y, bool wraps) const
                     glm::mix(texel(i, j + 1), texel(i + 1, j + 1), column - column0), row - row0);
 }
 
+/// Distant hills and trees in front of them, both down to the ground.
+glm::dvec3 OpaqueView::withHills(const glm::dvec3& sky, const glm::dvec3& d) const
+{
+    using namespace formula64;
+    const HillColors colors = hillColors(scene_.lighting, scene_.background.horizon);
+    const double level = std::max(std::hypot(d.x, d.z), 1e-6);
+    const double x = d.x / level, z = d.z / level, elevation = d.y / level, p = pixel_.perDepth;
+    const glm::dvec3 behind =
+        glm::mix(sky, glm::dvec3(colors.far), fxShareBelow(fxFarHills(x, z, p), elevation, p));
+    return glm::mix(behind, glm::dvec3(colors.near), fxShareBelow(fxNearTrees(x, z, p), elevation, p));
+}
+
 glm::dvec3 OpaqueView::backgroundAt(const glm::dvec3& d, double x, double y) const
 {
     const OpaqueBackground& b = scene_.background;
     if (scene_.isEmpty)
         return glm::dvec3(0.0);
-    if (b.image.empty())
-        return glm::mix(glm::dvec3(b.luminance), glm::dvec3(b.horizon),
-                        std::pow(1.0 - std::max(d.y, 0.0), 4.0));
+    if (b.image.empty()) {
+        const glm::dvec3 sky =
+            glm::mix(glm::dvec3(b.luminance), glm::dvec3(b.horizon), std::pow(1.0 - std::max(d.y, 0.0), 4.0));
+        return b.hasHills ? withHills(sky, d) : sky;
+    }
     if (!b.panorama)
         return imageAt(x, y, false);
     return imageAt(std::atan2(d.x, -d.z) * 0.5 * kInvPi + 0.5,
@@ -75,10 +95,16 @@ glm::dvec3 OpaqueView::backgroundAt(const glm::dvec3& d, double x, double y) con
 glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch,
                                  const Illuminance& illuminance) const
 {
-    const glm::dvec3 n = glm::normalize(interpolate(scene_.mesh.normals, hit));
+    glm::dvec3 n = glm::normalize(interpolate(scene_.mesh.normals, hit));
     const glm::dvec3 point = ray.origin + ray.direction * hit.distance;
     const double lift = kSurfaceLift * hit.distance;
-    const glm::dvec3 reflectance = interpolate(scene_.mesh.colors, hit) * kInvPi;
+    glm::dvec3 reflectance = interpolate(scene_.mesh.colors, hit) * kInvPi;
+    if (scene_.mesh.isSoil) {
+        const glm::dvec3 place = point + eye_ - scene_.mesh.origin;
+        const SoilSurface soil = soilSeen({place.x, place.z}, ray.direction, pixel_.at(point));
+        n = soil.normal(n);
+        reflectance *= soil.share;
+    }
     if (!illuminance)
         return reflectance * stageLight(point, n, lift, scratch);
     const glm::dvec3 seen = glm::dot(n, ray.direction) > 0.0 ? -n : n;

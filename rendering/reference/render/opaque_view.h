@@ -5,6 +5,7 @@
 #include "rendering/frame/scene_light.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
+#include "rendering/reference/render/medium_details.h"
 #include "rendering/reference/render/triangle_scene.h"
 
 #include <glm/vec3.hpp>
@@ -23,6 +24,8 @@ struct OpaqueBackground
     int width = 0, height = 0; ///< [pixel] size of `image`
     std::span<const glm::vec3> image; ///< [cd/m2] top row first
     bool panorama = false; ///< true: `image` is equirectangular around the eye; false: it fills the picture
+    bool hasHills =
+        false; ///< true: wooded hills (formula wooded-horizon) hide the horizon, if `image` is empty
 };
 
 /// The opaque part of a scene.
@@ -61,7 +64,9 @@ class OpaqueView
 public:
     /// @param scene scene, whose spans must stay valid
     /// @param eye [m] world position to which rays are relative
-    void build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks);
+    /// @param pixel soil and the outline of hills are averaged over pixels of this width
+    void build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks,
+               const PixelWidth& pixel = {});
 
     const OpaqueScene& scene() const { return scene_; }
     const glm::dvec3& eye() const { return eye_; }
@@ -94,6 +99,7 @@ public:
 
 private:
     glm::dvec3 backgroundAt(const glm::dvec3& direction, double x, double y) const;
+    glm::dvec3 withHills(const glm::dvec3& sky, const glm::dvec3& direction) const;
     glm::dvec3 imageAt(double x, double y, bool wraps) const;
     glm::dvec3 surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch,
                          const Illuminance& illuminance) const;
@@ -104,6 +110,7 @@ private:
 
     OpaqueScene scene_;
     glm::dvec3 eye_{0.0};
+    PixelWidth pixel_;
     TriangleScene triangles_;
 };
 

@@ -54,7 +54,8 @@ base::Status ReferenceRenderer::build(const ReferenceScene& scene, const Referen
     picture_.settings.past.camera = withUnitAxes(settings.past.camera);
     picture_.medium.build(scene.blobs, scene.camera.eye, tasks, scene.details,
                           PixelWidth(picture_.camera, settings.height), settings.outputs);
-    picture_.opaque.build(scene.opaque, scene.camera.eye, tasks);
+    picture_.opaque.build(scene.opaque, scene.camera.eye, tasks,
+                          PixelWidth(picture_.camera, settings.height));
     picture_.lights.build(scene.opaque, scene.camera.eye, settings.skyRings);
     const bool atCenters = settings.scattering == ScatteringMode::Centers;
     picture_.medium.setScattered(

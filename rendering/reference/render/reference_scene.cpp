@@ -117,8 +117,9 @@ void addOpaque(KeyHash& hash, const OpaqueScene& scene)
     for (const glm::vec3& v : {b.luminance, b.horizon, scene.lighting.sunDirection,
                                scene.lighting.sunIlluminance, scene.lighting.skyLuminance})
         hash.add(glm::dvec3(v));
-    for (const double number : {double(b.width), double(b.height), double(b.panorama),
-                                double(scene.lighting.groundAlbedo), double(scene.isEmpty)})
+    for (const double number :
+         {double(b.width), double(b.height), double(b.panorama), double(scene.lighting.groundAlbedo),
+          double(scene.isEmpty), double(b.hasHills), double(scene.mesh.isSoil)})
         hash.add(number);
     for (const auto& lights : {std::span(scene.lights), std::span(scene.particleLights)}) {
         hash.add(double(lights.size()));

@@ -23,6 +23,8 @@ struct OpaqueMesh
     std::span<const glm::vec3> positions; ///< [m]
     std::span<const glm::vec3> normals;   ///< unit vectors
     std::span<const glm::vec3> colors;    ///< [0, 1] linear albedo
+    /// True: relief and color of the level mesh vary by formula soil-texture. `colors` are the mean.
+    bool isSoil = false;
 };
 
 /// The first intersection of a ray with a triangle.
