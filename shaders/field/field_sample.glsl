@@ -14,6 +14,7 @@ layout(binding = 3) uniform sampler3D fieldShares;  // extinction seen as fire, 
 #endif
 
 const float kVoxelsPerStep = 1.5; // more exact lookups than that change no picture: samples are what limits it
+const float kVoxelsPerVolumeStep = 1.0; // where voxels differ from their neighbors as much as a file says
 const float kVoxelsPerLumpyStep = 0.6; // where detail is finer than voxels
 const float kNever = 1e20; // [m], [voxel]
 const float kDepthPerStep = 0.4;     // optical depth of a step: in dense medium one or two samples would be all that is seen
@@ -143,6 +144,7 @@ struct FieldFind
     float voxel;    // [m]
     float largest;  // [1/m] no extinction of the field is larger
     float detail;   // first texel of its detail, or 0
+    float step;     // [voxel] longest step in it
 #if FX_DETAIL
     DetailPlace place;
     vec4 material1; // of the medium, see fieldMaterial1
@@ -161,6 +163,7 @@ FieldFind lookAt(inout FieldRay ray, uint number, float t, inout FieldSample sum
     find.voxel = field.corner.w;
     find.largest = field.limits.y;
     find.detail = field.limits.z;
+    find.step = field.limits.x < 0.0 ? kVoxelsPerVolumeStep : kVoxelsPerStep;
 #if FX_DETAIL
     find.place = DetailPlace(1.0, 1.0, 0.0);
     find.material1 = vec4(0.0);
@@ -186,7 +189,7 @@ FieldFind lookAt(inout FieldRay ray, uint number, float t, inout FieldSample sum
     float rest = isInBrick ? -kNever : place.room < kNever ? t + field.corner.w * place.room : kNever;
     ray.rests = mix(ray.rests, vec4(rest), equal(uvec4(number), uvec4(0, 1, 2, 3)));
     sum.isEmpty = sum.isEmpty && !isInBrick;
-    float step = isInBrick ? field.corner.w * kVoxelsPerStep : rest < kNever ? rest - t + kRounding * abs(t) : kNever;
+    float step = isInBrick ? field.corner.w * find.step : rest < kNever ? rest - t + kRounding * abs(t) : kNever;
     sum.room = find.isMedium ? sum.room : min(sum.room, step);
     return find;
 }
@@ -196,7 +199,7 @@ void addFind(FieldRay ray, FieldFind find, float t, inout FieldSample sum)
 {
     vec4 medium = find.medium;
     float kept = 1.0;
-    float voxels = kVoxelsPerStep;
+    float voxels = find.step;
 #if FX_DETAIL
     if (find.detail > 0.5) {
         FieldDetail numbers = fieldDetail(int(find.detail));
@@ -208,7 +211,7 @@ void addFind(FieldRay ray, FieldFind find, float t, inout FieldSample sum)
         MediumDetail detail = detailOf(numbers, find.place, ray.origin + t * ray.direction, material0.rgb * perMedium,
                                        find.material1.rgb, ray.pixel.x * t + ray.pixel.y, isGlowing);
         kept = detail.share;
-        voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
+        voxels = detail.isLumpy ? kVoxelsPerLumpyStep : find.step;
         medium.rgb = detailedLight(medium.rgb, detail, material0.a);
     }
 #endif

@@ -10,7 +10,7 @@ from fx_program import FxTest, fx
 HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
 VOLUME = os.environ.get("FX_VOLUME") # a *.vdb; for the figures of docs/howto/volumes.md
 SCALES = os.environ.get("FX_DENSITY_SCALES", "1").split(",")
-SIZE = os.environ.get("FX_SIZE", "48x64")
+SIZE = os.environ.get("FX_SIZE", "64x96") # pixels are no larger than voxels, which would be replaced by coarser ones
 VIEWS = {"front": (0, 0, 1), "side": (1, 0, 0), "above": (0.6, 0.6, 0.53)}
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
 LIT = {"sunDirection": [-0.9, 0.35, 0.1], "sunIlluminance": [60000, 57000, 50000], "skyLuminance": [0, 0, 0], "groundAlbedo": 0}
@@ -64,7 +64,7 @@ class Volume(FxTest):
 
     def test_opacity_is_the_integral_through_the_voxels(self):
         for scale in SCALES:
-            volume = VOLUME or self.export("library:smoke-column", "--time", "4", "--voxels", "150000")
+            volume = VOLUME or self.export("library:smoke-column", "--time", "4", "--voxels", "20000")
             _, line = self.bricks(volume, "--density-scale", scale)
             for name, direction in VIEWS.items():
                 scene = self.scene(line, DARK, direction)
