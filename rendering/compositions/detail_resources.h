@@ -31,7 +31,7 @@ public:
     /// again.
     void forget() { isFilled_ = false; }
     void release() { texture_ = {}; }
-    uint64_t bytes() const { return texture_.name() != 0 ? texture_.bytes() : 0; }
+    uint64_t bytes() const { return texture_.bytes(); }
 
 private:
     GlTexture texture_;

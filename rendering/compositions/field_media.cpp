@@ -280,14 +280,11 @@ void FieldMedia::release()
 
 uint64_t FieldMedia::bytes() const
 {
-    uint64_t sum = lumpTile_.bytes() + voxels_.bytes();
+    uint64_t sum = lumpTile_.bytes() + texelTexture_.bytes() + table_.bytes() + voxels_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
-    const auto add = [&](const GlTexture& texture) { sum += texture.name() != 0 ? texture.bytes() : 0; };
     for (const GlTexture& texture : textures_)
-        add(texture);
-    for (const GlTexture* texture : {&texelTexture_, &table_})
-        add(*texture);
+        sum += texture.bytes();
     return sum;
 }
 

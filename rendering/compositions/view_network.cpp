@@ -166,9 +166,9 @@ void ViewNetwork::release()
 
 uint64_t ViewNetwork::bytes() const
 {
-    uint64_t sum = buffer_.bytes() + (outgrown_.name() != 0 ? outgrown_.bytes() : 0);
+    uint64_t sum = buffer_.bytes() + outgrown_.bytes();
     for (const GlTexture& volume : volumes_)
-        sum += volume.name() != 0 ? volume.bytes() : 0;
+        sum += volume.bytes();
     return sum;
 }
 

@@ -83,6 +83,14 @@ class FxAccuracyOfNetworks(FxTest):
             self.assertLess(network[case], 0.08, case)
         self.assertLess(settings["moving-2-sweeps"]["error_mean"], 1.2 * settings["network-32-26-9"]["error_mean"] + 0.01)
         self.assertGreater(settings["cold-2-sweeps"]["error_mean"], 0.2)
+        for name in ("particles-64", "particles-64-segments", "particles-128-segments"):
+            particles = settings[name]["work"]
+            for case in (case for case in closed if case.startswith("rmse")):
+                self.assertLess(particles[case], 0.85 * closed[case], name + " " + case)
+        self.assertGreater(settings["particles-64-segments"]["work"]["links"], 2 * settings["particles-64"]["work"]["links"])
+        # paths take longer for a smaller error
+        self.assertGreater(network["seconds_paths"], 10 * settings["single"]["work"]["seconds_paths"]) # of errors 10 times as large
+        self.assertAlmostEqual(network["times_faster"], network["seconds_paths"] / network["seconds_pictures"], 6)
 
 
 class FxAccuracyOfLitMedia(FxTest):

@@ -75,7 +75,7 @@ uint64_t VolumeGlow::bytes() const
 {
     uint64_t sum = buffer_.bytes();
     for (const GlTexture& volume : volumes_)
-        sum += volume.name() != 0 ? volume.bytes() : 0;
+        sum += volume.bytes();
     return sum;
 }
 
