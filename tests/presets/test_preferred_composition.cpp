@@ -142,11 +142,12 @@ TEST(PreferredScattering, isWhatThePresetSaysAndNoPartOfTheEffect)
               effectOf(presetWith(""))->fingerprint);
 }
 
-TEST(PreferredScattering, ofANetworkIsWarnedOfWithoutFields)
+TEST(PreferredScattering, ofANetworkIsWarnedOfWhereBallsAreSorted)
 {
     EXPECT_EQ(scatteringFaults(presetWith(R"("scattering": "network", )")).size(), 1u);
-    EXPECT_EQ(scatteringFaults(presetWith(R"("composition": "slabs", "scattering": "network", )")).size(),
+    EXPECT_EQ(scatteringFaults(presetWith(R"("composition": "sorted", "scattering": "network", )")).size(),
               1u);
+    EXPECT_TRUE(scatteringFaults(presetWith(R"("composition": "slabs", "scattering": "network", )")).empty());
     EXPECT_TRUE(
         scatteringFaults(presetWith(R"("composition": "volume", "scattering": "network", )")).empty());
     EXPECT_TRUE(scatteringFaults(presetWith(R"("scattering": "closed_form", )")).empty());
