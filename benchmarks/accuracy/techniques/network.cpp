@@ -21,7 +21,15 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kRaysAcross = 2;   // of a pixel, along each axis
+/// Size of a picture, and rays through it.
+struct RaySize
+{
+    int size;       ///< [pixel]
+    int across;     ///< number of rays of a pixel along each axis
+    double step;    ///< [cell] of the fine grid
+    uint32_t paths; ///< of a pixel of each reference
+};
+constexpr RaySize kSmallPicture{16, 2, 1.2, 64}, kPicture{32, 2, 1.2, 64}, kLargePicture{256, 1, 2.4, 8};
 constexpr int kFrames = 10;      // of a cloud that moves
 constexpr double kGrowth = 0.02; // of the lumps' distances in a frame
 
@@ -101,15 +109,15 @@ struct EyeRay
     std::vector<Piece> pieces; ///< from the eye on
 };
 
-std::vector<EyeRay> raysThrough(const LumpyCloud& cloud, int size)
+std::vector<EyeRay> raysThrough(const LumpyCloud& cloud, const RaySize& size)
 {
     const render::ReferenceCamera camera = cloud.camera();
-    const render::RayGrid grid = camera.grid(size, size);
-    const double step = 1.2 * cloud.grid().side, far = glm::length(camera.eye);
+    const render::RayGrid grid = camera.grid(size.size, size.size);
+    const double step = size.step * cloud.grid().side, far = glm::length(camera.eye);
     std::vector<EyeRay> rays;
-    for (int y = 0; y < size * kRaysAcross; ++y)
-        for (int x = 0; x < size * kRaysAcross; ++x) {
-            const render::TraceRay ray = grid.ray((x + 0.5) / kRaysAcross, (y + 0.5) / kRaysAcross);
+    for (int y = 0; y < size.size * size.across; ++y)
+        for (int x = 0; x < size.size * size.across; ++x) {
+            const render::TraceRay ray = grid.ray((x + 0.5) / size.across, (y + 0.5) / size.across);
             EyeRay eye{-ray.direction, {}};
             for (double at = far - 2.0 + 0.5 * step; at < far + 2.0; at += step) {
                 const glm::dvec3 place = camera.eye + ray.origin + at * ray.direction;
@@ -130,13 +138,13 @@ std::vector<EyeRay> raysThrough(const LumpyCloud& cloud, int size)
 
 /// Means of the rays of each pixel. @param light(ray) its radiance
 template <class Light>
-std::vector<double> pictureOf(const std::vector<EyeRay>& rays, int size, Light&& light)
+std::vector<double> pictureOf(const std::vector<EyeRay>& rays, const RaySize& size, Light&& light)
 {
-    std::vector<double> picture(size_t(size) * size_t(size), 0.0);
+    std::vector<double> picture(size_t(size.size) * size_t(size.size), 0.0);
+    const size_t of = size_t(size.across);
     for (size_t i = 0; i < rays.size(); ++i) {
-        const size_t across = size_t(size) * kRaysAcross, x = i % across / kRaysAcross,
-                     y = i / across / kRaysAcross;
-        picture[y * size_t(size) + x] += light(rays[i]) / (kRaysAcross * kRaysAcross);
+        const size_t across = size_t(size.size) * of, x = i % across / of, y = i / across / of;
+        picture[y * size_t(size.size) + x] += light(rays[i]) / double(of * of);
     }
     return picture;
 }
@@ -205,9 +213,10 @@ public:
     {
         isSmall_ = std::string_view(scene.name).ends_with("-small");
         isLarge_ = std::string_view(scene.name).ends_with("-large");
-        size_ = isSmall_ ? 16 : isLarge_ ? 128 : 32;
+        size_ = isSmall_ ? kSmallPicture : isLarge_ ? kLargePicture : kPicture;
         for (const NetworkForm& form : kForms) {
-            if (isLarge_ && form.form != Form::Closed && std::string_view(form.tier).empty())
+            if (isLarge_ && form.form != Form::Closed && form.form != Form::Moving &&
+                std::string_view(form.tier).empty())
                 continue;
             forms_.push_back(&form);
             settings_.push_back({form.name,
@@ -237,7 +246,7 @@ private:
 
     const CloudScene& scene_;
     bool isSmall_, isLarge_;
-    int size_; ///< [pixel]
+    RaySize size_;
     std::vector<const NetworkForm*> forms_;
     std::vector<AccuracySetting> settings_;
     std::optional<LumpyCloud> cloud_;
@@ -252,7 +261,7 @@ base::Result<const CloudTruth*> NetworkAccuracy::truthOf(double g, const std::fu
     const auto known = truths_.find(g);
     if (known != truths_.end())
         return &known->second;
-    auto truth = tracedCloud(*cloud_, scene_.albedos, g, size_, isLarge_ ? 16 : 64, stop);
+    auto truth = tracedCloud(*cloud_, scene_.albedos, g, size_.size, size_.paths, stop);
     if (!truth.ok())
         return truth.status();
     return &truths_.emplace(g, std::move(*truth)).first->second;

@@ -2,6 +2,8 @@
 
 #include "rendering/passes/blob_light_pass.h"
 
+#include <bit>
+
 namespace fx::render {
 
 namespace {
@@ -32,6 +34,10 @@ base::Status SlabView::gatherNetwork(const GatherInputs& in, const GatheredFrame
         return network_.makeRoom({}, in.camera->eye);
     if (base::Status status = fields_.makeRoom(); !status)
         return status;
+    if (base::Status status =
+            makeRoom(device_, lights_, from.blobs.size() * kBlobLightBytes, "network blob lights");
+        !status)
+        return status;
     return network_.makeRoom(fields_.networks(), in.camera->eye);
 }
 
@@ -50,24 +56,28 @@ void SlabView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
 /// At rest the lights of balls are those that the last frame has gathered.
 void SlabView::addNetwork(FrameGraph& graph, const PassFrame& frame)
 {
-    if (isKept_ && network_.isSettled() && !frame.lights.hostShadow.valid())
-        return;
-    fields_.importAll(graph);
-    network_.importAll(graph);
-    if (!isKept_) {
-        fields_.upload(graph);
-        fields_.fill(graph, frame.blobs);
-    }
-    network_.addPasses(graph, fields_.sources(), frame.lights, isKept_);
     const BallList& balls = *media_.balls();
-    media_.setLights(BlobLightPass::addTo(graph, {balls.balls,
-                                                  balls.lights,
-                                                  frame.lights,
-                                                  &frame.view,
-                                                  uint32_t(balls.instances.size()),
-                                                  {network_.moments(), network_.buffer(), network_.block(),
-                                                   network_.gridCount()}})
-                         .blobLights);
+    const size_t count = balls.instances.size();
+    ResourceId lights =
+        graph.importBuffer({"network blob lights", std::bit_ceil(count * kBlobLightBytes)}, lights_.name());
+    if (!isKept_ || !network_.isSettled() || frame.lights.hostShadow.valid()) {
+        fields_.importAll(graph);
+        network_.importAll(graph);
+        if (!isKept_) {
+            fields_.upload(graph);
+            fields_.fill(graph, frame.blobs);
+        }
+        network_.addPasses(graph, fields_.sources(), frame.lights, isKept_);
+        lights = BlobLightPass::addTo(
+                     graph, {balls.balls,
+                             lights,
+                             frame.lights,
+                             &frame.view,
+                             uint32_t(count),
+                             {network_.moments(), network_.buffer(), network_.block(), network_.gridCount()}})
+                     .blobLights;
+    }
+    media_.setLights(lights);
 }
 
 MediaPass::Outputs SlabView::compose(FrameGraph& graph, const MediaPass::Inputs& in,
@@ -96,6 +106,7 @@ void SlabView::endFrame(bool)
     if (networkUnused_ == kIdleFrames) {
         fields_.release();
         network_.release();
+        lights_ = {};
     }
 }
 

@@ -30,7 +30,10 @@ public:
     void forget() override;
     void endFrame(bool succeeded) override;
     void rest() override;
-    uint64_t bytes() const override { return lumpTile_.bytes() + fields_.bytes() + network_.bytes(); }
+    uint64_t bytes() const override
+    {
+        return lumpTile_.bytes() + fields_.bytes() + network_.bytes() + lights_.bytes();
+    }
     void readBack(const GlBackend& backend, FrameStatistics& statistics) override
     {
         media_.readBack(backend, statistics);
@@ -50,6 +53,7 @@ private:
     uint32_t unused_ = 0;      ///< number of successive frames without detail
     FieldMedia fields_;        ///< empty without illumination networks
     ViewNetwork network_;
+    GlBuffer lights_;            ///< of balls in networks; other passes read those of BallList
     bool hasNetwork_ = false;    ///< true: the lights of balls are those of `network_` in this frame
     bool isKept_ = false;        ///< true: lists and textures have not changed since the last frame
     uint32_t networkUnused_ = 0; ///< number of successive frames without networks

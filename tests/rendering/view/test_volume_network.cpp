@@ -377,6 +377,21 @@ TEST_P(NetworkOfSlabs, hasTheLightOfVoxels)
         }
 }
 
+TEST_P(NetworkOfSlabs, isAlikeWithPicturesOfMotionAndDepth)
+{
+    render::ViewSettings& settings = view_->settings();
+    settings.lighting.sunIlluminance = glm::vec3(10000.0f);
+    const Picture alone = drawn(snapshotOf(lumps(0.9f)));
+    drawn(snapshotOf({}));
+    settings.outputs = render::view_output::kAll;
+    const base::FrameSnapshot snapshot = snapshotOf(lumps(0.9f));
+    EXPECT_EQ(maxDifference(drawn(snapshot), alone), 0.0);
+    for (int i = 0; i < 12; ++i)
+        drawn(snapshot); // to rest
+    EXPECT_EQ(networkPasses(), 0u);
+    EXPECT_LT(relativeDifference(drawn(snapshot), alone), 0.02);
+}
+
 TEST_P(NetworkOfSlabs, withoutANetworkHasNoFields)
 {
     view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
