@@ -66,7 +66,7 @@ void FieldMedia::build(const GatherInputs& in, const GatheredFrame& from)
     plan_.build({from.blobs, effects_, in.camera, targets.width, targets.height, in.settings->voxels, 0,
                  in.settings->slices.multiple, networkCells_, in.settings->slices.automatic, fieldVolumes_});
     networkCells_ = plan_.hasNetworks() ? networkCells_ : 0;
-    texelList_.build(plan_, details_);
+    texelList_.build(plan_, details_, {from.blobs, materials_});
 }
 
 /// Effects whose volume is not in the asset table are drawn as their balls.

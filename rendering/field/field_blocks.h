@@ -45,7 +45,10 @@ struct FieldDetailBlock
     /// xy size of the lumps of each generation [m]; z factor of formula detail-conservation; w number of
     /// octaves
     glm::vec4 lumps;
-    glm::vec4 soft; ///< x softening of FieldDetailNumbers
+    /// x softening of FieldDetailNumbers. FieldTexels sets the others: y index of the first texel of the
+    /// field's balls near the eye, z number of these balls, w distance from the eye beyond which there are
+    /// none of them [m].
+    glm::vec4 soft;
 };
 static_assert(sizeof(FieldDetailBlock) == 160);
 

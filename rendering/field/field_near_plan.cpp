@@ -36,12 +36,12 @@ void FieldNearPlan::clear()
     brickParts_.clear();
 }
 
-void FieldNearPlan::add(uint32_t number, uint32_t field, const glm::vec4& ball, float voxel)
+void FieldNearPlan::add(uint32_t number, uint32_t field, int detail, const glm::vec4& ball, float voxel)
 {
     const float share = fallingShare(ball.w / voxel, kLargest, kSizeFade);
     const float away = (glm::length(glm::vec3(ball)) - ball.w) / voxel;
     if (share > 0.0f && away < kReach)
-        candidates_.push_back({{number, field, share}, away});
+        candidates_.push_back({{number, field, detail, share}, away});
 }
 
 /// With too many candidates the reach is the distance of the first that is too many, so that it is
@@ -62,6 +62,16 @@ void FieldNearPlan::choose()
         if (ball.share > 0.0f)
             balls_.push_back(ball);
     }
+}
+
+bool FieldNearPlan::hasDetailed() const
+{
+    return std::ranges::any_of(balls_, [](const NearBall& ball) { return ball.detail >= 0; });
+}
+
+bool FieldNearPlan::hasSmooth() const
+{
+    return std::ranges::any_of(balls_, [](const NearBall& ball) { return ball.detail < 0; });
 }
 
 void FieldNearPlan::listBricks()

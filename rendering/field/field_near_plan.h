@@ -5,7 +5,8 @@
 /// less than a voxel, for example some centimeters. Then interpolation errors would fill the picture, and
 /// would change as the eye moves. Therefore a fraction of the extinction of each small ball near the eye is
 /// removed from the field, and is drawn as a separate ball. The removed fraction is a continuous function of
-/// the distance from the eye and of the radius.
+/// the distance from the eye and of the radius. The detail of a field is a function of its whole extinction.
+/// Therefore balls of a field with detail are not drawn as separate balls, but added to the samples of a ray.
 #pragma once
 
 #include "rendering/field/field_blocks.h"
@@ -25,6 +26,7 @@ struct NearBall
 {
     uint32_t number; ///< index in the list of all balls
     uint32_t field;
+    int detail;  ///< index of the detail of the field; -1: no detail
     float share; ///< [1] fraction of the extinction that is removed from the field, > 0 and at most 1
 };
 
@@ -47,12 +49,17 @@ public:
 
     void clear();
     /// Adds a ball as a candidate. choose() selects the near balls.
+    /// @param detail index of the detail of the field; -1: no detail
     /// @param ball xyz [m] position relative to the eye; w radius [m]
     /// @param voxel [m] side of a voxel of the field
-    void add(uint32_t number, uint32_t field, const glm::vec4& ball, float voxel);
+    void add(uint32_t number, uint32_t field, int detail, const glm::vec4& ball, float voxel);
     /// Selects the near balls among the added balls, and computes NearBall::share.
     void choose();
+    /// The near balls, in the order in which they were added.
     std::span<const NearBall> balls() const { return balls_; }
+    /// Returns true if the field of any near ball has detail.
+    bool hasDetailed() const;
+    bool hasSmooth() const; ///< true: the field of any near ball has no detail
 
     /// Records that one of balls() touches a brick.
     void addToBrick(uint32_t brick, const NearBall& ball)

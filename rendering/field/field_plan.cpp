@@ -378,7 +378,7 @@ void FieldPlan::listBalls(const FieldPlanInputs& in)
     }
 }
 
-/// A parallel view has no place from which balls are near. Detail is a property of a whole field.
+/// A parallel view has no place from which balls are near.
 void FieldPlan::listNear(const FieldPlanInputs& in)
 {
     if (in.camera->orthographic)
@@ -386,12 +386,12 @@ void FieldPlan::listNear(const FieldPlanInputs& in)
     for (size_t e = 0; e < in.effects.size(); ++e) {
         const BlobEffect& effect = in.effects[e];
         const Lattice& lattice = lattices_[e];
-        if (effect.detail >= 0 || effect.volume >= 0 ||
+        if (effect.volume >= 0 ||
             distanceToBox(effect.low, effect.high) > FieldNearPlan::kReach * lattice.voxel)
             continue;
         for (uint32_t i = effect.begin; i < effect.end; ++i)
             if (!isLoose(in.balls[i], effect, lattice.voxel))
-                near_.add(i, lattice.field, in.balls[i].centerRadius, lattice.voxel);
+                near_.add(i, lattice.field, effect.detail, in.balls[i].centerRadius, lattice.voxel);
     }
     near_.choose();
     for (const NearBall& ball : near_.balls()) {

@@ -1,5 +1,9 @@
 #include "rendering/field/field_texels.h"
 
+#include "shaders/formulas/formula.h"
+
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <bit>
 
@@ -13,7 +17,33 @@ int rowsOfTexels(size_t count, int columns)
     return int(std::bit_ceil((std::max<size_t>(count, 1) + size_t(columns) - 1) / size_t(columns)));
 }
 
-void FieldTexels::build(const FieldPlan& plan, std::span<const FieldDetailBlock> details)
+/// Balls of one field come one after the other.
+void FieldTexels::addNear(const FieldPlan& plan, std::span<const FieldDetailBlock> details,
+                          const FieldBalls& balls)
+{
+    const size_t firstDetail = sizeof(FieldBlock) / sizeof(glm::vec4) * plan.fields().size();
+    for (const NearBall& ball : plan.near().balls()) {
+        if (ball.detail < 0)
+            continue;
+        const BlobInstance& blob = balls.blobs[ball.number];
+        const BlobMaterial& material = balls.materials[ball.number];
+        const glm::vec4& erosion = details[size_t(ball.detail)].erosion;
+        const float held = std::max(blob.centerRadius.w, plan.fields()[ball.field].limits.x);
+        const float depth = formula::fxKernelPeak(blob.medium.x, held) * erosion.x;
+        const float thinning = formula::fxDetailThinning(depth, erosion.y, erosion.z);
+        glm::vec4& soft = texels_[firstDetail + kDetailTexels * (size_t(ball.detail) + 1) - 1];
+        soft.y = soft.z > 0.0f ? soft.y : float(texels_.size());
+        soft.z += 1.0f;
+        soft.w = std::max(soft.w, glm::length(glm::vec3(blob.centerRadius)) + blob.centerRadius.w);
+        texels_.insert(texels_.end(), {blob.centerRadius,
+                                       {glm::vec3(blob.emission), ball.share * blob.medium.x},
+                                       {glm::vec3(material.carried[0]), thinning},
+                                       {glm::vec3(material.carried[1]), blob.emission.w}});
+    }
+}
+
+void FieldTexels::build(const FieldPlan& plan, std::span<const FieldDetailBlock> details,
+                        const FieldBalls& balls)
 {
     const size_t firstDetail = sizeof(FieldBlock) / sizeof(glm::vec4) * plan.fields().size();
     texels_.clear();
@@ -26,6 +56,7 @@ void FieldTexels::build(const FieldPlan& plan, std::span<const FieldDetailBlock>
         texels_.insert(texels_.end(), std::begin(detail.rows), std::end(detail.rows));
         texels_.insert(texels_.end(), {detail.erosion, detail.noise, detail.lumps, detail.soft});
     }
+    addNear(plan, details, balls);
     tiles_.assign(plan.tiles().begin(), plan.tiles().end());
     for (FieldTileBlock& tile : tiles_)
         tile.first += uint32_t(texels_.size());

@@ -9,13 +9,13 @@ struct FieldDetail
     vec4 erosion;  // x size of lumps [m]; y, z optical depths of a lump that is nothing, that is whole; w ramp
     vec4 noise;    // x gain of an octave; y weight of the second generation; z cooling; w glow
     vec4 lumps;    // xy size of the generations' lumps in the world now [m]; z factor that keeps the whole; w octaves
-    vec4 soft;     // x softening as the medium thins
+    vec4 soft;     // x softening as the medium thins; yzw see nearMedium() of field/field_near.glsl
 };
 layout(binding = 10) uniform sampler3D lumpTile;
 
 const float kLumpCells = 8.0;
 const int kDetailTexels = 10; // of FieldDetail
-const int kErosionTexel = 6;  // of them
+const int kErosionTexel = 6, kSoftTexel = 9; // of them
 
 // first: texel of field/field_blocks.glsl
 FieldDetail fieldDetail(int first)

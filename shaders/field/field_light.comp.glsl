@@ -82,7 +82,7 @@ void main()
             source = lightOf(field, p, toEye, own);
         }
 #if FX_LAYERS || FX_DETAIL
-        imageStore(scatter, corner + s, vec4(source * (before.a / field.limits.y), 0.0));
+        imageStore(scatter, corner + s, vec4(source, 1.0) * (before.a / field.limits.y));
 #else
         imageStore(medium, corner + s, vec4(before.rgb + source * before.a, before.a));
 #endif

@@ -4,6 +4,7 @@
 #include "slabs/slab_sums.glsl"
 #include "field/field_blocks.glsl"
 #if FX_DETAIL
+#include "formulas/kernel_optical_depth.fx.h"
 #include "field/field_detail.glsl"
 #endif
 #include "field/field_sample.glsl"

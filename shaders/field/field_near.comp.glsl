@@ -5,7 +5,8 @@
 #include "field/field_ball.glsl"
 
 // Takes shares of balls near the eye out of the samples of the bricks that they touch: one workgroup a brick, one invocation
-// all samples along z, as in field_fill.comp.glsl.
+// all samples along z, as in field_fill.comp.glsl. FX_DETAIL 1: of fields with detail, after they were lit; 0: of those without,
+// before.
 layout(local_size_x = 81) in;
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 struct NearBrick
@@ -22,7 +23,9 @@ struct NearPart
 layout(std430, binding = 3) readonly buffer NearBricks { NearBrick nearBricks[]; };
 layout(std430, binding = 4) readonly buffer NearParts { NearPart nearParts[]; };
 layout(rgba32f, binding = 0) uniform image3D medium;
+#if !FX_DETAIL
 layout(rgba16f, binding = 1) uniform image3D scatter;
+#endif
 #if FX_LAYERS
 layout(rgba16f, binding = 2) uniform image3D shares;
 #endif
@@ -34,6 +37,8 @@ void main()
     NearBrick near = nearBricks[gl_WorkGroupID.x];
     FieldBrick brick = bricks[near.brick];
     VoxelField field = fieldOf(int(brick.field));
+    if ((field.limits.z > 0.5) != (FX_DETAIL > 0))
+        return;
     ivec3 first = sampleOfBrick(int(gl_LocalInvocationIndex));
     vec3 places[kBrickSamples];
     vec4 mediumSums[kBrickSamples], scatterSums[kBrickSamples];
@@ -68,9 +73,11 @@ void main()
         vec4 all = imageLoad(medium, at);
         vec4 rest = all - mediumSums[z];
         bool isLeft = abs(rest.a) > kRounding * sizes[z];
-        vec4 mean = (imageLoad(scatter, at) * all.a - scatterSums[z]) / (rest.a < 0.0 ? min(rest.a, -1e-20) : max(rest.a, 1e-20));
         imageStore(medium, at, isLeft ? rest : vec4(0.0));
+#if !FX_DETAIL
+        vec4 mean = (imageLoad(scatter, at) * all.a - scatterSums[z]) / (rest.a < 0.0 ? min(rest.a, -1e-20) : max(rest.a, 1e-20));
         imageStore(scatter, at, clamp(mean, vec4(vec3(0.0), -1.0), vec4(1.0)));
+#endif
 #if FX_LAYERS
         vec4 kept = imageLoad(shares, at) - shareSums[z] / field.limits.y;
         imageStore(shares, at, isLeft ? kept : vec4(0.0));

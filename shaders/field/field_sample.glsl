@@ -13,6 +13,11 @@ layout(binding = 5) uniform sampler3D fieldMaterial1; // a thinning
 layout(binding = 3) uniform sampler3D fieldShares;  // extinction seen as fire, as dust; of balls of fire, of dust; likewise
 #endif
 
+#if FX_DETAIL
+#include "field/field_near.glsl"
+const float kMostOfWhole = 4.0; // [1] extinction over that of which the textures hold the ratios, at most
+#endif
+
 const float kVoxelsPerStep = 1.5; // more exact lookups than that change no picture: samples are what limits it
 const float kVoxelsPerVolumeStep = 1.0; // where voxels differ from their neighbors as much as a file says
 const float kVoxelsPerLumpyStep = 0.6; // where detail is finer than voxels
@@ -148,6 +153,9 @@ struct FieldFind
 #if FX_DETAIL
     DetailPlace place;
     vec4 material1; // of the medium, see fieldMaterial1
+    float whole;    // [1/m] extinction with which the other textures were multiplied
+    vec4 near0;     // mean of the balls near the eye: coordinates of the first generation; a power of temperature
+    float nearShare; // [1] of the extinction
 #endif
 };
 
@@ -166,7 +174,8 @@ FieldFind lookAt(inout FieldRay ray, uint number, float t, inout FieldSample sum
     find.step = field.limits.x < 0.0 ? kVoxelsPerVolumeStep : kVoxelsPerStep;
 #if FX_DETAIL
     find.place = DetailPlace(1.0, 1.0, 0.0);
-    find.material1 = vec4(0.0);
+    find.material1 = find.near0 = vec4(0.0);
+    find.whole = find.nearShare = 0.0;
 #endif
     bool isInBrick = place.number > 0;
     if (isInBrick) {
@@ -176,12 +185,26 @@ FieldFind lookAt(inout FieldRay ray, uint number, float t, inout FieldSample sum
         find.isMedium = find.medium.a != 0.0;
     }
 #if FX_DETAIL
-    if (find.isMedium && field.limits.z > 0.5) {
+    find.whole = find.medium.a;
+    if (isInBrick && field.limits.z > 0.5) {
+        int first = int(field.limits.z);
+        vec4 soft = fieldTexel(first + kSoftTexel);
+        NearMedium near;
+        bool isNear = t < soft.w;
+        if (isNear) {
+            near = nearMedium(ray.origin + t * ray.direction, soft);
+            float rest = max(find.medium.a, 0.0);
+            find.nearShare = near.medium.a / max(rest + near.medium.a, 1e-20);
+            find.near0 = vec4(near.carried0.xyz, near.carried1.w);
+            find.medium += near.medium;
+            find.whole = max(field.limits.y * textureLod(fieldScatter, find.uv, 0.0).a, find.medium.a / kMostOfWhole);
+        }
         find.isMedium = find.medium.a > 0.0; // rims that are below 0 are eroded
         if (find.isMedium) {
-            int first = int(field.limits.z);
-            find.material1 = field.limits.y / find.medium.a * textureLod(fieldMaterial1, find.uv, 0.0);
-            find.place = detailPlace(fieldTexel(first + 6), fieldTexel(first + 9), find.medium.a, find.material1.a);
+            find.material1 = field.limits.y / find.whole * textureLod(fieldMaterial1, find.uv, 0.0);
+            if (isNear)
+                find.material1 = mix(find.material1, vec4(near.carried1.xyz, near.carried0.w), find.nearShare);
+            find.place = detailPlace(fieldTexel(first + kErosionTexel), soft, find.medium.a, find.material1.a);
             find.isMedium = find.place.s > 0.0;
         }
     }
@@ -207,13 +230,18 @@ void addFind(FieldRay ray, FieldFind find, float t, inout FieldSample sum)
         bool isGlowing = medium.r + medium.g + medium.b > 0.0;
         if (hasLumps(find.place, isGlowing))
             material0 = textureLod(fieldMaterial0, find.uv, 0.0);
-        float perMedium = find.largest / medium.a;
-        MediumDetail detail = detailOf(numbers, find.place, ray.origin + t * ray.direction, material0.rgb * perMedium,
-                                       find.material1.rgb, ray.pixel.x * t + ray.pixel.y, isGlowing);
+        material0 = mix(material0 * vec4(vec3(find.largest / find.whole), 1.0), find.near0, find.nearShare);
+        MediumDetail detail = detailOf(numbers, find.place, ray.origin + t * ray.direction, material0.rgb, find.material1.rgb,
+                                       ray.pixel.x * t + ray.pixel.y, isGlowing);
         kept = detail.share;
         voxels = detail.isLumpy ? kVoxelsPerLumpyStep : find.step;
         medium.rgb = detailedLight(medium.rgb, detail, material0.a);
     }
+#endif
+#if FX_DETAIL
+    float held = kept * find.medium.a / (find.whole > 0.0 ? find.whole : min(find.whole, -1e-20));
+#elif FX_LAYERS
+    float held = kept;
 #endif
 #if FX_LAYERS || FX_DETAIL
     vec3 scattered = vec3(0.0);
@@ -221,15 +249,16 @@ void addFind(FieldRay ray, FieldFind find, float t, inout FieldSample sum)
         scattered = find.largest * textureLod(fieldScatter, find.uv, 0.0).rgb;
 #endif
 #if FX_LAYERS
-    sum.scattered += kept * scattered;
+    sum.scattered += held * scattered;
     vec4 shares = vec4(0.0);
     if (kept != 0.0)
         shares = find.largest * textureLod(fieldShares, find.uv, 0.0);
-    sum.shares += kept * shares;
-#elif FX_DETAIL
-    medium.rgb += scattered;
+    sum.shares += held * shares;
 #endif
     sum.medium += kept * medium;
+#if FX_DETAIL && !FX_LAYERS
+    sum.medium.rgb += held * scattered;
+#endif
     sum.room = min(sum.room, find.voxel * clamp(kDepthPerStep / (find.voxel * max(kept * medium.a, 1e-20)), kMinVoxelsPerStep, voxels));
 }
 

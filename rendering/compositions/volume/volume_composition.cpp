@@ -24,7 +24,8 @@ std::span<const ProgramDesc* const> programs()
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
         list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &glowRaysProgram(false),
                                  &glowRaysProgram(true), &glowSumProgram(false), &glowSumProgram(true),
-                                 &fieldNearProgram(false), &fieldNearProgram(true)});
+                                 &fieldNearProgram(false), &fieldNearProgram(true),
+                                 &kFieldNearDetailProgram});
         for (const bool detail : {false, true}) {
             list.push_back(&fieldFillProgram(true, detail)); // without layers: of networks in slabs
             for (const bool layers : {false, true})

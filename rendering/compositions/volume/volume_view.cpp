@@ -35,6 +35,8 @@ void VolumeView::gatherLoose(const GatherInputs& in, GatheredFrame& io)
         anyDetail = anyDetail || io.blobs[number].medium.z > 0.0f;
     }
     for (const NearBall& ball : fields_.plan().near().balls()) {
+        if (ball.detail >= 0)
+            continue; // of the march, see FieldTexels
         looseBlobs_.push_back(io.blobs[ball.number]);
         looseBlobs_.back().medium.x *= ball.share;
         looseBlobs_.back().medium.z = 0.0f; // the rest of it in the field has none
@@ -154,7 +156,8 @@ void VolumeView::addFieldLight(FrameGraph& graph, const PassFrame& frame)
         glow_.addPasses(graph, fields_.sources(), fields_.glows());
         network_.addPasses(graph, fields_.sources(), frame.lights, isKept_);
     }
-    takeNearOut(graph, frame.blobs);
+    if (fields_.plan().near().hasSmooth())
+        takeNearOut(graph, frame.blobs, false);
     FieldLightPass::Inputs light{fields_.list(FieldMedia::Fields),
                                  fields_.list(FieldMedia::Bricks),
                                  fields_.textures(),
@@ -166,17 +169,19 @@ void VolumeView::addFieldLight(FrameGraph& graph, const PassFrame& frame)
     light.networkBlock = network_.block();
     light.grids = network_.isEmpty() ? glow_.grids() : network_.buffer();
     fields_.setTextures(FieldLightPass::addTo(graph, light).textures);
+    if (fields_.plan().near().hasDetailed())
+        takeNearOut(graph, frame.blobs, true);
 }
 
-void VolumeView::takeNearOut(FrameGraph& graph, ResourceId blobs)
+void VolumeView::takeNearOut(FrameGraph& graph, ResourceId blobs, bool detail)
 {
     const size_t bricks = fields_.plan().near().bricks().size();
     if (bricks > 0)
         fields_.setTextures(
-            FieldNearPass::addTo(graph,
-                                 {blobs, fields_.texels(), fields_.list(FieldMedia::Bricks),
-                                  fields_.list(FieldMedia::NearBricks), fields_.list(FieldMedia::NearParts),
-                                  fields_.textures(), uint32_t(bricks)})
+            FieldNearPass::addTo(graph, {blobs, fields_.texels(), fields_.list(FieldMedia::Bricks),
+                                         fields_.list(FieldMedia::NearBricks),
+                                         fields_.list(FieldMedia::NearParts), fields_.textures(),
+                                         uint32_t(bricks), detail})
                 .textures);
 }
 

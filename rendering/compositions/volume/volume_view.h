@@ -47,7 +47,7 @@ private:
     void importAll(FrameGraph& graph);
     void addFields(FrameGraph& graph, PassFrame& frame);
     void addFieldLight(FrameGraph& graph, const PassFrame& frame);
-    void takeNearOut(FrameGraph& graph, ResourceId blobs);
+    void takeNearOut(FrameGraph& graph, ResourceId blobs, bool detail);
     void addLooseBalls(FrameGraph& graph, const PassFrame& frame);
 
     GlDevice& device_;

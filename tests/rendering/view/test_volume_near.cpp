@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 #include <string>
@@ -156,6 +157,43 @@ TEST_F(VolumeNear, anEyeAtRestKeepsWhatIsNearItAndDrawnAgainItIsBitEqual)
         EXPECT_FALSE(executed(pass)) << pass;
     EXPECT_EQ(maxDifference(drawn(snapshotOf(denseBalls()), camera), first), 0.0);
     EXPECT_TRUE(executed("field near"));
+}
+
+TEST_F(VolumeNear, detailedBallsOfFewVoxelsAreSeenAsInFineVoxels)
+{
+    // Near the eye no voxel is small enough for 2 to 4 of them a ball; of 192, none is near.
+    constexpr int kFrames = 12;
+    constexpr float kFovY = 0.9f, kNear = 0.01f;
+    const std::vector<TestBlob> blobs = denseBalls();
+    const base::FrameSnapshot snapshot = detailedSnapshotOf(blobs, 1.0f, 0.01f); // of one octave
+    std::vector<Picture> fine, coarse;
+    for (const int voxels : {192, 32}) {
+        view_->settings().voxels = voxels;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            const double x = 0.4 - 0.3 * frame / (kFrames - 1);
+            const render::CameraPose pose{{x, 0.1, 0.05}, {x - 1.0, 0.2, 0.0}, {0.0f, 1.0f, 0.0f}};
+            const auto camera = render::perspectiveView(pose, kFovY, float(kWidth) / kHeight, kNear);
+            (voxels == 32 ? coarse : fine).push_back(drawn(snapshot, camera));
+        }
+        EXPECT_EQ(executed("field near"), voxels == 32);
+    }
+    const auto apart = [](const Picture& a, const Picture& b) {
+        double sum = 0.0;
+        for (size_t i = 0; i < a.texels.size(); i += 4)
+            sum += std::abs(double(a.texels[i]) - double(b.texels[i]));
+        return sum / double(a.texels.size() / 4);
+    };
+    double error = 0.0, change = 0.0, fineChange = 0.0;
+    for (size_t k = 0; k < fine.size(); ++k) {
+        error += apart(coarse[k], fine[k]) / double(kFrames);
+        change += k > 0 ? apart(coarse[k], coarse[k - 1]) : 0.0;
+        fineChange += k > 0 ? apart(fine[k], fine[k - 1]) : 0.0;
+    }
+    std::printf("mean difference %.4f, change from frame to frame %.4f of %.4f\n", error,
+                change / (kFrames - 1), fineChange / (kFrames - 1));
+    EXPECT_GT(fineChange / (kFrames - 1), 2e-3) << "the picture does change";
+    EXPECT_LT(error, 0.003);
+    EXPECT_NEAR(change / fineChange, 1.0, 0.05);
 }
 
 TEST_F(VolumeNear, layersAddUpToThePictureWithoutLayers)

@@ -1,5 +1,6 @@
 #include "view_fixture.h"
 
+#include "foundation/snapshot/material_kind.h"
 #include "rendering/frame/exposure.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/gl/gl_read_texture.h"
@@ -70,6 +71,33 @@ base::FrameSnapshot ViewTest::snapshotOf(const std::vector<TestBlob>& blobs, con
         group.editInfo().placement.position = placement;
         group.editConstants()[base::blob_constant::Layer] = float(layer);
     }
+    return snapshot;
+}
+
+base::FrameSnapshot ViewTest::detailedSnapshotOf(const std::vector<TestBlob>& blobs, float shrunk, float gain)
+{
+    const base::KindId found = schema_.find("material");
+    const base::KindId material = found != base::kNoKind ? found : schema_.add(base::kMaterialKind);
+    const base::FrameSnapshot plain = snapshotOf(blobs);
+    base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
+    snapshot.begin(0, ++sequence_);
+    const base::SnapshotGroup& from = plain.group(uint32_t(base::MediaLayer::Smoke));
+    base::SnapshotGroup& group = snapshot.addGroup(schema_.find("blob"), from.count());
+    group.editInfo() = from.info();
+    for (size_t c = 0; c < column::Count; ++c)
+        std::copy_n(from.column(c).begin(), from.count(), group.editColumn(c).begin());
+    std::copy_n(from.ids().begin(), from.count(), group.editIds().begin());
+    std::ranges::copy(from.constants(), group.editConstants().begin());
+    base::SnapshotGroup& carried = snapshot.addGroup(material, from.count());
+    carried.editInfo() = from.info();
+    carried.editInfo().kind = material;
+    for (size_t c = 0; c < base::material_column::Count; ++c) {
+        const auto places = from.column(column::PositionX + c % 3).first(from.count());
+        std::ranges::transform(places, carried.editColumn(c).begin(), [&](float x) { return shrunk * x; });
+    }
+    std::copy_n(from.ids().begin(), from.count(), carried.editIds().begin());
+    const float constants[] = {1.0f, 0.4f, 0.5f, 0.5f, 1.0f, 1.0f, 0.3f, 8.0f, 0.2f, gain, 0.0f, 0.0f};
+    std::ranges::copy(constants, carried.editConstants().begin());
     return snapshot;
 }
 

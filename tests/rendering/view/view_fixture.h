@@ -56,6 +56,10 @@ protected:
     /// Creates a snapshot with one group per layer at `placement`. Ids count up from 0.
     base::FrameSnapshot snapshotOf(const std::vector<TestBlob>& blobs,
                                    const glm::dvec3& placement = glm::dvec3(0.0));
+    /// Creates a snapshot with one group of smoke whose field has detail. The noise coordinates of a ball are
+    /// `shrunk` times its place. @param gain amplitude of an octave over that of the previous octave
+    base::FrameSnapshot detailedSnapshotOf(const std::vector<TestBlob>& blobs, float shrunk = 1.0f,
+                                           float gain = 0.55f);
     void makeTargets(int width, int height);
     void setPicture(const std::vector<float>& rgba); ///< sets the host's picture before effects are drawn
     /// sets the stored depth values; without this call nothing occludes effects
