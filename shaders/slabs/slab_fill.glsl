@@ -184,10 +184,52 @@ BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, i
 
 #if FX_FIELD_DETAIL
 #include "slabs/slab_detail.glsl"
-const int kAfterBalls = 1; // turns of a loop over balls
-#else
-const int kAfterBalls = 0;
 #endif
+
+// Adds a ball. edges, sun: at the faces of the slabs; end: of the range
+#if FX_FIELD_DETAIL
+void addEach(SlabRay ray, uint entry, vec4 carried0, float edges[kGroup + 1], FX_SUN sun[kGroup + 1], float end,
+             inout DetailedSlab detailed[kGroup], inout SlabSums sums[kGroup], inout float behind)
+#else
+void addEach(SlabRay ray, uint entry, float edges[kGroup + 1], FX_SUN sun[kGroup + 1], float end, inout SlabSums sums[kGroup],
+             inout float behind)
+#endif
+{
+    uint ball = ballOfEntry(entry);
+    vec4 medium = texelFetch(balls, ballTexel(ball, kMedium), 0);
+    Chord chord = chordOf(ray, entry);
+#if FX_FIELD_DETAIL
+    bool isMet = chord.depth > 0.0 && chord.tc - chord.w < edges[kGroup] && chord.tc + chord.w > edges[0];
+    if (!isMet) { // most balls are in few slabs
+        behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - fxKernelPassed(placeOn(chord, edges[kGroup])));
+        return;
+    }
+    vec4 carried1 = texelFetch(balls, ballTexel(ball, kCarried1), 0);
+    float power = texelFetch(balls, ballTexel(ball, kEmitted), 0).w;
+#endif
+    BallLight light = lightOf(ray, chord, ball);
+#if FX_BALL_DETAIL
+    addDetail(ray, ball, medium, chord, light);
+#endif
+    float u = placeOn(chord, edges[0]);
+    vec2 passed = vec2(fxKernelPassed(u), fxKernelMoment(u));
+#if FX_FIELD_DETAIL
+#define FX_ADD_BALL(k)                                                                                              \
+    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
+    if (carried0.w > 0.5)                                                                                           \
+        addDetailedBall(detailed[k], light, medium.z, part.depth, part.moment, part.scattered, carried0.xyz,        \
+                        carried1, power);                                                                           \
+    else                                                                                                            \
+        addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
+#else
+#define FX_ADD_BALL(k)                                                                                              \
+    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
+    addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
+#endif
+    BallPart part;
+    FX_EACH_OF_GROUP(FX_ADD_BALL)
+    behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - passed.x);
+}
 
 // @param edges kGroup + 1, of the slabs [m], which do not fall; lit: interval [m] in which sunlight is looked up;
 // behind: optical depth from the last edge to `end`
@@ -198,55 +240,27 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout S
     for (int k = 0; k <= kGroup; ++k)
         sun[k] = sunAt(ray, clamp(edges[k], lit.x, lit.y));
 #if FX_FIELD_DETAIL
-    DetailedSlab detailed[kGroup]; // of the balls of one field, which come one after the other
+    // Balls of one field come one after the other. Software renderers run the loops within a branch that is not taken once, so
+    // that what is done at the end of a field is not within the loop over balls.
+    DetailedSlab detailed[kGroup];
     for (int k = 0; k < kGroup; ++k)
         detailed[k] = emptyDetailedSlab();
-    float texel = 0.0; // of its detail, as in kCarried0
-#endif
-    for (int i = 0; i < tileList.y + kAfterBalls; ++i) {
-        uint entry = entryOfTile(i), ball = ballOfEntry(entry);
-        vec4 medium = texelFetch(balls, ballTexel(ball, kMedium), 0);
-        Chord chord = chordOf(ray, entry);
-#if FX_FIELD_DETAIL
-        bool isEnd = i == tileList.y; // one more turn, for the last field
-        bool isMet = chord.depth > 0.0 && chord.tc - chord.w < edges[kGroup] && chord.tc + chord.w > edges[0];
-        if (!isMet && !isEnd) { // most balls are in few slabs
-            behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - fxKernelPassed(placeOn(chord, edges[kGroup])));
-            continue;
+    for (int i = 0; i < tileList.y;) {
+        float texel = texelFetch(balls, ballTexel(ballOfEntry(entryOfTile(i)), kCarried0), 0).w;
+        for (; i < tileList.y; ++i) {
+            uint entry = entryOfTile(i);
+            vec4 carried0 = texelFetch(balls, ballTexel(ballOfEntry(entry), kCarried0), 0);
+            if (carried0.w != texel)
+                break;
+            addEach(ray, entry, carried0, edges, sun, end, detailed, sums, behind);
         }
-        vec4 carried0 = texelFetch(balls, ballTexel(ball, kCarried0), 0);
-        float next = isEnd ? 0.0 : carried0.w;
-        if (next != texel && texel > 0.5)
+        if (texel > 0.5)
             addEroded(ray, edges, int(texel) - 1, detailed, sums);
-        texel = next;
-        if (isEnd)
-            break;
-        vec4 carried1 = texelFetch(balls, ballTexel(ball, kCarried1), 0);
-        float power = texelFetch(balls, ballTexel(ball, kEmitted), 0).w;
-#endif
-        BallLight light = lightOf(ray, chord, ball);
-#if FX_BALL_DETAIL
-        addDetail(ray, ball, medium, chord, light);
-#endif
-        float u = placeOn(chord, edges[0]);
-        vec2 passed = vec2(fxKernelPassed(u), fxKernelMoment(u));
-#if FX_FIELD_DETAIL
-#define FX_ADD_BALL(k)                                                                                              \
-    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
-    if (texel > 0.5)                                                                                                \
-        addDetailedBall(detailed[k], light, medium.z, part.depth, part.moment, part.scattered, carried0.xyz,        \
-                        carried1, power);                                                                           \
-    else                                                                                                            \
-        addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
-#else
-#define FX_ADD_BALL(k)                                                                                              \
-    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
-    addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
-#endif
-        BallPart part;
-        FX_EACH_OF_GROUP(FX_ADD_BALL)
-        behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - passed.x);
     }
+#else
+    for (int i = 0; i < tileList.y; ++i)
+        addEach(ray, entryOfTile(i), edges, sun, end, sums, behind);
+#endif
     for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec4 light = cardNodes[card - 1u].light;
         vec4 body = cardNodes[card - 1u].body;

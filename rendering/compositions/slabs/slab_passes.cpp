@@ -225,11 +225,12 @@ SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
 uint32_t SlabPass::maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields)
 {
     constexpr uint32_t kReadsOfWindow = 3;  // rangeOf() once and passedIn() twice, in slab_window.glsl
-    constexpr uint32_t kTurnsOfField = 100; // of addEroded() in slab_detail.glsl
+    constexpr uint32_t kTurnsOfField = 100; // of addEroded() in slab_detail.glsl, run between fields too
     constexpr uint32_t kGroups[] = {2, 4};  // of slabs that are filled at a time, see slabs.frag.glsl
     const bool isGrouped = detail == SlabDetail::OfFields || (layers && detail == SlabDetail::None);
     const uint32_t groups = isGrouped ? kGroups[slabs > 6 ? 1 : 0] : 1;
-    const uint64_t ofFields = detail == SlabDetail::OfFields ? uint64_t(kTurnsOfField) * groups * fields : 0;
+    const uint64_t ofFields =
+        detail == SlabDetail::OfFields ? uint64_t(kTurnsOfField) * groups * (2 * fields + 1) : 0;
     const uint32_t left = kMaxLoopTurns - uint32_t(std::min<uint64_t>(ofFields, kMaxLoopTurns / 8));
     return left / (kReadsOfWindow + groups);
 }

@@ -97,8 +97,8 @@ constexpr uint32_t kMaxLoopTurns = 60000;
 
 /// Lists the balls of each tile of 16 x 16 texels, in the order of balls, and the tiles that are not empty.
 /// If a tile has more than n - 4 sqrt(n) balls for `maxOfTile` = n, it lists that many with the lowest ranks,
-/// which represent all. The last fifth of the listed ranks have weights that fall to 0, so that balls enter and
-/// leave the list smoothly.
+/// which represent all. The last fifth of the listed ranks have weights that fall to 0, so that balls enter
+/// and leave the list smoothly.
 ///
 /// reads   rects  which tiles each ball may cover
 ///         cards, fieldTiles

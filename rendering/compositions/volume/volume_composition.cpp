@@ -22,10 +22,10 @@ std::span<const ProgramDesc* const> programs()
     static const auto all = [] {
         const std::span<const ProgramDesc* const> ofSlabs = kSlabComposition.programs(); // the loose
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
-        list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &glowRaysProgram(false),
-                                 &glowRaysProgram(true), &glowSumProgram(false), &glowSumProgram(true),
-                                 &fieldNearProgram(false), &fieldNearProgram(true),
-                                 &kFieldNearDetailProgram});
+        list.insert(list.end(),
+                    {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &glowRaysProgram(false),
+                     &glowRaysProgram(true), &glowSumProgram(false), &glowSumProgram(true),
+                     &fieldNearProgram(false), &fieldNearProgram(true), &kFieldNearDetailProgram});
         for (const bool detail : {false, true}) {
             list.push_back(&fieldFillProgram(true, detail)); // without layers: of networks in slabs
             for (const bool layers : {false, true})

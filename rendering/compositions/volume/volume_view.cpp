@@ -178,10 +178,10 @@ void VolumeView::takeNearOut(FrameGraph& graph, ResourceId blobs, bool detail)
     const size_t bricks = fields_.plan().near().bricks().size();
     if (bricks > 0)
         fields_.setTextures(
-            FieldNearPass::addTo(graph, {blobs, fields_.texels(), fields_.list(FieldMedia::Bricks),
-                                         fields_.list(FieldMedia::NearBricks),
-                                         fields_.list(FieldMedia::NearParts), fields_.textures(),
-                                         uint32_t(bricks), detail})
+            FieldNearPass::addTo(graph,
+                                 {blobs, fields_.texels(), fields_.list(FieldMedia::Bricks),
+                                  fields_.list(FieldMedia::NearBricks), fields_.list(FieldMedia::NearParts),
+                                  fields_.textures(), uint32_t(bricks), detail})
                 .textures);
 }
 

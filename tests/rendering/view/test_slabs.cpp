@@ -296,7 +296,7 @@ TEST_F(Slabs, smallLayersAreThoseOfOneBall)
 
 TEST_F(Slabs, thousandsOfBallsInOneTileAreTheOneBall)
 {
-    makeTargets(16, 16);
+    makeTargets(8, 8);
     TestBlob whole = kBall;
     whole.center = glm::vec3(0.0f);
     for (const bool layers : {false, true})
@@ -316,7 +316,7 @@ TEST_F(Slabs, thousandsOfBallsInOneTileAreTheOneBall)
 
 TEST_F(Slabs, aTileListsFourteenThousandBallsWithoutAChoice)
 {
-    makeTargets(16, 16);
+    makeTargets(8, 8);
     view_->settings().countOverdraw = true;
     TestBlob part = kBall;
     part.crossSection *= 1e-4f;
