@@ -42,7 +42,7 @@ ResourceId FieldTest::importTexelsOfFields()
 void FieldTest::fill(const FieldScene& scene, int resolution, bool layers)
 {
     plan_.build(scene.inputs(16 * kFieldWidth, 16 * kFieldHeight, resolution));
-    texels_.build(plan_, {});
+    texels_.build(plan_, {}, {});
     graph_->begin();
     volumes_.clear();
     const int depth = int(plan_.bricks().size() + 255) / 256;

@@ -127,7 +127,7 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
     textures.change = import(volumes[4], kFieldFormats[5]);
     const FieldDetailBlock block = blockOf(numbers());
     FieldTexels listed(memory_);
-    listed.build(plan, {&block, 1});
+    listed.build(plan, {&block, 1}, {scene.balls, materials});
     std::vector<float> words(size_t(4 * kFieldColumns), 0.0f);
     ASSERT_LE(listed.texels().size(), size_t(kFieldColumns));
     std::memcpy(words.data(), listed.texels().data(), listed.texels().size_bytes());
