@@ -411,7 +411,7 @@ TEST_P(NetworkOfSlabs, withoutANetworkHasNoFields)
     EXPECT_EQ(fieldPasses(), 0);
 }
 
-TEST_P(NetworkOfSlabs, followsTheEyeAndLayersHaveItsLight)
+TEST_P(NetworkOfSlabs, sixSlabsAndLayersHaveItsLight)
 {
     render::ViewSettings& settings = view_->settings();
     settings.lighting.sunIlluminance = glm::vec3(10000.0f);
