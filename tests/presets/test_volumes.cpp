@@ -76,8 +76,7 @@ TEST(VolumeFile, damagedFilesAreRefused)
         std::string damaged = bytes;
         damaged[at] = char(damaged[at] ^ 0x15);
         const auto read = asset::parseVolume(damaged); // numbers of the header may still be numbers
-        if (at > bytes.find("\ndata\n"))
-            EXPECT_FALSE(read.ok()) << at;
+        EXPECT_TRUE(!read.ok() || at < bytes.find("\ndata\n")) << at;
     }
     EXPECT_EQ(asset::parseVolume("fxvolume 2\n").status().code(), base::Code::Version);
     EXPECT_EQ(asset::parseVolume("fxvolume 1\nbricks 32769\n").status().code(), base::Code::TooLarge);

@@ -64,7 +64,7 @@ class Volume(FxTest):
 
     def test_opacity_is_the_integral_through_the_voxels(self):
         for scale in SCALES:
-            volume = VOLUME or self.export("library:smoke-column", "--time", "4", "--voxels", "20000")
+            volume = VOLUME or self.export("library:smoke-column", "--time", "4", "--voxels", "40000")
             _, line = self.bricks(volume, "--density-scale", scale)
             for name, direction in VIEWS.items():
                 scene = self.scene(line, DARK, direction)
