@@ -13,11 +13,11 @@ TEST(Techniques, registerEachKindOnce)
 {
     fx::base::SnapshotSchema schema;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 6u);
-    for (const char* kind : {"blob", "material", "particle", "ribbon", "light", "gpuParticle"})
+    EXPECT_EQ(schema.size(), 7u);
+    for (const char* kind : {"blob", "material", "particle", "ribbon", "light", "gpuParticle", "volume"})
         EXPECT_NE(schema.find(kind), fx::base::kNoKind) << kind;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 6u);
+    EXPECT_EQ(schema.size(), 7u);
 }
 
 TEST(Techniques, haveNamesAndAllOfAPresetMember)
