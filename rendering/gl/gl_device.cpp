@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 namespace fx::render {
 
@@ -97,7 +99,7 @@ base::Result<std::string> GlDevice::source(const char* name, const char* defines
                         "shader '" + std::string(name) + "' or one of its includes is not embedded");
 }
 
-base::Result<GlProgram> GlDevice::build(const ProgramDesc& desc)
+base::Result<GlProgramBuild> GlDevice::start(const ProgramDesc& desc)
 {
     const std::array<std::pair<GLenum, const char*>, 3> files{{{GL_VERTEX_SHADER, desc.vertex},
                                                                {GL_FRAGMENT_SHADER, desc.fragment},
@@ -112,19 +114,38 @@ base::Result<GlProgram> GlDevice::build(const ProgramDesc& desc)
             return text.status();
         stages[count++] = {stage, file, std::move(*text)};
     }
-    return GlProgram::link(*this, desc.name, std::span(stages).first(count));
+    return GlProgramBuild(*this, desc.name, std::span(stages).first(count));
+}
+
+base::Status GlDevice::compile(std::span<const ProgramDesc* const> descs)
+{
+    std::pmr::vector<std::pair<const ProgramDesc*, GlProgramBuild>> builds(memory_);
+    base::Status status;
+    for (const ProgramDesc* desc : descs) {
+        const auto isSame = [desc](const auto& build) { return build.first == desc; };
+        if (programs_.contains(desc) || std::ranges::any_of(builds, isSame))
+            continue;
+        base::Result<GlProgramBuild> build = start(*desc);
+        if (!build) {
+            status = build.status();
+            break;
+        }
+        builds.emplace_back(desc, std::move(*build));
+    }
+    for (auto& [desc, build] : builds) {
+        base::Result<GlProgram> program = build.finish();
+        if (!program)
+            return program.status();
+        programs_.insert_or_assign(desc, std::move(*program));
+        ++programsCompiled_;
+    }
+    return status;
 }
 
 base::Status GlDevice::compile(const ProgramDesc& desc)
 {
-    if (programs_.contains(&desc))
-        return {};
-    base::Result<GlProgram> program = build(desc);
-    if (!program)
-        return program.status();
-    programs_.insert_or_assign(&desc, std::move(*program));
-    ++programsCompiled_;
-    return {};
+    const ProgramDesc* const one = &desc;
+    return compile(std::span(&one, 1));
 }
 
 const ProgramDesc& GlDevice::generated(const ProgramDesc& like, std::string_view defines)

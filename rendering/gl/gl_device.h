@@ -15,6 +15,7 @@
 #include <memory>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -59,9 +60,13 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     uint64_t callCount() const { return gl.monitor.calls; } ///< number of GL calls since creation
 
-    /// Compiles the program `desc` in advance, unless it is compiled already. `desc` must have static
-    /// storage, because programs are identified by the address of their description.
-    /// @return GlFailed with stage, file and the driver's log; NotFound if a source does not exist
+    /// Compiles programs in advance, except for those that are compiled already. Drivers that compile in
+    /// threads of their own compile all of them at once. Descriptions must have static storage, because
+    /// programs are identified by the address of their description.
+    /// @return GlFailed with stage, file and the driver's log of the first program that does not compile;
+    ///         NotFound if a source does not exist. Programs before it are compiled.
+    base::Status compile(std::span<const ProgramDesc* const> descs);
+    /// Compiles one program in advance.
     base::Status compile(const ProgramDesc& desc);
 
     /// Returns a program description with macro definitions that are computed at run time: a copy of `like`
@@ -94,7 +99,7 @@ private:
     explicit GlDevice(std::pmr::memory_resource* memory) : memory_(memory), programs_(memory) {}
     base::Status readLimits();
     base::Result<std::string> source(const char* name, const char* defines) const;
-    base::Result<GlProgram> build(const ProgramDesc& desc);
+    base::Result<GlProgramBuild> start(const ProgramDesc& desc);
 
     std::pmr::memory_resource* memory_;
     GlLimits limits_;

@@ -2,8 +2,7 @@
 
 #include "rendering/gl/gl_device.h"
 
-#include <array>
-#include <vector>
+#include <algorithm>
 
 namespace fx::render {
 
@@ -35,65 +34,65 @@ std::string readLog(uint32_t name, const GetParameter& getParameter, const GetLo
     return log;
 }
 
-/// A shader object of one stage, deleted with the scope.
-class Shader
-{
-public:
-    Shader(GlFunctions& gl, GLenum stage) : gl_(gl), name_(gl.CreateShader(stage)) {}
-    ~Shader() { gl_.DeleteShader(name_); }
-    Shader(const Shader&) = delete;
-    Shader& operator=(const Shader&) = delete;
-
-    base::Status compile(const char* program, const GlStageSource& source)
-    {
-        const char* text = source.text.c_str();
-        const auto length = static_cast<GLint>(source.text.size());
-        gl_.ShaderSource(name_, 1, &text, &length);
-        gl_.CompileShader(name_);
-        GLint compiled = GL_FALSE;
-        gl_.GetShaderiv(name_, GL_COMPILE_STATUS, &compiled);
-        if (compiled)
-            return {};
-        return {base::Code::GlFailed,
-                "program '" + std::string(program) + "': the " + stageName(source.stage) + " stage '" +
-                    source.name +
-                    "' does not compile: " + readLog(name_, gl_.GetShaderiv, gl_.GetShaderInfoLog)};
-    }
-
-    uint32_t name() const { return name_; }
-
-private:
-    GlFunctions& gl_;
-    uint32_t name_;
-};
-
 } // namespace
 
-base::Result<GlProgram> GlProgram::link(GlDevice& device, const char* name,
-                                        std::span<const GlStageSource> stages)
+GlProgramBuild::GlProgramBuild(GlDevice& device, const char* name, std::span<const GlStageSource> stages)
+    : device_(&device), name_(name), program_(device, device.gl.CreateProgram())
 {
     GlFunctions& gl = device.gl;
-    GlProgram program(device, gl.CreateProgram());
-    std::vector<uint32_t> attached;
-    for (const GlStageSource& stage : stages) {
-        Shader shader(gl, stage.stage);
-        if (base::Status status = shader.compile(name, stage); !status)
-            return status;
-        gl.AttachShader(program.name(), shader.name()); // the deleted shader exists until it is detached
-        attached.push_back(shader.name());
+    for (size_t i = 0; i < std::min(stages.size(), kMaxStages); ++i) {
+        const GlStageSource& source = stages[i];
+        const uint32_t shader = gl.CreateShader(source.stage);
+        shaders_[i] = {source.stage, source.name, shader};
+        const char* text = source.text.c_str();
+        const auto length = static_cast<GLint>(source.text.size());
+        gl.ShaderSource(shader, 1, &text, &length);
+        gl.CompileShader(shader);
+        gl.AttachShader(program_.name(), shader);
     }
-    gl.LinkProgram(program.name());
-    for (const uint32_t shader : attached)
-        gl.DetachShader(program.name(), shader);
-    GLint linked = GL_FALSE;
-    gl.GetProgramiv(program.name(), GL_LINK_STATUS, &linked);
-    if (!linked) {
-        return base::Status(base::Code::GlFailed,
-                            "program '" + std::string(name) + "' does not link: " +
-                                readLog(program.name(), gl.GetProgramiv, gl.GetProgramInfoLog));
+    gl.LinkProgram(program_.name());
+}
+
+GlProgramBuild::~GlProgramBuild()
+{
+    if (program_.name() == 0)
+        return; // finished or moved
+    for (const Shader& shader : shaders_)
+        if (shader.object)
+            device_->gl.DeleteShader(shader.object); // attached shaders exist until the program is deleted
+}
+
+/// What the driver says of the first stage that does not compile, or of linking.
+std::string GlProgramBuild::reason() const
+{
+    GlFunctions& gl = device_->gl;
+    const std::string program = "program '" + std::string(name_) + "'";
+    for (const Shader& shader : shaders_) {
+        GLint isCompiled = GL_TRUE;
+        if (shader.object)
+            gl.GetShaderiv(shader.object, GL_COMPILE_STATUS, &isCompiled);
+        if (!isCompiled)
+            return program + ": the " + stageName(shader.stage) + " stage '" + shader.name +
+                   "' does not compile: " + readLog(shader.object, gl.GetShaderiv, gl.GetShaderInfoLog);
     }
-    gl.ObjectLabel(GL_PROGRAM, program.name(), -1, name);
-    return program;
+    return program + " does not link: " + readLog(program_.name(), gl.GetProgramiv, gl.GetProgramInfoLog);
+}
+
+base::Result<GlProgram> GlProgramBuild::finish()
+{
+    GlFunctions& gl = device_->gl;
+    GLint isLinked = GL_FALSE;
+    gl.GetProgramiv(program_.name(), GL_LINK_STATUS, &isLinked);
+    if (!isLinked)
+        return base::Status(base::Code::GlFailed, reason());
+    for (const Shader& shader : shaders_) {
+        if (!shader.object)
+            continue;
+        gl.DetachShader(program_.name(), shader.object);
+        gl.DeleteShader(shader.object);
+    }
+    gl.ObjectLabel(GL_PROGRAM, program_.name(), -1, name_);
+    return std::move(program_);
 }
 
 GlProgram::~GlProgram()

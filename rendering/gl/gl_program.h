@@ -6,6 +6,8 @@
 
 #include <GL/glcorearb.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -26,12 +28,8 @@ struct GlStageSource
 class GlProgram
 {
 public:
-    /// Compiles the stages and links the program.
-    /// @return GlFailed with the program's name, the stage and the driver's log
-    static base::Result<GlProgram> link(GlDevice& device, const char* name,
-                                        std::span<const GlStageSource> stages);
-
     GlProgram() = default;
+    GlProgram(GlDevice& device, uint32_t name) : device_(&device), name_(name) {} ///< takes the GL object
     ~GlProgram();
     GlProgram(GlProgram&& other) noexcept : device_(other.device_), name_(std::exchange(other.name_, 0)) {}
     GlProgram& operator=(GlProgram&& other) noexcept;
@@ -39,10 +37,40 @@ public:
     uint32_t name() const { return name_; }
 
 private:
-    GlProgram(GlDevice& device, uint32_t name) : device_(&device), name_(name) {}
-
     GlDevice* device_ = nullptr;
     uint32_t name_ = 0;
+};
+
+/// A program that is being compiled and linked. Drivers that compile in threads of their own do so between
+/// the constructor and finish(): start all programs before the first finish().
+class GlProgramBuild
+{
+public:
+    /// Starts to compile and link. `name` and the names of the stages must have static storage.
+    GlProgramBuild(GlDevice& device, const char* name, std::span<const GlStageSource> stages);
+    ~GlProgramBuild();
+    GlProgramBuild(GlProgramBuild&&) noexcept = default;
+    GlProgramBuild& operator=(GlProgramBuild&&) = delete;
+
+    /// Waits for the driver. May be called once.
+    /// @return GlFailed with the program's name, the stage and the driver's log
+    base::Result<GlProgram> finish();
+
+private:
+    static constexpr size_t kMaxStages = 3;
+
+    struct Shader
+    {
+        GLenum stage = 0;
+        const char* name = nullptr;
+        uint32_t object = 0;
+    };
+    std::string reason() const;
+
+    GlDevice* device_;
+    const char* name_;
+    GlProgram program_;
+    std::array<Shader, kMaxStages> shaders_{}; ///< objects are 0 behind the last stage
 };
 
 } // namespace fx::render

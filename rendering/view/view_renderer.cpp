@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <string>
+#include <vector>
 
 namespace fx::render {
 
@@ -176,25 +177,21 @@ void ViewRenderer::setAssets(const base::AssetTable* assets)
 
 base::Status ViewRenderer::warmUp()
 {
-    const auto compile = [&](std::span<const ProgramDesc* const> programs) {
-        for (const ProgramDesc* program : programs)
-            if (base::Status status = impl_->device->compile(*program); !status)
-                return status;
-        return base::Status();
+    std::vector<const ProgramDesc*> called;
+    const auto add = [&](std::span<const ProgramDesc* const> programs) {
+        called.insert(called.end(), programs.begin(), programs.end());
     };
-    if (base::Status status = compile(framePrograms()); !status)
-        return status;
+    add(framePrograms());
     for (const DrawTechnique* technique : impl_->techniques)
-        if (base::Status status = technique->programs ? compile(technique->programs()) : base::Status();
-            !status)
-            return status;
+        if (technique->programs)
+            add(technique->programs());
     for (const MediaComposition* composition : mediaCompositions())
-        if (base::Status status = composition->programs ? compile(composition->programs()) : base::Status();
-            !status)
-            return status;
+        if (composition->programs)
+            add(composition->programs());
     if (settings_.outputs != 0)
-        if (base::Status status = compile(outputPrograms()); !status)
-            return status;
+        add(outputPrograms());
+    if (base::Status status = impl_->device->compile(called); !status)
+        return status;
     for (const auto& part : impl_->parts)
         if (base::Status status = part->prepare(); !status)
             return status;

@@ -2,6 +2,7 @@
 
 #include "rendering/compositions/volume/volume_view.h"
 #include "rendering/field/field_fill_pass.h"
+#include "rendering/field/field_volume_pass.h"
 
 #include <vector>
 

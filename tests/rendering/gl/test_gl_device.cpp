@@ -1,6 +1,7 @@
 // What a device needs from the host, and how it compiles programs.
 #include "gl_test.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace fx::render {
@@ -108,6 +109,68 @@ TEST_F(GlDeviceTest, aProgramIsCompiledOnce)
     EXPECT_TRUE(status.ok());
     EXPECT_EQ(device->lateCompiles(), 1u);
     EXPECT_EQ(device->programsCompiled(), 2u);
+}
+
+/// Counts how many programs are linked and not yet asked for: what a driver can compile at once.
+struct LinkWatch
+{
+    static inline PFNGLLINKPROGRAMPROC link = nullptr;
+    static inline PFNGLGETPROGRAMIVPROC get = nullptr;
+    static inline int waiting = 0, most = 0;
+
+    static void APIENTRY countLink(GLuint program)
+    {
+        most = std::max(most, ++waiting);
+        link(program);
+    }
+    static void APIENTRY countGet(GLuint program, GLenum what, GLint* value)
+    {
+        waiting -= what == GL_LINK_STATUS ? 1 : 0;
+        get(program, what, value);
+    }
+    template <class Function>
+    static void* keep(void* original, Function& kept, Function counting)
+    {
+        kept = reinterpret_cast<Function>(original);
+        return reinterpret_cast<void*>(counting);
+    }
+};
+
+TEST_F(GlDeviceTest, programsAreStartedBeforeTheDriverIsAskedForTheFirst)
+{
+    GlLoader inner = context->loader();
+    const GlLoader watched{&inner, [](void* user, const char* name) -> void* {
+                               const GlLoader& loader = *static_cast<const GlLoader*>(user);
+                               void* const original = loader.getProcAddress(loader.user, name);
+                               if (std::string_view(name) == "glLinkProgram")
+                                   return LinkWatch::keep(original, LinkWatch::link, &LinkWatch::countLink);
+                               if (std::string_view(name) == "glGetProgramiv")
+                                   return LinkWatch::keep(original, LinkWatch::get, &LinkWatch::countGet);
+                               return original;
+                           }};
+    auto watching = GlDevice::create(watched, std::pmr::get_default_resource());
+    ASSERT_TRUE(watching.ok());
+    (*watching)->setSourceOverride([](std::string_view name, std::string_view) { return testShader(name); });
+    const ProgramDesc* const programs[] = {&programs::kFill, &programs::kSample, &programs::kFill};
+    ASSERT_TRUE((*watching)->compile(programs).ok());
+    EXPECT_EQ(LinkWatch::most, 2);
+    EXPECT_EQ(LinkWatch::waiting, 0);
+    EXPECT_EQ((*watching)->programsCompiled(), 2u);
+}
+
+TEST_F(GlDeviceTest, programsBeforeABrokenOneAreCompiled)
+{
+    static constexpr ProgramDesc kBroken = {"media", "fullscreen.vert", "broken.frag", nullptr, nullptr};
+    static constexpr ProgramDesc kMissing = {"missing", "fullscreen.vert", "no/such.frag", nullptr, nullptr};
+    const ProgramDesc* const broken[] = {&programs::kFill, &kBroken, &programs::kSample};
+    EXPECT_EQ(device->compile(broken).code(), base::Code::GlFailed);
+    const ProgramDesc* const missing[] = {&kMissing, &programs::kSample};
+    EXPECT_EQ(device->compile(missing).code(), base::Code::NotFound);
+    EXPECT_EQ(device->programsCompiled(), 1u);
+    base::Status status;
+    EXPECT_NE(device->program(programs::kFill, status), 0u);
+    EXPECT_EQ(device->lateCompiles(), 0u);
+    expectedMessages = messages->serious();
 }
 
 TEST_F(GlDeviceTest, aShaderThatDoesNotCompileIsReportedWithStageFileAndLog)
