@@ -346,9 +346,10 @@ void FieldPlan::listVolumes(const FieldPlanInputs& in)
                 {lattices_[e].field, uint32_t(in.effects[e].volume), lattices_[e].level, 0, 0});
     std::ranges::sort(volumes_, {}, &PlacedVolume::field);
     for (PlacedVolume& placed : volumes_) {
-        const auto range = std::ranges::equal_range(bricks_, placed.field, {}, &FieldBrickBlock::field);
-        placed.firstBrick = uint32_t(range.begin() - bricks_.begin());
-        placed.brickCount = uint32_t(range.size());
+        const auto first = std::ranges::lower_bound(bricks_, placed.field, {}, &FieldBrickBlock::field);
+        const auto last = std::ranges::upper_bound(bricks_, placed.field, {}, &FieldBrickBlock::field);
+        placed.firstBrick = uint32_t(first - bricks_.begin());
+        placed.brickCount = uint32_t(last - first);
     }
 }
 
