@@ -97,8 +97,12 @@ class FxRender(FxTest):
         self.assertEqual(pictures[0], pictures[2])
 
     def test_options_place_the_camera_for_opengl_too(self):
+        scene = self.folder / "campfire.scene.json" # with a camera, so that all pictures have its near plane
+        scene.write_text(json.dumps({"version": 1, "camera": {"position": [0, 1, 4], "target": [0, 1, 0]},
+                                     "instances": [{"preset": "library:campfire"}]}))
+
         def picture(name, *arguments):
-            self.render(name, "--time", "0.5", *arguments, scene="library:campfire")
+            self.render(name, "--time", "0.5", *arguments, scene=scene)
             return (self.folder / name).read_bytes()
 
         given = picture("scene.png")
