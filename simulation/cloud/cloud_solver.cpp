@@ -1,8 +1,5 @@
 #include "simulation/cloud/cloud_solver.h"
 
-#include "simulation/solver/blob_writer.h"
-#include "simulation/solver/seekable_solver.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -11,16 +8,11 @@ namespace fx::sim {
 namespace {
 
 namespace blob = base::blob_column;
-namespace constant = base::blob_constant;
 
-constexpr base::Ticks kAlways = INT64_MAX / 4; // later than any event
-
-class CloudSolver final : public Solver, public SeekableSolver
+class CloudSolver final : public StillMediumSolver
 {
 public:
     CloudSolver(const CloudDef& def, base::KindId kind) : def_(def), kind_(kind) {}
-
-    void step(const StepContext&) override {}
 
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
@@ -28,15 +20,8 @@ public:
             return;
         const uint32_t count = elementCount();
         BlobWriter writer(snapshot, base, kind_, count, count);
-        writer.constant(constant::Layer) = float(uint32_t(def_.layer));
-        writer.constant(constant::DetailAmount) = 0.0f;
-        writer.constant(constant::DetailScale) = 1.0f;
-        writer.constant(constant::Anisotropy) = def_.anisotropy;
-        writer.constant(constant::Shutter) = 0.0f;
-        for (const size_t empty : {blob::VelocityX, blob::VelocityY, blob::VelocityZ, blob::Heat, blob::Age})
-            writer.fill(empty, 0.0f);
-        writer.fill(blob::FireShare, def_.fireShare);
-        const float amount = def_.density * def_.scale * def_.scale; // an optical depth keeps its value
+        writeShared(def_, writer);
+        const float amount = def_.sectionScale();
         for (uint32_t i = 0; i < count; ++i) {
             const ListedBall& ball = (*def_.balls)[i];
             for (int k = 0; k < 3; ++k) {
@@ -53,16 +38,7 @@ public:
         writer.closeBounds();
     }
 
-    bool finished(base::Ticks) const override { return false; }
     uint32_t elementCount() const override { return def_.capacity(); }
-    void save(StateWriter&) const override {}
-    void restore(StateReader&) override {}
-    SeekableSolver* seekable() override { return this; }
-
-    bool canSeek(const StepContext&, base::Ticks) const override { return true; }
-    void seek(const StepContext&, base::Ticks) override {}
-    base::Ticks restsUntil(base::Ticks tick) const override { return std::max(tick, kAlways); }
-    base::Ticks quietUntil(base::Ticks tick) const override { return std::max(tick, kAlways); }
 
 private:
     const CloudDef& def_;

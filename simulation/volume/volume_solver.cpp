@@ -1,8 +1,6 @@
 #include "simulation/volume/volume_solver.h"
 
 #include "foundation/snapshot/volume_kind.h"
-#include "simulation/solver/blob_writer.h"
-#include "simulation/solver/seekable_solver.h"
 
 #include <glm/geometric.hpp>
 
@@ -12,19 +10,15 @@ namespace fx::sim {
 namespace {
 
 namespace blob = base::blob_column;
-namespace constant = base::blob_constant;
 
-constexpr base::Ticks kAlways = INT64_MAX / 4; // later than any event
-constexpr float kAir = 293.0f;                 ///< [K] a temperature that does not glow
+constexpr float kAir = 293.0f; ///< [K] a temperature that does not glow
 
-class VolumeSolver final : public Solver, public SeekableSolver
+class VolumeSolver final : public StillMediumSolver
 {
 public:
     VolumeSolver(const VolumeDef& def, base::KindId blobs, base::KindId volumes)
         : def_(def), blobs_(blobs), volumes_(volumes)
     {}
-
-    void step(const StepContext&) override {}
 
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
@@ -49,32 +43,16 @@ public:
         constants[c::Density] = def_.density / def_.scale; // an optical depth keeps its value
     }
 
-    bool finished(base::Ticks) const override { return false; }
     uint32_t elementCount() const override { return def_.capacity(); }
-    void save(StateWriter&) const override {}
-    void restore(StateReader&) override {}
-    SeekableSolver* seekable() override { return this; }
-
-    bool canSeek(const StepContext&, base::Ticks) const override { return true; }
-    void seek(const StepContext&, base::Ticks) override {}
-    base::Ticks restsUntil(base::Ticks tick) const override { return std::max(tick, kAlways); }
-    base::Ticks quietUntil(base::Ticks tick) const override { return std::max(tick, kAlways); }
 
 private:
     base::Bounds publishBalls(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
     {
         const uint32_t count = elementCount();
         BlobWriter writer(snapshot, base, blobs_, count, count);
-        writer.constant(constant::Layer) = float(uint32_t(def_.layer));
-        writer.constant(constant::DetailAmount) = 0.0f;
-        writer.constant(constant::DetailScale) = 1.0f;
-        writer.constant(constant::Anisotropy) = def_.anisotropy;
-        writer.constant(constant::Shutter) = 0.0f;
-        for (const size_t empty : {blob::VelocityX, blob::VelocityY, blob::VelocityZ, blob::Heat, blob::Age})
-            writer.fill(empty, 0.0f);
-        writer.fill(blob::FireShare, def_.fireShare);
+        writeShared(def_, writer);
         writer.fill(blob::Radius, base::kVolumeBallRadius * def_.voxelSide());
-        const float amount = def_.density * def_.scale * def_.scale;
+        const float amount = def_.sectionScale();
         for (uint32_t i = 0; i < count; ++i) {
             const base::VolumeCells& cells = def_.cells[i];
             const glm::vec3 center = def_.centerOf(cells);

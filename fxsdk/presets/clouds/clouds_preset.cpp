@@ -1,10 +1,8 @@
 #include "fxsdk/presets/clouds/clouds_technique.h"
 
 #include "embedded/clouds_schema.h"
-#include "fxsdk/presets/layer_names.h"
+#include "fxsdk/presets/still_medium.h"
 #include "simulation/cloud/cloud_solver.h"
-
-#include <span>
 
 namespace fx::preset {
 namespace {
@@ -40,14 +38,7 @@ std::string_view cloudsSchema()
 void buildCloud(const PresetValue& element, sim::EffectDef& effect)
 {
     auto cloud = std::make_unique<sim::CloudDef>();
-    element.read("name", cloud->name);
-    element.read("position", cloud->position);
-    element.read("scale", cloud->scale);
-    element.read("density", cloud->density);
-    element.read("anisotropy", cloud->anisotropy);
-    element.read("fireShare", cloud->fireShare);
-    element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayerNames),
-                 cloud->layer);
+    readStillMedium(element, *cloud);
     cloud->balls = readBalls(element);
     effect.solvers.push_back(std::move(cloud));
 }

@@ -2,10 +2,8 @@
 
 #include "embedded/volumes_schema.h"
 #include "fxsdk/assets/asset_loader.h"
-#include "fxsdk/presets/layer_names.h"
+#include "fxsdk/presets/still_medium.h"
 #include "simulation/volume/volume_solver.h"
-
-#include <span>
 
 namespace fx::preset {
 namespace {
@@ -43,14 +41,7 @@ std::string_view volumesSchema()
 void buildVolume(const PresetValue& element, sim::EffectDef& effect)
 {
     auto volume = std::make_unique<sim::VolumeDef>();
-    element.read("name", volume->name);
-    element.read("position", volume->position);
-    element.read("scale", volume->scale);
-    element.read("density", volume->density);
-    element.read("anisotropy", volume->anisotropy);
-    element.read("fireShare", volume->fireShare);
-    element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayerNames),
-                 volume->layer);
+    readStillMedium(element, *volume);
     readVoxels(element, *volume);
     effect.solvers.push_back(std::move(volume));
 }

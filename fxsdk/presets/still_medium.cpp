@@ -1,0 +1,21 @@
+#include "fxsdk/presets/still_medium.h"
+
+#include "fxsdk/presets/layer_names.h"
+
+#include <span>
+
+namespace fx::preset {
+
+void readStillMedium(const PresetValue& element, sim::StillMediumDef& out)
+{
+    element.read("name", out.name);
+    element.read("position", out.position);
+    element.read("scale", out.scale);
+    element.read("density", out.density);
+    element.read("anisotropy", out.anisotropy);
+    element.read("fireShare", out.fireShare);
+    element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayerNames),
+                 out.layer);
+}
+
+} // namespace fx::preset

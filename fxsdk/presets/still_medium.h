@@ -1,0 +1,13 @@
+/// @file still_medium.h
+/// Members that techniques share whose medium does not move.
+#pragma once
+
+#include "fxsdk/presets/preset_value.h"
+#include "simulation/solver/still_medium.h"
+
+namespace fx::preset {
+
+/// Reads all members of StillMediumDef; absent ones keep their defaults.
+void readStillMedium(const PresetValue& element, sim::StillMediumDef& out);
+
+} // namespace fx::preset
