@@ -30,6 +30,22 @@ std::pair<int, int> reached(const render::NetworkGrid& grid, double center, doub
     return {cell(center - radius), cell(center + radius)};
 }
 
+/// Calls use(index, squared distance [m2] from the ball's center) for each cell of a grid that a ball may
+/// reach.
+template <class Use>
+void forCellsOf(const render::NetworkGrid& grid, const render::MediumBlob& blob, const Use& use)
+{
+    const auto [x0, x1] = reached(grid, blob.center.x, blob.radius, 0);
+    const auto [y0, y1] = reached(grid, blob.center.y, blob.radius, 1);
+    const auto [z0, z1] = reached(grid, blob.center.z, blob.radius, 2);
+    for (int z = z0; z <= z1; ++z)
+        for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x) {
+                const glm::dvec3 offset = grid.middle({x, y, z}) - blob.center;
+                use(grid.index({x, y, z}), glm::dot(offset, offset));
+            }
+}
+
 } // namespace
 
 LumpyCloud::LumpyCloud(double depth, CloudLight light, int fine, double spread) : light_(light)
@@ -79,18 +95,11 @@ void LumpyCloud::fill()
     for (const render::MediumBlob& blob : blobs_) {
         const double r2 = blob.radius * blob.radius, e = grid_.side * grid_.side / r2;
         const double peak = 105.0 * blob.crossSection / (32.0 * std::numbers::pi * r2 * blob.radius);
-        const auto [x0, x1] = reached(grid_, blob.center.x, blob.radius, 0);
-        const auto [y0, y1] = reached(grid_, blob.center.y, blob.radius, 1);
-        const auto [z0, z1] = reached(grid_, blob.center.z, blob.radius, 2);
-        for (int z = z0; z <= z1; ++z)
-            for (int y = y0; y <= y1; ++y)
-                for (int x = x0; x <= x1; ++x) {
-                    const glm::dvec3 offset = grid_.middle({x, y, z}) - blob.center;
-                    const double s2 = glm::dot(offset, offset) / r2;
-                    if (s2 < 1.0)
-                        extinction_[grid_.index({x, y, z})] +=
-                            float(peak * formula64::fxVoxelKernel(s2, std::min(e, 0.25)));
-                }
+        forCellsOf(grid_, blob, [&](size_t cell, double distance2) {
+            if (distance2 < r2)
+                extinction_[cell] +=
+                    float(peak * formula64::fxVoxelKernel(distance2 / r2, std::min(e, 0.25)));
+        });
     }
     for (float& value : extinction_)
         value = std::max(value, 0.0f);
@@ -256,18 +265,11 @@ BallLight::BallLight(const LumpyCloud& cloud, std::span<const double> light)
 {
     for (size_t ball = 0; ball < cloud.blobs().size(); ++ball) {
         const render::MediumBlob& blob = cloud.blobs()[ball];
-        const auto [x0, x1] = reached(grid_, blob.center.x, blob.radius, 0);
-        const auto [y0, y1] = reached(grid_, blob.center.y, blob.radius, 1);
-        const auto [z0, z1] = reached(grid_, blob.center.z, blob.radius, 2);
-        for (int z = z0; z <= z1; ++z)
-            for (int y = y0; y <= y1; ++y)
-                for (int x = x0; x <= x1; ++x) {
-                    const glm::dvec3 offset = grid_.middle({x, y, z}) - blob.center;
-                    const double here = formula64::fxKernelExtinction(blob.crossSection, blob.radius,
-                                                                      glm::dot(offset, offset));
-                    light_[grid_.index({x, y, z})] += float(here * light[ball]);
-                    extinction_[grid_.index({x, y, z})] += float(here);
-                }
+        forCellsOf(grid_, blob, [&](size_t cell, double distance2) {
+            const double here = formula64::fxKernelExtinction(blob.crossSection, blob.radius, distance2);
+            light_[cell] += float(here * light[ball]);
+            extinction_[cell] += float(here);
+        });
     }
 }
 
