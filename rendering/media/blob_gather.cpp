@@ -108,11 +108,23 @@ float listRank(uint64_t instance, uint64_t id, int piece)
     return float(base::hashWord(base::hashWord(instance, id), uint64_t(piece)) >> 40) * 0x1.0p-24f;
 }
 
+/// Squares are finite too: shaders take dot products, and compilers of drivers may negate comparisons.
 bool finite(const GatheredBlob& b, const glm::vec3& velocity)
 {
-    const float values[] = {b.center.x, b.center.y, b.center.z, b.radius,     b.crossSection, b.temperature,
-                            b.albedo.x, b.albedo.y, b.albedo.z, b.emission.x, b.emission.y,   b.emission.z,
-                            b.heat,     velocity.x, velocity.y, velocity.z};
+    const float values[] = {glm::dot(b.center, b.center),
+                            b.radius * b.radius,
+                            b.crossSection,
+                            b.temperature,
+                            b.albedo.x,
+                            b.albedo.y,
+                            b.albedo.z,
+                            b.emission.x,
+                            b.emission.y,
+                            b.emission.z,
+                            b.heat,
+                            velocity.x,
+                            velocity.y,
+                            velocity.z};
     return base::allFinite(values, int(std::size(values)));
 }
 
@@ -216,7 +228,7 @@ public:
                 glm::vec3(place.position) + place.rotation * ((position - back * velocity) * place.scale);
             const float radius = value(column::Radius) * place.scale * std::cbrt(ioFar.share);
             const float section = value(column::CrossSection) * place.scale * place.scale * ioFar.share;
-            const float values[] = {center.x, center.y, center.z, radius, section};
+            const float values[] = {glm::dot(center, center), radius * radius, section};
             if (base::allFinite(values, int(std::size(values))) && radius > 0.0f && section > 0.0f)
                 medium_.push_back({center, radius, section});
         }
