@@ -133,7 +133,7 @@ Result<AssetId> AssetTable::addMesh(std::span<const MeshVertex> vertices, std::s
 Result<AssetId> AssetTable::addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash)
 {
     const std::scoped_lock lock(adding_);
-    if (const AssetId known = find(hash, [](const Entry& e) { return e.volume != nullptr; }))
+    if (const AssetId known = find(hash, [&](const Entry& e) { return e.volume && *e.volume == *volume; }))
         return known;
     const uint64_t bytes = volume->bytes();
     Entry entry;

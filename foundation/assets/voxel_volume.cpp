@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 namespace fx::base {
 
@@ -19,14 +20,13 @@ struct CellSample
 /// Sums of one brick.
 struct CellSums
 {
-    double extinction = 0.0, largest = 0.0, heat = 0.0;
+    double extinction = 0.0, heat = 0.0;
     glm::dvec3 scattered{0.0}, emission{0.0};
 };
 
 void addSample(const VoxelVolume& volume, const CellSample& sample, CellSums& io)
 {
     const double extinction = double(volume.extinction[sample.voxel]);
-    io.largest = std::max(io.largest, extinction);
     const double amount = sample.weight * extinction;
     io.extinction += amount;
     io.scattered +=
@@ -63,6 +63,24 @@ CellSums sumsOf(const VoxelVolume& volume, const BrickIndex& index, const glm::i
     return sums;
 }
 
+bool isBefore(const glm::ivec3& a, const glm::ivec3& b)
+{
+    return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+}
+
+/// Bricks whose cells reach stored voxels: the stored bricks and those before them, ascending.
+std::vector<glm::ivec3> bricksWithCells(const std::vector<glm::ivec3>& stored)
+{
+    std::vector<glm::ivec3> bricks;
+    bricks.reserve(8 * stored.size());
+    for (const glm::ivec3& brick : stored)
+        for (int k = 0; k < 8; ++k)
+            bricks.push_back(brick - glm::ivec3(k & 1, k >> 1 & 1, k >> 2));
+    std::ranges::sort(bricks, isBefore);
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    return bricks;
+}
+
 } // namespace
 
 size_t VoxelVolume::bytes() const
@@ -92,22 +110,19 @@ std::vector<VolumeCells> volumeCells(const VoxelVolume& volume)
 {
     const BrickIndex index(volume.bricks);
     const double voxel = double(volume.side) * double(volume.side) * double(volume.side);
-    const glm::ivec3 low = index.low() - 1, high = index.low() + index.size();
     std::vector<VolumeCells> cells;
-    for (int z = low.z; z < high.z; ++z)
-        for (int y = low.y; y < high.y; ++y)
-            for (int x = low.x; x < high.x; ++x) {
-                const CellSums sums = sumsOf(volume, index, {x, y, z});
-                if (!(sums.extinction * voxel > 0.0))
-                    continue;
-                VolumeCells& out = cells.emplace_back();
-                out.brick = {x, y, z};
-                out.crossSection = float(sums.extinction * voxel);
-                out.largest = float(sums.largest);
-                out.temperature = float(sums.heat / sums.extinction);
-                out.albedo = glm::vec3(sums.scattered / sums.extinction);
-                out.emission = glm::vec3(sums.emission / sums.extinction);
-            }
+    for (const glm::ivec3& brick : bricksWithCells(volume.bricks)) {
+        const CellSums sums = sumsOf(volume, index, brick);
+        const auto section = float(sums.extinction * voxel);
+        if (!(section > 0.0f))
+            continue;
+        VolumeCells& out = cells.emplace_back();
+        out.brick = brick;
+        out.crossSection = section;
+        out.temperature = float(sums.heat / sums.extinction);
+        out.albedo = glm::vec3(sums.scattered / sums.extinction);
+        out.emission = glm::vec3(glm::min(sums.emission / sums.extinction, glm::dvec3(kMostVolumeLight)));
+    }
     return cells;
 }
 

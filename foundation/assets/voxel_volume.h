@@ -19,6 +19,7 @@ constexpr size_t kVolumeBrickVoxels = 512;
 /// [brick] upper bound of the coordinates of bricks; the box of a volume has fewer than 1024 voxels a side.
 constexpr int kMaxVolumeBricksPerAxis = 128;
 constexpr size_t kMaxVolumeBricks = size_t(1) << 15;
+constexpr float kMostVolumeLight = 1e12f; ///< [cd/m3] and [cd/m2] largest emission
 
 /// Arrays have kVolumeBrickVoxels elements for each brick. An array other than `extinction` may be empty: the
 /// medium does not have the quantity.
@@ -31,11 +32,12 @@ struct VoxelVolume
     std::vector<glm::ivec3> bricks;
     std::vector<float> extinction;   ///< [1/m] >= 0
     std::vector<float> temperature;  ///< [K] the medium glows as a gray body; empty: it does not glow
-    std::vector<glm::vec3> emission; ///< [cd/m3] light that a meter emits besides the black body
+    std::vector<glm::vec3> emission; ///< [cd/m3] emitted besides the black body; 0 without extinction
     std::vector<glm::vec3> albedo;   ///< [1] 0..1; empty: `evenAlbedo` everywhere
     glm::vec3 evenAlbedo{0.8f};      ///< [1]
 
     size_t bytes() const; ///< [byte] size of all arrays
+    bool operator==(const VoxelVolume&) const = default;
 };
 
 /// Finds bricks by their coordinates in constant time.
@@ -70,10 +72,9 @@ struct VolumeCells
 {
     glm::ivec3 brick{0};       ///< [brick]
     float crossSection = 0.0f; ///< [m2] integral of the interpolated extinction over the cells, > 0
-    float largest = 0.0f;      ///< [1/m] largest extinction
     float temperature = 0.0f;  ///< [K] mean over the cells, weighted with the extinction
     glm::vec3 albedo{0.0f};    ///< [1] mean, likewise
-    glm::vec3 emission{0.0f};  ///< [cd/m2] integral of the emission over that of the extinction
+    glm::vec3 emission{0.0f};  ///< [cd/m2] emission over extinction, both integrated; to kMostVolumeLight
 };
 
 /// Cells of all bricks with medium, ascending by z, then y, then x. Their cross sections sum to the sum of

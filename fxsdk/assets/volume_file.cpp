@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <tuple>
 
@@ -18,7 +19,7 @@ using base::Code;
 using base::Status;
 
 constexpr size_t kVoxels = base::kVolumeBrickVoxels;
-constexpr float kMostLight = 1e12f, kFarthest = 1e6f, kThinnest = 1e-6f;
+constexpr float kFarthest = 1e6f, kThinnest = 1e-6f;
 constexpr uint32_t kHalfOne = 0x3C00;
 
 /// A kind of values.
@@ -28,8 +29,10 @@ struct Channel
     float most; ///< largest value that a file may state
     size_t components;
 };
-constexpr std::array<Channel, 4> kChannels{
-    {{"extinction", 1e12f, 1}, {"temperature", 1e5f, 1}, {"emission", kMostLight, 3}, {"albedos", 1.0f, 3}}};
+constexpr std::array<Channel, 4> kChannels{{{"extinction", 1e12f, 1},
+                                            {"temperature", 1e5f, 1},
+                                            {"emission", base::kMostVolumeLight, 3},
+                                            {"albedos", 1.0f, 3}}};
 enum : size_t
 {
     Extinction,
@@ -105,6 +108,7 @@ struct Contents
     base::VoxelVolume volume;
     size_t bricks = 0;
     std::array<float, kChannels.size()> largest{}; ///< 0: the channel is absent
+    size_t hashLine = 0;                           ///< [byte] where the line of the hash begins
     uint64_t hash = 0;
 };
 
@@ -132,7 +136,8 @@ Status readShape(Header& io, Contents& out)
     return io.isAtEnd() ? Status() : io.expected("the end of the line");
 }
 
-Status readChannels(Header& io, Contents& out)
+/// @param size [byte] of the file
+Status readChannels(Header& io, size_t size, Contents& out)
 {
     for (size_t c = 0; c < kChannels.size(); ++c) {
         if (!io.line(kChannels[c].name)) {
@@ -145,9 +150,15 @@ Status readChannels(Header& io, Contents& out)
             return io.expected("a largest value above 0 and in the range of '" +
                                std::string(kChannels[c].name) + "'");
     }
+    out.hashLine = size - io.rest().size();
     if (!io.line("hash") || !io.number(out.hash, 16) || !io.isAtEnd())
         return io.expected("a channel or 'hash'");
     return io.line("data") && io.isAtEnd() ? Status() : io.expected("'data'");
+}
+
+bool isBehind(const glm::ivec3& before, const glm::ivec3& b)
+{
+    return std::tuple(before.z, before.y, before.x) < std::tuple(b.z, b.y, b.x);
 }
 
 uint32_t wordAt(std::string_view data, size_t word)
@@ -168,8 +179,7 @@ Status readBricks(std::string_view data, Contents& io)
                 return {Code::InvalidArgument, "brick " + std::to_string(i) +
                                                    ": a coordinate is not in 1 to " +
                                                    std::to_string(base::kMaxVolumeBricksPerAxis - 1)};
-        const auto key = [](const glm::ivec3& p) { return std::tuple(p.z, p.y, p.x); };
-        if (i > 0 && !(key(bricks.back()) < key(b)))
+        if (i > 0 && !isBehind(bricks.back(), b))
             return {Code::InvalidArgument, "brick " + std::to_string(i) + ": is not behind the one before"};
         bricks.push_back(b);
     }
@@ -215,6 +225,15 @@ Status checkShape(const base::VoxelVolume& v)
     if (!isIn(v.side, kThinnest, kFarthest) || !isIn(v.origin.x, -kFarthest, kFarthest) ||
         !isIn(v.origin.y, -kFarthest, kFarthest) || !isIn(v.origin.z, -kFarthest, kFarthest))
         return {Code::InvalidArgument, "side or place of the voxels is out of range; change --length-scale"};
+    const size_t voxels = v.bricks.size() * kVoxels;
+    for (const size_t size : {v.temperature.size(), v.emission.size(), v.albedo.size()})
+        if (v.extinction.size() != voxels || (size != 0 && size != voxels))
+            return {Code::InvalidArgument, "the arrays do not have 512 values for each brick"};
+    for (int a = 0; a < 3; ++a)
+        if (!isIn(v.evenAlbedo[a], 0.0f, 1.0f))
+            return {Code::InvalidArgument, "the albedo is not in 0 to 1; change --albedo"};
+    if (std::ranges::adjacent_find(v.bricks, std::not_fn(isBehind)) != v.bricks.end())
+        return {Code::InvalidArgument, "the bricks are not in ascending order"};
     for (const glm::ivec3& b : v.bricks)
         for (int a = 0; a < 3; ++a)
             if (b[a] < 1 || b[a] >= base::kMaxVolumeBricksPerAxis)
@@ -224,11 +243,21 @@ Status checkShape(const base::VoxelVolume& v)
     return {};
 }
 
+/// Where voxels have no medium, neither do they emit: rounding may leave light without extinction.
+Status checkEmission(const base::VoxelVolume& v)
+{
+    for (size_t i = 0; i < v.emission.size(); ++i)
+        if (!(v.extinction[i] > 0.0f) && v.emission[i] != glm::vec3(0.0f))
+            return {Code::InvalidArgument,
+                    "emission: voxel " + std::to_string(i) + " emits, but has no extinction"};
+    return {};
+}
+
 } // namespace
 
-uint64_t volumeHash(std::string_view data)
+uint64_t volumeHash(std::string_view header, std::string_view data)
 {
-    return base::hashBytes(1, data.data(), data.size());
+    return base::hashBytes(base::hashBytes(1, header.data(), header.size()), data.data(), data.size());
 }
 
 base::Result<base::VoxelVolume> parseVolume(std::string_view bytes)
@@ -242,7 +271,7 @@ base::Result<base::VoxelVolume> parseVolume(std::string_view bytes)
     Contents contents;
     if (Status status = readShape(header, contents); !status)
         return status;
-    if (Status status = readChannels(header, contents); !status)
+    if (Status status = readChannels(header, bytes.size(), contents); !status)
         return status;
     std::string_view data = header.rest();
     size_t words = 3;
@@ -252,8 +281,8 @@ base::Result<base::VoxelVolume> parseVolume(std::string_view bytes)
         return Status(Code::Parse, "found " + std::to_string(data.size()) +
                                        " bytes of data; the header needs " +
                                        std::to_string(contents.bricks * words * 2));
-    if (volumeHash(data) != contents.hash)
-        return Status(Code::Parse, "the data are damaged: their hash is another one");
+    if (volumeHash(bytes.substr(0, contents.hashLine), data) != contents.hash)
+        return Status(Code::Parse, "the file is damaged: its hash is another one");
     if (Status status = readBricks(data, contents); !status)
         return status;
     data.remove_prefix(contents.bricks * 6);
@@ -278,6 +307,8 @@ base::Result<base::VoxelVolume> parseVolume(std::string_view bytes)
     }
     if (std::ranges::none_of(v.extinction, [](float x) { return x > 0.0f; }))
         return Status(Code::InvalidArgument, "no voxel has medium");
+    if (Status status = checkEmission(v); !status)
+        return status;
     return std::move(contents.volume);
 }
 
@@ -286,6 +317,9 @@ base::Result<std::string> writeVolume(const base::VoxelVolume& volume)
     if (Status status = checkShape(volume); !status)
         return status;
     const auto channels = channelsOf(volume);
+    const float densest = *std::ranges::max_element(volume.extinction);
+    const auto isEmpty = [&](size_t voxel) { return base::toHalf(volume.extinction[voxel] / densest) == 0; };
+    glm::vec3 evenAlbedo = volume.evenAlbedo;
     std::string data, lines;
     for (const glm::ivec3& brick : volume.bricks)
         for (int a = 0; a < 3; ++a)
@@ -298,26 +332,27 @@ base::Result<std::string> writeVolume(const base::VoxelVolume& volume)
                                                          ": a value is out of range; change its --...-scale");
             largest = std::max(largest, value);
         }
+        if (c == Albedo && !channels[c].empty() && !(largest > 0.0f))
+            evenAlbedo = glm::vec3(0.0f);
         if (!(largest > 0.0f))
             continue;
         lines += std::string(kChannels[c].name) + " " + shortest(largest) + "\n";
-        for (const float value : channels[c])
-            appendWord(data, base::toHalf(value / largest));
+        for (size_t i = 0; i < channels[c].size(); ++i)
+            appendWord(data, c == Emission && isEmpty(i / 3) ? 0 : base::toHalf(channels[c][i] / largest));
     }
     if (!lines.starts_with(kChannels[Extinction].name))
         return Status(Code::InvalidArgument, "the volume has no medium");
-    char hash[20];
-    const auto [end, error] = std::to_chars(std::begin(hash), std::end(hash), volumeHash(data), 16);
-    std::string digits(std::begin(hash), end);
-    digits.insert(0, 16 - digits.size(), '0');
     std::string text = "fxvolume 1\nbricks " + std::to_string(volume.bricks.size()) + "\nside " +
                        shortest(volume.side) + "\norigin";
     for (int a = 0; a < 3; ++a)
         text += " " + shortest(volume.origin[a]);
     text += "\nalbedo";
     for (int a = 0; a < 3; ++a)
-        text += " " + shortest(volume.evenAlbedo[a]);
-    return text + "\n" + lines + "hash " + digits + "\ndata\n" + data;
+        text += " " + shortest(evenAlbedo[a]);
+    text += "\n" + lines;
+    char hash[20];
+    const auto [end, error] = std::to_chars(std::begin(hash), std::end(hash), volumeHash(text, data), 16);
+    return text + "hash " + std::string(std::begin(hash), end) + "\ndata\n" + data;
 }
 
 } // namespace fx::asset

@@ -1,19 +1,25 @@
 /// @file volume_file.h
 /// Files of media on sparse voxels (`*.fxvolume`), which `fx import --bricks` writes.
 ///
-/// A file is a text header followed by binary numbers, little endian:
-///     fxvolume 1
-///     bricks N                  1..2^15
-///     side S                    [m] of a voxel, 1e-6 to 1e6
-///     origin X Y Z              [m] center of the voxel (0, 0, 0), within 1e6
-///     albedo R G B              of the medium if it has no channel of this name, 0..1
-///     extinction M              [1/m] largest value of the channel, as in the lines that follow, at most
-///     1e12 temperature M             [K] at most 1e5; this line and the next two may be absent emission M
-///     [cd/m3] at most 1e12 albedos M                 [1] at most 1 hash H                    16 hexadecimal
-///     digits: of the bytes behind the header data 3 * N 16-bit integers     coordinates x y z of the bricks,
-///     in the order of VoxelVolume half floats               512 for each brick and component, for each
-///     channel of the header in its
-///                               order: values over the largest; the components of a color follow each other
+/// A file is a text header followed by binary numbers, little endian. Lines of the header:
+///
+/// - `fxvolume 1`
+/// - `bricks N`: 1..2^15
+/// - `side S`: [m] of a voxel, 1e-6 to 1e6
+/// - `origin X Y Z`: [m] center of the voxel (0, 0, 0), within 1e6
+/// - `albedo R G B`: of the medium if it has no channel of this name, 0..1
+/// - `extinction M`: [1/m] largest value of the channel, as in the next three lines; at most 1e12
+/// - `temperature M`: [K] at most 1e5; this line and the next two may be absent
+/// - `emission M`: [cd/m3] at most 1e12
+/// - `albedos M`: [1] at most 1
+/// - `hash H`: up to 16 hexadecimal digits, of the lines above and of the bytes behind the header
+/// - `data`
+///
+/// Behind the header are 3 * N 16-bit integers, the coordinates x y z of the bricks in the order of
+/// VoxelVolume. Then come 512 half floats for each brick and component, for each channel of the header in
+/// its order: values over the largest. The components of a color follow each other. A voxel without
+/// extinction emits nothing.
+///
 /// The lines of the header have this order. Each ends with a line feed; single spaces separate their words.
 #pragma once
 
@@ -39,7 +45,8 @@ base::Result<base::VoxelVolume> parseVolume(std::string_view bytes);
 /// @return TooLarge, InvalidArgument with the number that is out of range and the remedy
 base::Result<std::string> writeVolume(const base::VoxelVolume& volume);
 
-/// The hash that a file with these bytes behind its header states.
-uint64_t volumeHash(std::string_view data);
+/// The hash that a file states.
+/// @param header lines before that of the hash  @param data bytes behind the header
+uint64_t volumeHash(std::string_view header, std::string_view data);
 
 } // namespace fx::asset

@@ -18,7 +18,8 @@ void repairHash(std::string& io)
     if (hash == std::string::npos || data == std::string::npos || data < hash)
         return;
     constexpr std::string_view kDigits = "0123456789abcdef";
-    const uint64_t value = asset::volumeHash(std::string_view(io).substr(data + kData.size()));
+    const uint64_t value = asset::volumeHash(std::string_view(io).substr(0, hash + 1),
+                                             std::string_view(io).substr(data + kData.size()));
     std::string text;
     for (int shift = 60; shift >= 0; shift -= 4)
         text += kDigits[value >> shift & 15];
@@ -45,7 +46,10 @@ void checkVolume(const base::VoxelVolume& volume)
             "the cells of bricks have the medium of the voxels");
     const auto again = asset::writeVolume(volume);
     require(again.ok(), "a volume that was read can be written");
-    require(asset::parseVolume(*again).ok(), "and read again");
+    const auto reread = asset::parseVolume(*again);
+    require(reread.ok(), "and read again");
+    require(*asset::writeVolume(*reread) == *again, "with the same bytes");
+    require(reread->bricks == volume.bricks, "with the same bricks");
 }
 
 std::string smallVolume(bool hasLight)

@@ -12,15 +12,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <set>
 
 namespace fx::cli {
 namespace {
 
 constexpr size_t kVoxels = base::kVolumeBrickVoxels;
-constexpr double kStraight = 1e-6;              // of the side of a voxel
-constexpr double kMostTemperature = 1e5;        // [K]
-constexpr int64_t kFarthest = int64_t(1) << 28; // [voxel]
+constexpr double kStraight = 1e-6;                           // of the side of a voxel
+constexpr double kMostTemperature = 1e5;                     // [K]
+constexpr int kFarthest = 1 << 25;                           // [brick]
+constexpr size_t kMostTouched = 64 * base::kMaxVolumeBricks; // bricks that may have medium
 
 /// A lattice of cubes along the axes of the world.
 struct Lattice
@@ -101,13 +102,19 @@ std::array<int, 3> keyOf(const glm::ivec3& brick)
     return {brick.z, brick.y, brick.x};
 }
 
-/// Bricks of the lattice that blocks of the grid touch, ascending.
-std::vector<glm::ivec3> bricksOf(const render::MediumGrid& grid, const Lattice& lattice, bool isCopied)
+base::Status tooLarge(const std::string& what)
 {
-    std::map<std::array<int, 3>, bool> found;
+    return {base::Code::TooLarge, what + "; write the volume with larger voxels, or fit balls to it (--fit)"};
+}
+
+/// Bricks of the lattice that blocks of the grid touch, ascending.
+base::Result<std::vector<glm::ivec3>> bricksOf(const render::MediumGrid& grid, const Lattice& lattice,
+                                               bool isCopied)
+{
+    std::set<std::array<int, 3>> found;
     for (const glm::ivec3& block : grid.blocks) {
         if (isCopied) {
-            found[keyOf(block / 8)] = true; // multiples of 8
+            found.insert(keyOf(block / 8)); // multiples of 8
             continue;
         }
         glm::dvec3 low(1e300), high(-1e300);
@@ -118,23 +125,22 @@ std::vector<glm::ivec3> bricksOf(const render::MediumGrid& grid, const Lattice& 
             low = glm::min(low, place);
             high = glm::max(high, place);
         }
-        for (int z = int(std::floor(low.z)); z <= int(std::floor(high.z)); ++z)
-            for (int y = int(std::floor(low.y)); y <= int(std::floor(high.y)); ++y)
-                for (int x = int(std::floor(low.x)); x <= int(std::floor(high.x)); ++x)
-                    found[{z, y, x}] = true;
-        if (found.size() > 64 * base::kMaxVolumeBricks)
-            break; // far too many
+        const glm::dvec3 first = glm::floor(low), last = glm::floor(high);
+        const glm::dvec3 count = last - first + 1.0;
+        if (!(count.x * count.y * count.z <= double(kMostTouched - found.size())))
+            return tooLarge("the volume has too many voxels");
+        if (glm::any(glm::greaterThan(glm::max(-first, last), glm::dvec3(double(kFarthest)))))
+            return tooLarge("the volume is too far from the origin for its voxels");
+        for (int z = int(first.z); z <= int(last.z); ++z)
+            for (int y = int(first.y); y <= int(last.y); ++y)
+                for (int x = int(first.x); x <= int(last.x); ++x)
+                    found.insert({z, y, x});
     }
     std::vector<glm::ivec3> bricks;
     bricks.reserve(found.size());
-    for (const auto& [key, isThere] : found)
+    for (const std::array<int, 3>& key : found)
         bricks.push_back({key[2], key[1], key[0]});
     return bricks;
-}
-
-base::Status tooLarge(const std::string& what)
-{
-    return {base::Code::TooLarge, what + "; write the volume with larger voxels, or fit balls to it (--fit)"};
 }
 
 void append(const Voxel& voxel, bool hasFlame, base::VoxelVolume& io, const render::MediumGrid& grid)
@@ -173,18 +179,14 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
     const double mass = render::sumsOf(grid).crossSection;
     if (!(mass > 0.0))
         return base::Status(base::Code::InvalidArgument, "the volume has no medium");
-    for (const glm::ivec3& block : grid.blocks)
-        if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(grid.place(block)) - lattice.origin),
-                                      glm::dvec3(double(kFarthest) * lattice.side))))
-            return tooLarge("the volume is too far from the origin for its voxels");
-    const std::vector<glm::ivec3> bricks = bricksOf(grid, lattice, isCopied);
-    if (bricks.size() > 64 * base::kMaxVolumeBricks)
-        return tooLarge("the volume has too many voxels");
+    const base::Result<std::vector<glm::ivec3>> bricks = bricksOf(grid, lattice, isCopied);
+    if (!bricks)
+        return bricks.status();
     const GridSampler sampler(grid);
     base::VoxelVolume volume;
     volume.side = float(lattice.side);
     volume.evenAlbedo = glm::vec3(float(albedo));
-    for (const glm::ivec3& brick : bricks) {
+    for (const glm::ivec3& brick : *bricks) {
         std::array<Voxel, kVoxels> voxels;
         bool isEmpty = true;
         for (size_t v = 0; v < kVoxels; ++v) {
