@@ -3,9 +3,10 @@
 /// volumes and passes that draw them include this header; the snapshot container does not.
 ///
 /// A group of this kind has no elements. It follows a group of the kind "blob" of the same solver, which has
-/// one ball for each brick that contains medium. The ball has the cross section of the brick, is concentric
-/// with the brick, and contains the brick. Readers that know this kind replace the balls by the voxels.
-/// Other readers, and compositions without voxels, use the balls.
+/// one ball for each brick whose cells contain medium: up to eight for a stored brick, see VolumeCells. The
+/// ball has the cross section of the cells, is concentric with the brick, and contains the brick. Readers
+/// that know this kind replace the balls by the voxels. Other readers, and compositions without voxels, use
+/// the balls.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -29,6 +30,8 @@ enum : size_t
 /// [1] Radius of a ball over the side of a voxel. The ball contains its brick: half of the brick's diagonal
 /// is 6.93 voxels. The extinction of the ball is above 0 at the corners of the brick.
 constexpr float kVolumeBallRadius = 8.0f;
+/// [1] Radius of the ball within the brick that casts the brick's shadow, over the side of a voxel.
+constexpr float kVolumeCasterRadius = 4.0f;
 
 inline constexpr ColumnDesc kVolumeConstants[volume_constant::Count] = {
     {"asset", "1"}, {"originX", "m"}, {"originY", "m"}, {"originZ", "m"}, {"side", "m"}, {"density", "1"},

@@ -72,6 +72,7 @@ void FieldMedia::build(const GatherInputs& in, const GatheredFrame& from)
 /// Effects whose volume is not in the asset table are drawn as their balls.
 void FieldMedia::gatherVolumes(const GatherInputs& in, const GatheredFrame& from)
 {
+    voxels_.beginFrame();
     exposure_ = exposureFromEv100(in.settings->exposureEv100);
     effects_.assign(from.effects.begin(), from.effects.end());
     groupVolumes_.clear();

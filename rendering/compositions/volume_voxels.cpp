@@ -9,6 +9,8 @@ namespace fx::render {
 
 namespace {
 
+constexpr uint32_t kUnusedFrames = 300; ///< after which a volume is forgotten
+
 /// A buffer with these bytes.
 template <class T>
 base::Status fillBuffer(GlDevice& device, const std::vector<T>& values, const char* name, GlBuffer& out)
@@ -27,15 +29,31 @@ base::Status fillBuffer(GlDevice& device, const std::vector<T>& values, const ch
 const MediumVolume* VolumeVoxels::find(const base::AssetTable* assets, uint32_t asset)
 {
     const auto known = std::ranges::find(volumes_, asset, &Volume::asset);
-    if (known != volumes_.end())
+    if (known != volumes_.end()) {
+        known->unused = 0;
         return known->levels.front().medium.get();
+    }
     const auto voxels = assets ? assets->volume(asset) : nullptr;
-    if (!voxels)
+    if (!voxels || voxels->bricks.size() > mostBricks())
         return nullptr;
-    Volume& made = volumes_.emplace_back();
-    made.asset = asset;
+    Volume made{.asset = asset};
     made.levels.emplace_back().medium = std::make_unique<MediumVolume>(*voxels);
-    return made.levels.front().medium.get();
+    return volumes_.emplace_back(std::move(made)).levels.front().medium.get();
+}
+
+void VolumeVoxels::beginFrame()
+{
+    for (Volume& volume : volumes_)
+        ++volume.unused;
+    std::erase_if(volumes_, [](const Volume& volume) { return volume.unused > kUnusedFrames; });
+}
+
+/// As many as the driver can read from one buffer.
+size_t VolumeVoxels::mostBricks() const
+{
+    GLint most = 0;
+    device_.gl.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    return size_t(std::max(most, 0)) / (sizeof(MediumVolume::Packed) * base::kVolumeBrickVoxels);
 }
 
 base::Status VolumeVoxels::makeRoom(uint32_t asset, int level)
@@ -43,6 +61,9 @@ base::Status VolumeVoxels::makeRoom(uint32_t asset, int level)
     std::vector<Level>& levels = std::ranges::find(volumes_, asset, &Volume::asset)->levels;
     while (levels.size() <= size_t(level)) {
         auto half = std::make_unique<MediumVolume>(levels.back().medium->halved());
+        if (half->bricks() > mostBricks())
+            return {base::Code::TooLarge, "a volume is so scattered that its coarser voxels need more "
+                                          "memory than the driver reads from one buffer"};
         levels.emplace_back().medium = std::move(half);
     }
     Level& wanted = levels[size_t(level)];

@@ -27,9 +27,13 @@ public:
         : device_(device), volumes_(memory)
     {}
 
-    /// The medium of an asset; null if the table has no volume with this id.
+    /// Forgets volumes that no frame has asked for since 300 frames. Called once per frame, before
+    /// find().
+    void beginFrame();
+    /// The medium of an asset; null if the table has no volume with this id, or if the driver cannot read its
+    /// voxels from one buffer.
     const MediumVolume* find(const base::AssetTable* assets, uint32_t asset);
-    /// Uploads a level of a volume that find() has returned. @return OutOfMemory
+    /// Uploads a level of a volume that find() has returned. @return OutOfMemory, TooLarge
     base::Status makeRoom(uint32_t asset, int level);
     /// Sets index, voxels and their numbers of a level for which makeRoom() has been called.
     void import(FrameGraph& graph, uint32_t asset, int level, FieldVolumePass::Inputs& io) const;
@@ -47,10 +51,12 @@ private:
     };
     struct Volume
     {
-        uint32_t asset;
-        std::vector<Level> levels;
+        uint32_t asset = 0;
+        uint32_t unused = 0; ///< number of frames since the last find()
+        std::vector<Level> levels = {};
     };
     const Level& levelOf(uint32_t asset, int level) const;
+    size_t mostBricks() const;
 
     GlDevice& device_;
     std::pmr::vector<Volume> volumes_;

@@ -1,5 +1,7 @@
 #include "rendering/field/field_plan.h"
 
+#include "foundation/snapshot/volume_kind.h"
+
 #include "foundation/memory/amortized_vector.h"
 #include "rendering/frame/ball_window.h"
 #include "rendering/frame/view_volume.h"
@@ -30,8 +32,11 @@ constexpr float kMinVoxel = 1e-4f;         ///< [m]
 constexpr float kTouch = 1.0001f;          ///< radii are compared with a margin, for what the GPU rounds
 constexpr float kWithinBrick = 0.1f;       ///< [voxel] from the middle of a brick
 constexpr float kCoarseReach = 1.5f;       ///< [voxel] that coarser voxels reach beyond finer ones
-constexpr float kCasterVoxels = 4.0f;      ///< radius of a caster, see gatherBlobs(), in voxels of its volume
-constexpr uint32_t kUnseen = ~0u;          ///< entry of the table: medium that no ray meets
+/// Of all fields: as many as textures of the sides that GL guarantees hold, and fewer than 2^16, up to which
+/// the table of floats holds numbers with their bits.
+constexpr uint32_t kMostBricks = 2048 / kBrickSamples * kBrickColumns * kBrickColumns;
+static_assert(kMostBricks < (1u << 16));
+constexpr uint32_t kUnseen = ~0u; ///< entry of the table: medium that no ray meets
 
 const float kStep = std::exp2(0.25f); ///< between the sides of voxels
 
@@ -252,7 +257,8 @@ bool FieldPlan::placeField(Lattice& lattice, const BlobEffect& effect, const Fie
     field.bricks.w = int(table_.size());
     field.limits.x = leastRadius(lattice.voxel);
     if (volume) {
-        field.limits.x = -std::max(kCasterVoxels * float(volume->side), leastRadius(lattice.voxel));
+        field.limits.x =
+            -std::max(base::kVolumeCasterRadius * float(volume->side), leastRadius(lattice.voxel));
         field.limits.y = volume->largest;
     }
     field.limits.z = float(effect.detail + 1);
@@ -311,7 +317,7 @@ bool FieldPlan::countBalls(const FieldPlanInputs& in)
     const uint32_t across = uint32_t(std::clamp(in.resolution, kMinVoxels, kMaxVoxels) / kBrickCells);
     const uint32_t most = in.mostBricks > 0 ? in.mostBricks : across * across * across;
     isOverBalls_ = bricks > most;
-    isOverVolumes_ = ofVolumes > kVolumeBudget * most;
+    isOverVolumes_ = ofVolumes > kVolumeBudget * most || (ofVolumes > 0 && bricks + ofVolumes > kMostBricks);
     return !isOverBalls_ && !isOverVolumes_;
 }
 

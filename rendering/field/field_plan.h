@@ -54,7 +54,8 @@ struct FieldPlanInputs
     int width, height;   ///< [pixel] size of the picture
     int resolution = 96; ///< number of voxels along 16 radii of an effect's balls, 16..256
     /// Largest number of bricks of all fields together. 0: the number of bricks of a cube with `resolution`
-    /// voxels along a side. Fields of volumes may have kVolumeBudget times as many together.
+    /// voxels along a side. Fields of volumes may have kVolumeBudget times as many together, and all fields
+    /// as many as fit into a texture of 2048 texels along each axis.
     uint32_t mostBricks = 0;
     bool glows = true; ///< true: emitted light is propagated in grids, see FieldPlan::glows()
     /// Side of the cube of as many cells as the grid of an illumination network may have; 0: no networks.

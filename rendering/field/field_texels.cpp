@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 namespace fx::render {
 
@@ -35,10 +36,12 @@ void FieldTexels::addNear(const FieldPlan& plan, std::span<const FieldDetailBloc
         soft.y = soft.z > 0.0f ? soft.y : float(texels_.size());
         soft.z += 1.0f;
         soft.w = std::max(soft.w, glm::length(glm::vec3(blob.centerRadius)) + blob.centerRadius.w);
-        texels_.insert(texels_.end(), {blob.centerRadius,
-                                       {glm::vec3(blob.emission), ball.share * blob.medium.x},
-                                       {glm::vec3(material.carried[0]), thinning},
-                                       {glm::vec3(material.carried[1]), blob.emission.w}});
+        const glm::vec4 texels[] = {blob.centerRadius,
+                                    {glm::vec3(blob.emission), ball.share * blob.medium.x},
+                                    {glm::vec3(material.carried[0]), thinning},
+                                    {glm::vec3(material.carried[1]), blob.emission.w}};
+        static_assert(std::size(texels) == kNearTexels);
+        texels_.insert(texels_.end(), std::begin(texels), std::end(texels));
     }
 }
 

@@ -27,7 +27,7 @@ namespace constant = base::blob_constant;
 constexpr uint32_t kMinImpostorBlobs = 16; ///< blobs; fewer are cheaper than their picture
 constexpr size_t kMaxFarCasters = 16;      ///< of an effect that is drawn as a picture
 /// Radius of the ball within a brick over that of the ball around it.
-constexpr float kBrickCaster = 4.0f / base::kVolumeBallRadius;
+constexpr float kBrickCaster = base::kVolumeCasterRadius / base::kVolumeBallRadius;
 
 float mix(float a, float b, float t)
 {
@@ -402,9 +402,11 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
             made.factor = outFields->conservation.of(made, outFields->casters);
             outFields->details.push_back(made);
         }
-        if (volume)
+        if (volume) {
             outFields->volumes.push_back(
                 groupVolume(group, *volume, placementAt(group, older, t, camera.eye)));
+            outFields->volumes.back().density *= double(plan.blobShare); // the rest is in a picture
+        }
         addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,
                 visibleBegin, outVisible.size(), mediumBegin, outMedium.size(),
                 volume ? int(outFields->volumes.size()) - 1 : -1},

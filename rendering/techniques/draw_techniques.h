@@ -14,6 +14,8 @@ extern const DrawTechnique kBlobTechnique;
 /// Noise coordinates of balls, which make detail move with the balls. The state of kBlobTechnique draws with
 /// these coordinates.
 extern const DrawTechnique kFieldDetailTechnique;
+
+/// Voxels of volumes, which replace balls. The state of kBlobTechnique draws them.
 extern const DrawTechnique kVolumeTechnique;
 
 /// Shadows of media: timer group and scalability levels of light slices. The passes of light slices are in

@@ -83,12 +83,25 @@ size_t MediumVolume::voxelAt(const glm::ivec3& voxel) const
 
 MediumVolume MediumVolume::halved() const
 {
+    const auto isEmpty = [this](size_t v) {
+        return extinction_[v] == 0.0f && (emitted_.empty() || emitted_[v] == glm::vec3(0.0f));
+    };
     std::vector<glm::ivec3> bricks;
-    for (const glm::ivec3& brick : bricks_)
-        for (int k = 0; k < 8; ++k) { // the last voxels also belong to the brick behind
-            const glm::ivec3 last = (brick * kSide + glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * kSide);
-            bricks.push_back({last.x >> 4, last.y >> 4, last.z >> 4});
+    for (size_t b = 0; b < bricks_.size(); ++b) {
+        std::array<bool, 8> reached{}; // the last voxels also belong to the bricks behind
+        for (size_t v = b * kVoxels; v < (b + 1) * kVoxels; ++v) {
+            const glm::ivec3 in = isEmpty(v) ? glm::ivec3(-1) : voxelInBrick(v % kVoxels);
+            for (int k = 0; k < 8 && in.x >= 0; ++k)
+                reached[size_t(k)] |= ((k & 1) == 0 || in.x == kSide - 1) &&
+                                      ((k & 2) == 0 || in.y == kSide - 1) &&
+                                      ((k & 4) == 0 || in.z == kSide - 1);
         }
+        for (int k = 0; k < 8; ++k)
+            if (reached[size_t(k)]) {
+                const glm::ivec3 last = bricks_[b] * kSide + glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * kSide;
+                bricks.push_back({last.x >> 4, last.y >> 4, last.z >> 4});
+            }
+    }
     std::ranges::sort(bricks, isBefore);
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
     MediumVolume half(std::move(bricks), base::hashWord(hash_, 2));
@@ -97,7 +110,7 @@ MediumVolume MediumVolume::halved() const
     half.scattered_.assign(voxels, glm::vec3(0.0f));
     half.emitted_.assign(emitted_.empty() ? 0 : voxels, glm::vec3(0.0f));
     for (size_t v = 0; v < extinction_.size(); ++v) {
-        if (extinction_[v] == 0.0f && (emitted_.empty() || emitted_[v] == glm::vec3(0.0f)))
+        if (isEmpty(v))
             continue;
         const glm::ivec3 from = bricks_[v / kVoxels] * kSide + voxelInBrick(v % kVoxels);
         for (int k = 0; k < 8; ++k) {

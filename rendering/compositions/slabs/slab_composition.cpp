@@ -18,14 +18,14 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"slab balls", "media"},     {"slab detail upload", "media"},
-                                {"field texels", "media"},   {"lump tile", "media"},
-                                {"slab upload", "media"},    {"slab cards", "media"},
-                                {"slab tiles", "media"},     {"slabs", "media"},
-                                {"field upload", "media"},   {"field fill", "media"},
-                                {"field volume", "media"},   {"glow source", "media"},
-                                {"network upload", "media"}, {"network prepare", "media"},
-                                {"network rays", "media"},   {"network sum", "media"}};
+constexpr TimedPass kTimed[] = {{"slab balls", "media"},      {"slab detail upload", "media"},
+                                {"field texels", "media"},    {"lump tile", "media"},
+                                {"slab upload", "media"},     {"slab cards", "media"},
+                                {"slab tiles", "media"},      {"slabs", "media"},
+                                {"field upload", "volume"},   {"field fill", "volume"},
+                                {"field volume", "volume"},   {"glow source", "volume"},
+                                {"network upload", "volume"}, {"network prepare", "volume"},
+                                {"network rays", "volume"},   {"network sum", "volume"}};
 
 std::span<const ProgramDesc* const> programs()
 {

@@ -10,13 +10,11 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {
-    {"loose blob upload", "volume"}, {"field upload", "volume"},   {"lump tile", "volume"},
-    {"field slices", "volume"},      {"field fill", "volume"},     {"field near", "volume"},
-    {"field light", "volume"},       {"glow upload", "volume"},    {"glow source", "volume"},
-    {"glow rays", "volume"},         {"network upload", "volume"}, {"network prepare", "volume"},
-    {"network rays", "volume"},      {"network sum", "volume"},    {"glow sum", "volume"},
-    {"field texels", "volume"},      {"field volume", "volume"},   {"field march", "media"}};
+// Passes that slabs have too are in their list.
+constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field slices", "volume"},
+                                {"field near", "volume"},        {"field light", "volume"},
+                                {"glow upload", "volume"},       {"glow rays", "volume"},
+                                {"glow sum", "volume"},          {"field march", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
