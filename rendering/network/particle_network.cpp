@@ -37,9 +37,10 @@ bool areLights(std::span<const float> values)
 bool isMedium(const NetworkParticle& p)
 {
     const auto isLength = [](double v) { return v > 0.0 && v <= 1e9; };
-    return std::max({std::abs(p.center.x), std::abs(p.center.y), std::abs(p.center.z)}) <= 1e9 &&
-           isLength(p.radius) && isLength(p.crossSection / p.radius / p.radius) && p.albedo >= 0.0 &&
-           p.albedo <= 1.0 && p.emission >= 0.0 && p.emission <= 1e30;
+    const auto isNear = [](double v) { return std::abs(v) <= 1e9; };
+    return isNear(p.center.x) && isNear(p.center.y) && isNear(p.center.z) && isLength(p.radius) &&
+           isLength(p.crossSection / p.radius / p.radius) && p.albedo >= 0.0 && p.albedo <= 1.0 &&
+           p.emission >= 0.0 && p.emission <= 1e30;
 }
 
 base::Status check(std::span<const NetworkParticle> particles, const ParticleNetworkSettings& settings)

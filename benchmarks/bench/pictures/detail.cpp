@@ -151,6 +151,8 @@ void report(Painter& painter, size_t k, const std::vector<std::vector<double>>& 
         NoiseCounter counter(painter.renderer->device());
         painter.draw(setting);
         reads = counter.reads();
+        if (setting.isDetailed != (reads > 0))
+            fail("the noise is read without detail, or is not with it");
     }
     const double least = *std::min_element(times[k].begin(), times[k].end());
     const size_t perParticle = base::material_column::Count * sizeof(float);

@@ -302,6 +302,12 @@ TEST(ParticleNetwork, refusesWhatItCannotHold)
             bad.*member = value;
             EXPECT_EQ(code(bad, {}), base::Code::InvalidArgument) << value;
         }
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double value : {kNan, -2e9, std::numeric_limits<double>::infinity()}) {
+            NetworkParticle bad = good;
+            bad.center[axis] = value;
+            EXPECT_EQ(code(bad, {}), base::Code::InvalidArgument) << value;
+        }
     const std::vector<NetworkParticle> many(ParticleNetwork::kMaxParticles + 1, good);
     EXPECT_EQ(network.build(many, {}, *tasks).code(), base::Code::TooLarge);
     const std::vector<NetworkParticle> dense(1000, good);
