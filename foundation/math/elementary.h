@@ -120,9 +120,10 @@ inline double power(double x, double y)
 ///   x       1      argument
 ///   y       1      approximation of its cube root
 /// @derivation
-///   One third of the bit pattern plus a constant has about a third of the exponent: within 6 % of y   (1)
-///   y <- y (y^3 + 2 x) / (2 y^3 + x) changes the relative error from d to about 2/3 d^3      (2)
-///   Relative errors after each of the three steps: 2e-4, 3e-12, less than the rounding error.
+///   A third of the bit pattern of x plus a constant is a number with about a third of the exponent of x. It
+///   is within 6 % of the cube root                                                           (1)
+///   A step y <- y (y^3 + 2 x) / (2 y^3 + x) reduces a relative error d to about 2/3 d^3      (2)
+///   After one, two and three steps the relative error is 2e-4, 3e-12 and below that of rounding.
 /// @source    [MUL16] for bit-pattern guesses; Halley's iteration is textbook
 /// @deviation none
 /// @valid     odd function; |x| < 1e-300 gives 0; infinite and NaN arguments are not accepted

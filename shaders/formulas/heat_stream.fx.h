@@ -96,7 +96,7 @@ FX_FORMULA(fxHeatStreamY)(FX_REAL x, FX_REAL y, FX_REAL phase, FX_REAL seed)
 }
 
 /// @formula heat-refraction
-/// Refraction by the mean temperature of hot air, relative to that by its eddies.
+/// Angle by which a ball of hot air deflects light, divided by the curl of its stream function.
 ///
 /// symbol    unit   meaning
 ///   heat    K      temperature above that of the surrounding air, T0 = 293.15 K, >= 0
