@@ -1,14 +1,45 @@
-# What is installed beside the library and its headers (fxsdk/api/CMakeLists.txt), all in the component sdk: the license, the
-# presets of the library with the files that they name, and, where tools are built, the fx command and the JSON schemas
-# by which editors complete presets and scenes.
+# What is installed, in four components, which are four Debian packages too (cmake/FxPackages.cmake):
+#   runtime  the shared library, and the license
+#   dev      headers, static library, packages of CMake and pkg-config, description of the API
+#   tools    the fx command, the JSON schemas by which editors complete presets and scenes, and the presets of the library
+#            with the files that they name
+#   python   the Python package (fxsdk/python/CMakeLists.txt)
+# OPTIONAL: after building the library alone, what exists is installed.
 include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
 set(FX_DATA_DIR "${CMAKE_INSTALL_DATADIR}/fxsdk")
+set(FX_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/fxsdk")
 
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT sdk)
+# The installed files may be moved: libraries are found beside fx and beside each other.
+set_target_properties(fxsdk PROPERTIES INSTALL_RPATH "$ORIGIN")
+target_link_options(fxsdk PRIVATE -Wl,--disable-new-dtags)
+install(TARGETS fxsdk EXPORT fxsdkTargets
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT dev)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/fxsdk/include/fxsdk" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev
+    FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+if(TARGET fxsdk_static)
+    install(FILES "$<TARGET_FILE:fxsdk_static>" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev OPTIONAL)
+endif()
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/fxsdkConfig.cmake.in" "${PROJECT_BINARY_DIR}/fxsdkConfig.cmake"
+    INSTALL_DESTINATION "${FX_PACKAGE_DIR}" PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/fxsdkConfigVersion.cmake" COMPATIBILITY SameMajorVersion)
+install(EXPORT fxsdkTargets NAMESPACE fxsdk:: DESTINATION "${FX_PACKAGE_DIR}" COMPONENT dev)
+install(FILES "${PROJECT_BINARY_DIR}/fxsdkConfig.cmake" "${PROJECT_BINARY_DIR}/fxsdkConfigVersion.cmake"
+    DESTINATION "${FX_PACKAGE_DIR}" COMPONENT dev)
+string(REGEX REPLACE "[^/]+" ".." FX_PC_PREFIX "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+foreach(name fxsdk fxsdk-static)
+    configure_file("${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in" "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
+endforeach()
+install(FILES "${PROJECT_BINARY_DIR}/fxsdk.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+if(TARGET fxsdk_static)
+    install(FILES "${PROJECT_BINARY_DIR}/fxsdk-static.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+endif()
+
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/fxsdk/presets/library/" "${PROJECT_BINARY_DIR}/fxsdk/presets/library/"
-    DESTINATION "${FX_DATA_DIR}/presets" COMPONENT sdk
+    DESTINATION "${FX_DATA_DIR}/presets" COMPONENT tools
     FILES_MATCHING PATTERN "*.fx.json" PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.png")
-
 if(TARGET fx)
     set(schemas "")
     foreach(kind preset scene)
@@ -20,7 +51,10 @@ if(TARGET fx)
             DEPENDS fx COMMENT "Writing the schema of ${kind} files" VERBATIM)
     endforeach()
     add_custom_target(fx_schemas ALL DEPENDS ${schemas})
-    # Who has built the library alone installs it alone.
-    install(TARGETS fx RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT sdk OPTIONAL)
-    install(FILES ${schemas} DESTINATION "${FX_DATA_DIR}/schema" COMPONENT sdk OPTIONAL)
+    file(RELATIVE_PATH to_libraries "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+    set_target_properties(fx PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
+    # An old DT_RPATH is that of the libraries of libraries as well.
+    target_link_options(fx PRIVATE -Wl,--disable-new-dtags)
+    install(TARGETS fx RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools OPTIONAL)
+    install(FILES ${schemas} DESTINATION "${FX_DATA_DIR}/schema" COMPONENT tools OPTIONAL)
 endif()

@@ -2,6 +2,8 @@
 option(FXSDK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(FXSDK_BUILD_EXAMPLES "Build the examples" ${PROJECT_IS_TOP_LEVEL})
 option(FXSDK_BUILD_TOOLS "Build the fx command and the modules only it needs (EXR, PNG, EGL, GLFW)" ${PROJECT_IS_TOP_LEVEL})
+option(FXSDK_BUILD_STATIC "Build libfxsdk.a too" ${PROJECT_IS_TOP_LEVEL})
+option(FXSDK_PYTHON "Build the Python package, where pycparser is installed" ${PROJECT_IS_TOP_LEVEL})
 option(FXSDK_GPU_PARTICLES "Compute particles of emitters that ask for it on the GPU" ON)
 option(FXSDK_VDB "Read and write OpenVDB files (fx import, fx export) where OpenVDB is installed" ON)
 option(FXSDK_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})

@@ -12,6 +12,7 @@
 #include "fxsdk/fx_base.h"
 #include "fxsdk/fx_collision.h"
 #include "fxsdk/fx_context.h"
+#include "fxsdk/fx_defaults.h"
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/fx_scene.h"
 #include "fxsdk/fx_snapshot.h"

@@ -1,0 +1,319 @@
+/// @file fxsdk.hpp
+/// C++17 form of the C API, in this header alone: objects that destroy themselves, and exceptions in place of
+/// result codes. Everything else, such as structs, units and thread tags, is that of the C API; get()
+/// gives the C object for functions that have no method here.
+///
+///     fxsdk::Context context;
+///     fxsdk::Scene scene(context);
+///     scene.create(context.loadLibrary("explosion"));
+///     scene.update(1.0 / 60.0);
+///
+/// Order: a context outlives its scenes and views, and a scene outlives its views and snapshots, as members
+/// and local variables do that are declared in this order.
+/// Threads: those of the functions of C that a method calls. A destructor runs on the thread of the object.
+#ifndef FXSDK_FXSDK_HPP
+#define FXSDK_FXSDK_HPP
+
+#include "fxsdk/fxsdk.h"
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fxsdk {
+
+/// A failed call. what() is the message of fxGetLastErrorMessage().
+class Error : public std::runtime_error
+{
+public:
+    Error(FxResult code, const char* message) : std::runtime_error(message), code_(code) {}
+    FxResult code() const noexcept { return code_; }
+
+private:
+    FxResult code_;
+};
+
+/// Throws an Error unless `result` is FX_OK.
+inline void check(FxResult result)
+{
+    if (result != FX_OK)
+        throw Error(result, fxGetLastErrorMessage());
+}
+
+namespace detail {
+
+/// Destroys an object of the C API. A destructor cannot report a failure; the context writes it to its log.
+struct Destroy
+{
+    void operator()(FxContext* context) const { (void)fxDestroyContext(context); }
+    void operator()(FxScene* scene) const { (void)fxDestroyScene(scene); }
+    void operator()(FxView* view) const { (void)fxDestroyView(view); }
+};
+
+template <class T>
+using Owner = std::unique_ptr<T, Destroy>;
+
+/// Calls `read`, a function of C that fills a struct with a member structSize.
+template <class T, class Read>
+T filled(Read&& read)
+{
+    T out{};
+    out.structSize = sizeof(T);
+    check(read(&out));
+    return out;
+}
+
+} // namespace detail
+
+/// An instance definition of a preset, with the defaults of fxDefaultInstanceDef().
+inline FxInstanceDef instanceOf(FxPresetId preset)
+{
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = preset;
+    return def;
+}
+
+/// Presets, scenes, views, and the hooks of the host.
+class Context
+{
+public:
+    explicit Context(const FxContextDef& def = fxDefaultContextDef())
+    {
+        FxContext* context = nullptr;
+        check(fxCreateContext(&def, &context));
+        context_.reset(context);
+    }
+
+    FxPresetId loadLibrary(const std::string& name)
+    {
+        FxPresetId preset{};
+        check(fxLoadPresetLibrary(get(), name.c_str(), &preset));
+        return preset;
+    }
+
+    FxPresetId loadFile(const std::string& path)
+    {
+        FxPresetId preset{};
+        check(fxLoadPresetFile(get(), path.c_str(), &preset));
+        return preset;
+    }
+
+    /// @param displayName name of the text in messages
+    FxPresetId loadText(std::string_view text, const std::string& displayName = "preset")
+    {
+        FxPresetId preset{};
+        check(fxLoadPresetText(get(), text.data(), text.size(), displayName.c_str(), &preset));
+        return preset;
+    }
+
+    /// Living instances continue.
+    void unload(FxPresetId preset) { check(fxUnloadPreset(get(), preset)); }
+
+    FxPresetInfo info(FxPresetId preset)
+    {
+        return detail::filled<FxPresetInfo>([&](auto* out) { return fxGetPresetInfo(get(), preset, out); });
+    }
+
+    /// Compiles all GPU programs.
+    void warmUp() { check(fxContext_WarmUp(get())); }
+
+    FxMemoryStats memory()
+    {
+        return detail::filled<FxMemoryStats>([&](auto* out) { return fxContext_GetMemoryStats(get(), out); });
+    }
+
+    FxContext* get() const noexcept { return context_.get(); }
+
+private:
+    detail::Owner<FxContext> context_;
+};
+
+/// Instances of effects, and a clock.
+class Scene
+{
+public:
+    explicit Scene(const Context& context, const FxSceneDef& def = fxDefaultSceneDef())
+    {
+        FxScene* scene = nullptr;
+        check(fxCreateScene(context.get(), &def, &scene));
+        scene_.reset(scene);
+    }
+
+    FxInstanceId create(const FxInstanceDef& def)
+    {
+        FxInstanceId instance{};
+        check(fxScene_CreateInstance(get(), &def, &instance));
+        return instance;
+    }
+
+    /// An instance at the origin that starts at once.
+    FxInstanceId create(FxPresetId preset) { return create(instanceOf(preset)); }
+
+    void destroy(FxInstanceId instance) { check(fxScene_DestroyInstance(get(), instance)); }
+    bool isValid(FxInstanceId instance) { return fxScene_IsValid(get(), instance) != 0; }
+
+    /// @param seconds [s] >= 0
+    void update(double seconds) { check(fxScene_Update(get(), seconds)); }
+
+    /// @param position [m] @param rotation unit quaternion x, y, z, w @param scale [1]
+    void setTransform(FxInstanceId instance, const double (&position)[3], const float (&rotation)[4],
+                      float scale = 1.0f)
+    {
+        check(fxScene_SetTransform(get(), instance, position, rotation, scale));
+    }
+
+    void setParameters(FxInstanceId instance, const FxInstanceParameters& parameters)
+    {
+        check(fxScene_SetParameters(get(), instance, &parameters));
+    }
+
+    void trigger(FxInstanceId instance, const std::string& event, uint32_t count = 1)
+    {
+        check(fxScene_TriggerEvent(get(), instance, event.c_str(), count));
+    }
+
+    /// @param seconds [s] local time of the instance
+    void seek(FxInstanceId instance, double seconds)
+    {
+        check(fxScene_SeekInstance(get(), instance, seconds));
+    }
+
+    FxInstanceState state(FxInstanceId instance)
+    {
+        FxInstanceState state{};
+        check(fxScene_GetInstanceState(get(), instance, &state, nullptr));
+        return state;
+    }
+
+    std::vector<FxInstanceId> instances()
+    {
+        uint32_t count = 0;
+        check(fxScene_GetInstances(get(), nullptr, 0, &count));
+        std::vector<FxInstanceId> all(count);
+        if (count > 0)
+            check(fxScene_GetInstances(get(), all.data(), count, &count));
+        return all;
+    }
+
+    /// State of the scene, for restoreState().
+    std::vector<unsigned char> saveState()
+    {
+        size_t size = 0;
+        check(fxScene_SaveState(get(), nullptr, 0, &size));
+        std::vector<unsigned char> state(size);
+        check(fxScene_SaveState(get(), state.data(), state.size(), &size));
+        return state;
+    }
+    void restoreState(const std::vector<unsigned char>& state)
+    {
+        check(fxScene_RestoreState(get(), state.data(), state.size()));
+    }
+
+    FxSceneStatistics statistics()
+    {
+        return detail::filled<FxSceneStatistics>(
+            [&](auto* out) { return fxScene_GetStatistics(get(), out); });
+    }
+
+    FxScene* get() const noexcept { return scene_.get(); }
+
+private:
+    detail::Owner<FxScene> scene_;
+};
+
+/// The newest two steps of a scene, held until destruction.
+class Snapshot
+{
+public:
+    explicit Snapshot(const Scene& scene) : scene_(scene.get())
+    {
+        check(fxScene_AcquireSnapshot(scene_, &id_));
+    }
+    ~Snapshot()
+    {
+        if (scene_)
+            (void)fxScene_ReleaseSnapshot(scene_, id_);
+    }
+    Snapshot(Snapshot&& other) noexcept : scene_(other.scene_), id_(other.id_) { other.scene_ = nullptr; }
+    Snapshot& operator=(Snapshot&& other) noexcept
+    {
+        std::swap(scene_, other.scene_);
+        std::swap(id_, other.id_);
+        return *this;
+    }
+
+    FxSnapshotInfo info() const
+    {
+        return detail::filled<FxSnapshotInfo>(
+            [&](auto* out) { return fxScene_GetSnapshotInfo(scene_, id_, out); });
+    }
+
+    /// @param index 0 to info().groupsNewer - 1
+    FxSnapshotGroup group(uint32_t index, FxSnapshotStep step = FX_SNAPSHOT_NEWER) const
+    {
+        return detail::filled<FxSnapshotGroup>(
+            [&](auto* out) { return fxScene_GetSnapshotGroup(scene_, id_, step, index, out); });
+    }
+
+    FxSnapshotColumn column(uint32_t group, uint32_t column, FxSnapshotStep step = FX_SNAPSHOT_NEWER) const
+    {
+        return detail::filled<FxSnapshotColumn>(
+            [&](auto* out) { return fxScene_GetSnapshotColumn(scene_, id_, step, group, column, out); });
+    }
+
+    /// @param name such as "x" or "radius"
+    FxSnapshotColumn column(uint32_t group, const std::string& name,
+                            FxSnapshotStep step = FX_SNAPSHOT_NEWER) const
+    {
+        return detail::filled<FxSnapshotColumn>([&](auto* out) {
+            return fxScene_FindSnapshotColumn(scene_, id_, step, group, name.c_str(), out);
+        });
+    }
+
+private:
+    FxScene* scene_;
+    FxSnapshotId id_{};
+};
+
+/// Draws a scene into an image of the host.
+class View
+{
+public:
+    View(const Context& context, const Scene& scene, const FxViewSettings& settings = fxDefaultViewSettings())
+    {
+        FxView* view = nullptr;
+        check(fxCreateView(context.get(), scene.get(), &settings, &view));
+        view_.reset(view);
+    }
+
+    void setSettings(const FxViewSettings& settings) { check(fxView_SetSettings(get(), &settings)); }
+    void render(const FxFrameDef& frame) { check(fxView_Render(get(), &frame)); }
+
+    FxViewStatistics statistics()
+    {
+        return detail::filled<FxViewStatistics>([&](auto* out) { return fxView_GetStatistics(get(), out); });
+    }
+
+    FxLayerTextures layerTextures()
+    {
+        return detail::filled<FxLayerTextures>(
+            [&](auto* out) { return fxView_GetLayerTextures(get(), out); });
+    }
+
+    FxOutputTextures outputTextures()
+    {
+        return detail::filled<FxOutputTextures>(
+            [&](auto* out) { return fxView_GetOutputTextures(get(), out); });
+    }
+
+    FxView* get() const noexcept { return view_.get(); }
+
+private:
+    detail::Owner<FxView> view_;
+};
+
+} // namespace fxsdk
+
+#endif

@@ -1,0 +1,311 @@
+"""Effects of fxsdk in Python: simulation with numpy columns, and pictures without a window.
+
+    import fxsdk
+    pixels = fxsdk.render("explosion", time=0.6)
+    fxsdk.write_png("explosion.png", pixels)
+
+    with fxsdk.Context() as context:
+        scene = context.scene()
+        scene.add("explosion")
+        scene.update(0.6)
+        for group in scene.groups():
+            print(group.kind, group.columns["radius"].mean())
+
+The C API is there whole: fxsdk.fx has its functions, fxsdk.structs its structs, fxsdk.constants its constants. Units are
+metre, second, kilogram and kelvin, +Y is up. Failed calls raise fxsdk.Error with the message of the library.
+Threads: a scene is used on the thread that created it, a view on that of its context.
+"""
+import ctypes
+import dataclasses
+import math
+import struct as _binary
+import zlib
+
+import numpy
+
+from fxsdk._binding import API, Error, assign, constants, default, filled, fx, opaque, structs
+
+__all__ = ["Context", "Error", "Group", "Scene", "View", "constants", "default", "fx", "render", "structs", "write_png"]
+__version__ = API["version"]
+
+_STEP = 1.0 / 60.0  # [s]
+_BRIGHT_SKY = (0.30, 0.38, 0.50)  # exposed
+
+
+class _Object:
+    """Owns an object of the C API."""
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+class Context(_Object):
+    """Loaded presets, and the hooks of the host.
+
+    @param gl a function that takes the name of a function of OpenGL as bytes and returns its address; the OpenGL 4.5 context is
+              current. Without it nothing can be drawn.
+    @param members of FxContextDef, such as workers=1
+    """
+
+    def __init__(self, gl=None, **members):
+        definition = assign(default("FxContextDef"), members)
+        if gl is not None:
+            loader = definition.gl
+            loader.getProcAddress = dict(loader._fields_)["getProcAddress"](lambda user, name: gl(name))
+        self._definition = definition  # keeps the callbacks
+        self._presets = {}
+        self._owned = []
+        self.pointer = opaque("FxContext")
+        fx.fxCreateContext(ctypes.byref(definition), ctypes.byref(self.pointer))
+
+    def load(self, name):
+        """The preset of a *.fx.json file, or of the library under a name such as "explosion"; loaded once."""
+        if name not in self._presets:
+            preset = structs.FxPresetId()
+            load = fx.fxLoadPresetFile if name.endswith(".json") else fx.fxLoadPresetLibrary
+            load(self.pointer, name.encode(), ctypes.byref(preset))
+            self._presets[name] = preset
+        return self._presets[name]
+
+    def scene(self, **members):
+        """A new Scene. @param members of FxSceneDef"""
+        return Scene(self, **members)
+
+    def view(self, scene, **settings):
+        """A new View. @param settings members of FxViewSettings"""
+        return View(self, scene, **settings)
+
+    def memory(self):
+        """FxMemoryStats."""
+        return filled("FxMemoryStats", fx.fxContext_GetMemoryStats, self.pointer)
+
+    def close(self):
+        """Destroys the context with its scenes and views."""
+        if self.pointer:
+            fx.fxDestroyContext(self.pointer)
+            for owned in self._owned:
+                owned.pointer = None
+            self.pointer = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Group:
+    """The particles of one solver of one instance. Arrays are copies."""
+    kind: str              #: such as "blob"
+    instance: int          #: FxInstanceId.bits
+    solver: int            #: index in the preset
+    scale: float           #: [1] of the placement
+    position: numpy.ndarray  #: [m] of the placement, in the world
+    rotation: numpy.ndarray  #: of the placement, unit quaternion x, y, z, w
+    ids: numpy.ndarray     #: of the elements, ascending; empty where the kind has none
+    units: dict            #: name of a column -> SI unit
+    columns: dict          #: name of a column -> numpy array in the group's own axes
+
+    @property
+    def positions(self):
+        """[m] positions of the elements in the world, count x 3."""
+        local = numpy.stack([self.columns[axis] for axis in "xyz"], axis=1).astype(float) * self.scale
+        axis, w = self.rotation[:3], self.rotation[3]
+        turned = local + 2.0 * numpy.cross(axis, numpy.cross(axis, local) + w * local)
+        return self.position + turned
+
+
+class Scene(_Object):
+    """Instances of effects, and a clock."""
+
+    def __init__(self, context, **members):
+        self._context = context
+        definition = assign(default("FxSceneDef"), members)
+        self.pointer = opaque("FxScene")
+        fx.fxCreateScene(context.pointer, ctypes.byref(definition), ctypes.byref(self.pointer))
+        context._owned.append(self)
+
+    def add(self, preset, **members):
+        """An instance of a preset, named as for Context.load(). @param members of FxInstanceDef, such as
+        position=(0, 1, 0) @return its FxInstanceId"""
+        definition = assign(default("FxInstanceDef"), members)
+        definition.preset = self._context.load(preset)
+        instance = structs.FxInstanceId()
+        fx.fxScene_CreateInstance(self.pointer, ctypes.byref(definition), ctypes.byref(instance))
+        return instance
+
+    def remove(self, instance):
+        fx.fxScene_DestroyInstance(self.pointer, instance)
+
+    def update(self, seconds):
+        """Adds time of any length: whole frames of 1/60 s, and what remains. @param seconds [s] >= 0"""
+        if not (math.isfinite(seconds) and seconds >= 0.0):
+            fx.fxScene_Update(self.pointer, seconds)  # fails and says why
+        frames = int(seconds / _STEP + 1e-6)
+        for _ in range(frames):
+            fx.fxScene_Update(self.pointer, _STEP)
+        rest = seconds - frames * _STEP
+        if rest > 1e-6 * _STEP:
+            fx.fxScene_Update(self.pointer, rest)
+
+    def move(self, instance, position, rotation=(0, 0, 0, 1), scale=1.0):
+        """@param position [m] @param rotation unit quaternion x, y, z, w"""
+        fx.fxScene_SetTransform(self.pointer, instance, (ctypes.c_double * 3)(*position),
+                                (ctypes.c_float * 4)(*rotation), scale)
+
+    def statistics(self):
+        """FxSceneStatistics."""
+        return filled("FxSceneStatistics", fx.fxScene_GetStatistics, self.pointer)
+
+    def hash(self):
+        """Of the bits of every particle of the last step; the same on every machine."""
+        value = ctypes.c_uint64()
+        fx.fxScene_GetStateHash(self.pointer, ctypes.byref(value))
+        return value.value
+
+    def groups(self, kind=None):
+        """The particles of the last step as a list of Group. @param kind only groups of this kind, such as "blob" """
+        snapshot = structs.FxSnapshotId()
+        fx.fxScene_AcquireSnapshot(self.pointer, ctypes.byref(snapshot))
+        try:
+            info = filled("FxSnapshotInfo", fx.fxScene_GetSnapshotInfo, self.pointer, snapshot)
+            groups = [self._group(snapshot, index) for index in range(info.groupsNewer)]
+        finally:
+            fx.fxScene_ReleaseSnapshot(self.pointer, snapshot)
+        return [group for group in groups if kind is None or group.kind == kind]
+
+    def _group(self, snapshot, index):
+        newer = constants.FX_SNAPSHOT_NEWER
+        group = filled("FxSnapshotGroup", fx.fxScene_GetSnapshotGroup, self.pointer, snapshot, newer, index)
+        columns, units = {}, {}
+        for c in range(group.columnCount):
+            column = filled("FxSnapshotColumn", fx.fxScene_GetSnapshotColumn, self.pointer, snapshot, newer, index, c)
+            values = column.values or column.values64
+            if values:
+                columns[column.name.decode()] = _copied(values, column.count)
+                units[column.name.decode()] = column.unit.decode()
+        return Group(group.kind.decode(), group.instance.bits, group.solver, group.scale, numpy.array(group.position),
+                     numpy.array(group.rotation, float), _copied(group.ids, group.count), units, columns)
+
+    def close(self):
+        if self.pointer:
+            fx.fxDestroyScene(self.pointer)
+            self.pointer = None
+
+
+class View(_Object):
+    """Draws a scene. @param settings members of FxViewSettings"""
+
+    def __init__(self, context, scene, **settings):
+        self._settings = assign(default("FxViewSettings"), settings)
+        self.pointer = opaque("FxView")
+        fx.fxCreateView(context.pointer, scene.pointer, ctypes.byref(self._settings), ctypes.byref(self.pointer))
+        context._owned.append(self)
+
+    def set(self, **settings):
+        """Changes members of FxViewSettings."""
+        fx.fxView_SetSettings(self.pointer, ctypes.byref(assign(self._settings, settings)))
+
+    def render(self, **frame):
+        """Draws a frame. @param frame members of FxFrameDef: camera and target"""
+        fx.fxView_Render(self.pointer, ctypes.byref(assign(default("FxFrameDef"), frame)))
+
+    def statistics(self):
+        """FxViewStatistics."""
+        return filled("FxViewStatistics", fx.fxView_GetStatistics, self.pointer)
+
+    def close(self):
+        if self.pointer:
+            fx.fxDestroyView(self.pointer)
+            self.pointer = None
+
+
+def _copied(pointer, count):
+    """A numpy array of `count` values; an empty one where the pointer is null."""
+    if not pointer or count == 0:
+        return numpy.empty(0, numpy.float32)
+    return numpy.ctypeslib.as_array(pointer, (count,)).copy()
+
+
+def perspective(width, height, fov_y=math.radians(50.0), near=0.05):
+    """A projection with the far plane at infinity, for FxFrameDef: 16 values, columns first."""
+    focal = 1.0 / math.tan(0.5 * fov_y)
+    matrix = [0.0] * 16
+    matrix[0], matrix[5], matrix[10], matrix[11], matrix[14] = focal * height / width, focal, -1.0, -1.0, -2.0 * near
+    return matrix
+
+
+def look_at(eye, target):
+    """Members origin and view of FxFrameDef for an eye that looks at a target, +Y up."""
+    eye, target = numpy.asarray(eye, float), numpy.asarray(target, float)
+    back = eye - target
+    back /= numpy.linalg.norm(back)
+    right = numpy.cross((0.0, 1.0, 0.0), back)
+    right /= numpy.linalg.norm(right)
+    view = numpy.identity(4)
+    view[0, :3], view[1, :3], view[2, :3] = right, numpy.cross(back, right), back
+    return {"origin": eye, "view": view.T.reshape(16)}
+
+
+def _extent(groups):
+    """Center and radius of the middle 90 % of the gas, or of all particles where there is none; the unit ball where there is
+    nothing."""
+    placed = [group for group in groups if "x" in group.columns and len(group.columns["x"])]
+    placed = [group for group in placed if group.kind == "blob"] or placed
+    if not placed:
+        return numpy.zeros(3), 1.0
+    positions = numpy.concatenate([group.positions for group in placed])
+    reach = max(float(numpy.median(group.columns["radius"])) * group.scale if "radius" in group.columns else 0.0
+                for group in placed)
+    low, high = numpy.percentile(positions, 5, axis=0), numpy.percentile(positions, 95, axis=0)
+    return 0.5 * (low + high), max(0.5 * float(numpy.linalg.norm(high - low)) + reach, 0.05)
+
+
+def render(preset, time=1.0, size=(640, 360), eye=None, target=None, exposure=13.0, **settings):
+    """A picture of an effect in daylight before a plain sky, without a window.
+
+    @param preset   as for Context.load()
+    @param time     [s] of the effect
+    @param size     [pixel] width and height
+    @param eye      [m] position of the camera; None: where the effect fills the picture
+    @param target   [m] where the camera looks; None: the middle of the effect
+    @param exposure [EV100]
+    @param settings members of FxViewSettings
+    @return array of height x width x 3 bytes, rows from the top
+    """
+    from fxsdk._offscreen import Offscreen, Picture
+    gl = Offscreen()
+    try:
+        with Context(lambda name: gl.address(None, name)) as context:
+            scene = context.scene()
+            scene.add(preset)
+            scene.update(time)
+            center, radius = _extent(scene.groups())
+            target = center if target is None else numpy.asarray(target, float)
+            eye = target + (0.0, 0.15 * radius, 2.6 * radius) if eye is None else eye
+            daylight = {"sunIlluminance": (60000.0,) * 3, "skyLuminance": (4000.0,) * 3, "toneMap": 1,
+                        "composition": constants.FX_COMPOSITION_AUTOMATIC, "exposureEv100": exposure}
+            view = context.view(scene, **{**daylight, **settings})
+            picture = Picture(gl, *size)
+            picture.clear(_BRIGHT_SKY)
+            view.render(colorTexture=picture.name, width=size[0], height=size[1],
+                        projection=perspective(*size), **look_at(eye, target))
+            pixels = picture.read()
+            picture.close()
+    finally:
+        gl.close()
+    return (255.0 * numpy.clip(numpy.nan_to_num(pixels), 0.0, 1.0) + 0.5).astype(numpy.uint8)
+
+
+def write_png(path, pixels):
+    """Writes an array of height x width x 3 bytes as a PNG file."""
+    height, width, channels = pixels.shape
+    if pixels.dtype != numpy.uint8 or channels != 3:
+        raise ValueError("write_png takes height x width x 3 bytes")
+    rows = numpy.concatenate([numpy.zeros((height, 1), numpy.uint8), pixels.reshape(height, 3 * width)], axis=1)
+
+    def chunk(name, data):
+        return _binary.pack(">I", len(data)) + name + data + _binary.pack(">I", zlib.crc32(name + data))
+
+    header = _binary.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)  # 8 bits, red, green and blue
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes()))
+                   + chunk(b"IEND", b""))

@@ -1,0 +1,43 @@
+// A host in C++20, with the objects of fxsdk.hpp.
+#include <fxsdk/fxsdk.hpp>
+
+#include <cstdio>
+#include <string_view>
+
+int main()
+{
+    try {
+        fxsdk::Context context;
+        fxsdk::Scene scene(context);
+        FxInstanceDef def = fxsdk::instanceOf(context.loadLibrary("campfire"));
+        def.position[1] = 2.0;
+        const FxInstanceId fire = scene.create(def);
+        for (int frame = 0; frame < 60; ++frame)
+            scene.update(1.0 / 60.0);
+        const fxsdk::Snapshot snapshot(scene);
+        float reach = 0.0f;
+        for (uint32_t g = 0; g < snapshot.info().groupsNewer; ++g)
+            if (std::string_view(snapshot.group(g).kind) == "blob") {
+                const FxSnapshotColumn radius = snapshot.column(g, "radius");
+                for (uint32_t i = 0; i < radius.count; ++i)
+                    reach = radius.values[i] > reach ? radius.values[i] : reach;
+            }
+        std::printf("%u particles, largest radius %g m\n", scene.statistics().particles, double(reach));
+        if (!scene.isValid(fire) || scene.instances().size() != 1 || !(reach > 0.0f))
+            return 1;
+        const auto state = scene.saveState();
+        scene.update(0.5);
+        scene.restoreState(state);
+        if (scene.statistics().steps != 60)
+            return 1;
+        scene.destroy(fire);
+        try {
+            scene.seek(fire, 0.5);
+        } catch (const fxsdk::Error& error) { // the id is stale
+            return error.code() == FX_ERROR_STALE_ID ? 0 : 1;
+        }
+    } catch (const fxsdk::Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    }
+    return 1;
+}
