@@ -48,13 +48,18 @@ void main()
     for (int f = 0; f < fieldCount.x; ++f)
         finest = min(finest, fieldTexel(3 * f).w);
     int parts = clamp(int(ceil(spacing / finest)), 1, kMaxParts);
+    float partLength = spacing / float(parts);                 // [m] of a part
+    float begin = stack.right.w < 0.5 ? -1e30 : stack.along.w; // [m] up to which media do not count, detail included
     float depth = 0.0;
     for (int k = 0; k < planes; ++k) {
         float between = 0.0; // from this plane to the next
         float from = stack.up.w + float(k) * spacing;
-        for (int part = 0; k + 1 < planes && part < parts; ++part)
-            between += changeAt(start + (from + spacing * (float(part) + 0.5) / float(parts)) * direction);
-        between *= spacing / float(parts);
+        for (int part = 0; k + 1 < planes && part < parts; ++part) {
+            float middle = from + spacing * (float(part) + 0.5) / float(parts);
+            float counted = clamp((middle - begin) / partLength + 0.5, 0.0, 1.0);
+            between += counted * changeAt(start + middle * direction);
+        }
+        between *= partLength;
         ivec2 texel = tile + side * ivec2(k % kTileColumns, k / kTileColumns);
         vec2 smoothDepth = imageLoad(slices, texel).rg;
         imageStore(slices, texel, vec4(max(smoothDepth.r + depth, 0.0), max(smoothDepth.g + between, 0.0), 0.0, 0.0));

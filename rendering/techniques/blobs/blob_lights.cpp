@@ -34,8 +34,9 @@
 ///       dL = (B / sqrt(1 - w) - L) sqrt(1 - w) k ds                                            (5)
 ///       L' = L (1 + (1 - T) (1 - sqrt(1 - w)) / (1 + sqrt(1 - w))), T = L's transmittance      (6)
 ///   All that stands before the light is in (5), so that the group casts no shadow within R,
-///       R = (11/3 mean of d^8)^(1/8)                                                           (7)
-///   for the distances d of areas A from the light; of an even ball it is the radius.
+///       R = (9 mean of d^24)^(1/24)                                                            (7)
+///   for the distances d of areas A from the light; of an even ball it is the radius. The power is high, so
+///   that R reaches the outermost soot: soot beyond R would hide the light a second time.
 /// @source    elementary; [USS06] for balls of medium
 /// @deviation the mean over all directions; g of the phase function is not seen
 /// @valid     S >= 0, r > 0
@@ -87,16 +88,17 @@ bool lightOf(const base::FrameSnapshot&, const base::SnapshotGroup& g, EffectLig
     if (glow.isDark())
         return false;
     const glm::dvec3 center = glow.center();
-    double sum = 0.0, eighth = 0.0;
+    double sum = 0.0, moment = 0.0;
     forBalls(g, [&](const glm::vec3& position, float radius, float area, size_t) {
         const glm::dvec3 away = glm::dvec3(position) - center;
         const double square = glm::dot(away, away) + double(radius) * double(radius);
         sum += double(area);
-        eighth += double(area) * square * square * square * square;
+        const double eighth = square * square * square * square;
+        moment += double(area) * eighth * eighth * eighth;
     });
     outLight = glow.light(g.info().placement, glow.extent(kMinSquare), 1.0f);
     outLight.isOfMedium = true;
-    outLight.ownReach = float(std::pow(11.0 / 3.0 * eighth / sum, 0.125)) * g.info().placement.scale; // (7)
+    outLight.ownReach = float(std::pow(9.0 * moment / sum, 1.0 / 24.0)) * g.info().placement.scale; // (7)
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include "rendering/frame/exposure.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/stage/stage_renderer.h"
+#include "rendering/techniques/draw_techniques.h"
 #include "shaders/formulas/formula.h"
 #include "view_fixture.h"
 
@@ -342,4 +343,44 @@ TEST_F(MediaShadow, hasTheBumpsInTheFirstPreparedFrame)
     again.resetHistory = true;
     ASSERT_TRUE(view_->render(pair, again).ok());
     EXPECT_EQ(maxDifference(read(color_->name()), prepared), 0.0);
+}
+
+// The intensity of a fire is that outside of its own medium, so that eroded soot must not hide it again.
+TEST_F(MediaShadow, ofAFireIsNotThatOfItsOwnBumps)
+{
+    view_->settings().composition = render::Composition::Volume;
+    view_->settings().lighting.sunIlluminance = glm::vec3(0.0f);
+    std::vector<TestBlob> blobs = ball(12.0f);
+    blobs[0].emission = 2.0f;
+    const auto snapshot = detailedSnapshotOf(blobs, 1.0f, 0.55f);
+    const render::FrameRequest frame = request();
+    prepare(snapshot, frame);
+    std::array<render::EffectLight, 1> fires;
+    ASSERT_EQ(render::effectLights(snapshot, fires), 1u);
+    render::StageLight given = render::effectStageLight(fires[0]);
+    render::StageLighting lit;
+    lit.lighting.groundAlbedo = 0.0f;
+    lit.lights = {&given, 1};
+    const auto picture = [&] {
+        EXPECT_TRUE(stage_->render(frame.camera, lit, kEv100, kSize, kSize).ok());
+        return render::readTexture(*device_, stage_->colorTexture(), kSize, kSize, 4);
+    };
+    const std::vector<float> open = picture();
+    given.shadow = view_->mediaShadow(render::LightKind::Effect, 0, frame.camera.origin);
+    lit.shadowTexture = view_->mediaShadowTexture();
+    ASSERT_GT(given.shadow->tiles[0].w, 0.5f);
+    const std::vector<float> shaded = picture();
+    double worst = 0.0;
+    int seen = 0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            glm::vec3 place;
+            const size_t at = size_t(y * kSize + x) * 4;
+            if (!groundAt(frame.camera, x, y, place) || !(open[at] > 0.0f))
+                continue;
+            ++seen;
+            worst = std::max(worst, 1.0 - double(shaded[at] / open[at]));
+        }
+    EXPECT_GT(seen, 500);
+    EXPECT_LT(worst, 0.02);
 }
