@@ -16,9 +16,9 @@ constexpr glm::vec3 kSoil(0.235f, 0.212f, 0.178f);
 constexpr glm::vec3 kDryGrass(0.205f, 0.19f, 0.13f);
 constexpr glm::vec3 kDamp(0.125f, 0.112f, 0.092f);
 constexpr glm::vec3 kHaze(0.4f, 0.44f, 0.49f); ///< of the air in front of what is far away, as an albedo
-constexpr float kHazeLength = 2500.0f;         ///< [m] over which air hides all but 1/e
-constexpr float kFields = 90.0f;               ///< [m] from where on the ground is grass
-constexpr float kHorizon = 2400.0f;            ///< [m] half of the ground's side
+constexpr float kHazeLength = 10800.0f; ///< [m] over which air hides all but 1/e: a fifth of it at the trees
+constexpr float kFields = 90.0f;        ///< [m] from where on the ground is grass
+constexpr float kHorizon = 2400.0f;     ///< [m] half of the ground's side
 
 /// A square ring of cells.
 struct Ring
