@@ -2,6 +2,8 @@
 
 #include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/chance.h"
+#include "foundation/math/elementary.h"
+#include "rendering/network/cell_interpolation.h"
 #include "rendering/network/network_basis.h"
 #include "rendering/reference/path/path_renderer.h"
 #include "shaders/formulas/formula.h"
@@ -77,12 +79,13 @@ LumpyCloud::LumpyCloud(double depth, CloudLight light, int fine, double spread) 
                 continue;
             ++columns;
             for (int z = 0; z < fine; ++z)
-                sum += double(extinction_[grid_.index({x, y, z})]) * grid_.side;
+                sum += double(cells_[grid_.index({x, y, z})][0]) * grid_.side;
         }
     const double scale = depth * columns / sum;
     for (render::MediumBlob& blob : blobs_)
         blob.crossSection *= scale;
-    fill();
+    for (Cell& cell : cells_)
+        cell[0] *= float(scale);
     if (light_ == CloudLight::Inside)
         findLampDepths();
     else
@@ -91,42 +94,37 @@ LumpyCloud::LumpyCloud(double depth, CloudLight light, int fine, double spread) 
 
 void LumpyCloud::fill()
 {
-    extinction_.assign(grid_.count(), 0.0f);
+    cells_.assign(grid_.count(), {});
     for (const render::MediumBlob& blob : blobs_) {
         const double r2 = blob.radius * blob.radius, e = grid_.side * grid_.side / r2;
         const double peak = 105.0 * blob.crossSection / (32.0 * std::numbers::pi * r2 * blob.radius);
         forCellsOf(grid_, blob, [&](size_t cell, double distance2) {
             if (distance2 < r2)
-                extinction_[cell] +=
-                    float(peak * formula64::fxVoxelKernel(distance2 / r2, std::min(e, 0.25)));
+                cells_[cell][0] += float(peak * formula64::fxVoxelKernel(distance2 / r2, std::min(e, 0.25)));
         });
     }
-    for (float& value : extinction_)
-        value = std::max(value, 0.0f);
+    for (Cell& cell : cells_)
+        cell[0] = std::max(cell[0], 0.0f);
 }
 
+/// Sunlight travels along -z: slice after slice, with the depth of each column.
 void LumpyCloud::findSunDepths()
 {
-    lightDepth_.assign(grid_.count(), 0.0f);
-    lineDepth_.assign(grid_.count(), 0.0f);
-    for (int y = 0; y < grid_.cells.y; ++y)
-        for (int x = 0; x < grid_.cells.x; ++x) {
-            double depth = 0.0;
-            for (int z = grid_.cells.z - 1; z >= 0; --z) {
-                const size_t i = grid_.index({x, y, z});
-                const double here = double(extinction_[i]) * grid_.side;
-                lightDepth_[i] = float(depth + 0.5 * here);
-                depth += here;
-            }
-            for (int z = 0; z < grid_.cells.z; ++z)
-                lineDepth_[grid_.index({x, y, z})] = float(depth);
+    const size_t slice = size_t(grid_.cells.x) * size_t(grid_.cells.y);
+    const float half = 0.5f * float(grid_.side);
+    std::vector<float> depths(slice, 0.0f);
+    for (size_t z = size_t(grid_.cells.z); z-- > 0;)
+        for (size_t i = 0; i < slice; ++i) {
+            Cell& cell = cells_[z * slice + i];
+            cell[1] = depths[i] + half * cell[0];
+            depths[i] = cell[1] + half * cell[0];
         }
+    for (size_t i = 0; i < cells_.size(); ++i)
+        cells_[i][2] = depths[i % slice];
 }
 
 void LumpyCloud::findLampDepths()
 {
-    lightDepth_.assign(grid_.count(), 0.0f);
-    lineDepth_.assign(grid_.count(), 0.0f);
     const double step = 0.75 * grid_.side;
     for (size_t i = 0; i < grid_.count(); ++i) {
         const int n = grid_.cells.x;
@@ -138,32 +136,23 @@ void LumpyCloud::findLampDepths()
         for (double at = kCloudLampRadius + 0.5 * step; at < 1.9; at += step) {
             const bool isPast = at - 0.5 * step >= distance;
             if (isPast && !isBehind)
-                lightDepth_[i] = float(depth);
+                cells_[i][1] = float(depth);
             isBehind = isPast;
             const glm::dvec3 p = at * way;
             if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kCloudHalf)
                 break;
-            depth += step * extinction(p);
+            depth += step * double(this->at(p).extinction);
         }
         if (!isBehind)
-            lightDepth_[i] = float(depth);
-        lineDepth_[i] = float(depth);
+            cells_[i][1] = float(depth);
+        cells_[i][2] = float(depth);
     }
 }
 
-double LumpyCloud::extinction(const glm::dvec3& position) const
+CloudPoint LumpyCloud::at(const glm::dvec3& position) const
 {
-    return render::interpolated(extinction_.data(), grid_, position);
-}
-
-double LumpyCloud::lightDepth(const glm::dvec3& position) const
-{
-    return render::interpolated(lightDepth_.data(), grid_, position);
-}
-
-double LumpyCloud::lineDepth(const glm::dvec3& position) const
-{
-    return render::interpolated(lineDepth_.data(), grid_, position);
+    const auto values = render::interpolatedCells<4>(cells_.data()->data(), grid_, position);
+    return {values[0], values[1], values[2]};
 }
 
 double LumpyCloud::irradiance(const glm::dvec3& position, glm::dvec3& outTravel) const
@@ -206,11 +195,13 @@ base::Status give(const LumpyCloud& cloud, const CloudNetwork& form, render::Sca
             const glm::dvec3 offset(i % samples + 0.5, i / samples % samples + 0.5,
                                     i / (samples * samples) + 0.5);
             const glm::dvec3 place = grid.corner + grid.side * (corner + offset / double(samples));
-            const double here = cloud.extinction(place);
+            const CloudPoint point = cloud.at(place);
+            const double here = double(point.extinction);
             if (!(here > 0.0))
                 continue;
             glm::dvec3 travel;
-            const double light = cloud.irradiance(place, travel) * std::exp(-share * cloud.lightDepth(place));
+            const double light =
+                cloud.irradiance(place, travel) * base::naturalExp(-share * double(point.lightDepth));
             const auto y = render::harmonics(travel);
             for (size_t k = 0; k < moments.size(); ++k)
                 moments[k] += here * light * y[k];
@@ -249,7 +240,8 @@ base::Status give(const LumpyCloud& cloud, const render::ParticleNetworkSettings
                 continue;
             const glm::dvec3 place = particles[p].center + offset;
             glm::dvec3 travel;
-            const double here = weight * cloud.irradiance(place, travel) * std::exp(-cloud.lightDepth(place));
+            const double here =
+                weight * cloud.irradiance(place, travel) * std::exp(-double(cloud.at(place).lightDepth));
             sum += weight;
             light += here;
             flow += here * travel;

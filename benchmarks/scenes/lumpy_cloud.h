@@ -9,6 +9,7 @@
 #include "rendering/reference/render/medium_blobs.h"
 #include "rendering/reference/render/reference_camera.h"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -27,7 +28,15 @@ enum class CloudLight
     Inside
 };
 
-/// The medium, and fine grids of its extinction and of the optical depth of its light.
+/// What a fine grid has at a point, interpolated between the centers of its cells.
+struct CloudPoint
+{
+    float extinction = 0.0f; ///< [1/m]
+    float lightDepth = 0.0f; ///< [1] optical depth between the light and the point
+    float lineDepth = 0.0f;  ///< [1] optical depth of the whole ray of the light through the point
+};
+
+/// The medium, and a fine grid of its extinction and of the optical depth of its light.
 class LumpyCloud
 {
 public:
@@ -42,16 +51,15 @@ public:
     const std::vector<render::MediumBlob>& blobs() const { return blobs_; }
     CloudLight light() const { return light_; }
     const render::NetworkGrid& grid() const { return grid_; }
-    double extinction(const glm::dvec3& position) const; ///< [1/m]
-    /// [1] optical depth between the light and a position
-    double lightDepth(const glm::dvec3& position) const;
-    /// [1] optical depth of the whole ray of the light through a position
-    double lineDepth(const glm::dvec3& position) const;
+    CloudPoint at(const glm::dvec3& position) const;
     /// [lx] Irradiance without the medium. @param outTravel unit vector along which the light travels
     double irradiance(const glm::dvec3& position, glm::dvec3& outTravel) const;
     render::ReferenceCamera camera() const;
 
 private:
+    /// Values of a cell: those of CloudPoint, and one that is not used.
+    using Cell = std::array<float, 4>;
+
     void fill();
     void findSunDepths();
     void findLampDepths();
@@ -59,7 +67,7 @@ private:
     std::vector<render::MediumBlob> blobs_;
     CloudLight light_;
     render::NetworkGrid grid_;
-    std::vector<float> extinction_, lightDepth_, lineDepth_;
+    std::vector<Cell> cells_;
 };
 
 /// Parameters of a network around a cloud.

@@ -3,8 +3,12 @@
 /// illumination network.
 #pragma once
 
+#include "rendering/network/network_basis.h"
 #include "rendering/network/network_phase.h"
 #include "rendering/network/network_state.h"
+
+#include <array>
+#include <vector>
 
 namespace fx::render {
 
@@ -38,13 +42,34 @@ namespace fx::render {
 /// @valid     any
 /// @accuracy  see docs/howto/illumination-network.md
 /// @tests     tests/rendering/network/test_network_gather.cpp
+///
+/// What a phase function does at one angle. Immutable after construction. Threads: any.
+class GatherAngle
+{
+public:
+    static constexpr int kMaxOrder = 16; ///< largest N of (2)
+
+    /// @param cosine [1] of the scattering angle from the light to the eye
+    GatherAngle(const NetworkPhase& phase, double cosine);
+
+    double series() const { return series_; } ///< [1/sr] symbol P, >= 0
+    double peak() const { return peak_; }     ///< [1] symbol f
+    int orders() const { return orders_; }    ///< number of orders of (2) with light
+    /// [1/sr] Sum of (2) over X, without F and transmittances. @param depth [1] symbol X
+    double smallAngles(double albedo, double depth) const;
+
+private:
+    double series_ = 0.0, peak_ = 0.0;
+    int orders_ = 0;
+    std::array<double, kMaxOrder> rest_{}; ///< [1/sr] R_N / N!
+};
+
+/// A point in the medium, and a light.
 struct GatherPoint
 {
     double albedo = 0.0;     ///< [1]
     double lightDepth = 0.0; ///< [1] symbol t: optical depth between light and point
     double eyeDepth = 0.0;   ///< [1] optical depth between point and eye
-    /// [1] cosine of the scattering angle from the light to the eye
-    double cosine = 0.0;
     double irradiance = 0.0; ///< [lx] symbol F
 };
 
@@ -56,10 +81,32 @@ struct GatheredLight
     double scaled = 0.0; ///< [cd/m2] first part of equation (1)
 };
 
-GatheredLight gatherUnscattered(const NetworkPhase& phase, const GatherPoint& point);
-/// [cd/m2] Second part of equation (1).
-/// @param toEye unit vector from the point to the eye
-double gatherScattered(const NetworkPhase& phase, double albedo, const NetworkState& state,
-                       const glm::dvec3& position, const glm::dvec3& toEye);
+/// @param angle the same for all points of a ray if the light is parallel
+GatheredLight gatherUnscattered(const GatherAngle& angle, const GatherPoint& point);
+
+/// Second part of equation (1) for any number of rays: the moments of a network, those of a cell one after
+/// another. Immutable after construction. Threads: any.
+class GatherMoments
+{
+public:
+    /// Factors of the moments for one direction to the eye.
+    using Weights = std::array<float, 12>;
+
+    GatherMoments(const NetworkPhase& phase, const NetworkState& state);
+
+    /// @param toEye unit vector from the medium to the eye
+    Weights weights(const glm::dvec3& toEye) const;
+    /// [cd/m2] Scattered light per optical depth, >= 0, for an albedo of 1: the albedo multiplies it.
+    double at(const glm::dvec3& position, const Weights& weights) const;
+
+private:
+    template <int Stride>
+    double sum(const glm::dvec3& position, const Weights& weights) const;
+
+    NetworkGrid grid_;
+    std::array<double, kMaxNetworkMoments> factors_{}; ///< [1] (1 - f) g_l of each moment
+    int moments_ = 0, stride_ = 4;                     ///< stride: of cells in light_, 4 or 12
+    std::vector<float> light_;                         ///< [cd/m2 sr]
+};
 
 } // namespace fx::render

@@ -1,32 +1,15 @@
 #include "rendering/network/network_state.h"
 
+#include "rendering/network/cell_interpolation.h"
+
 #include <algorithm>
 
 namespace fx::render {
 
-namespace {
-
-/// Two neighbors along an axis, and how near the second is.
-struct Between
-{
-    int first, second;
-    double share;
-};
-
-Between betweenCells(double place, int cells)
-{
-    const double c = std::clamp(place - 0.5, 0.0, double(cells - 1));
-    const int first = std::min(int(c), std::max(cells - 2, 0));
-    return {first, std::min(first + 1, cells - 1), c - first};
-}
-
-} // namespace
-
 double interpolated(const float* values, const NetworkGrid& grid, const glm::dvec3& position)
 {
     const glm::dvec3 place = (position - grid.corner) / grid.side;
-    const Between x = betweenCells(place.x, grid.cells.x), y = betweenCells(place.y, grid.cells.y),
-                  z = betweenCells(place.z, grid.cells.z);
+    const BetweenCells x(place.x, grid.cells.x), y(place.y, grid.cells.y), z(place.z, grid.cells.z);
     const auto row = [&](int j, int k) {
         const float* r = values + grid.index({0, j, k});
         return double(r[x.first]) + x.share * (double(r[x.second]) - double(r[x.first]));

@@ -17,6 +17,8 @@
 #include <cstdio>
 #include <map>
 #include <optional>
+#include <span>
+#include <utility>
 
 namespace fx::cli {
 namespace {
@@ -29,7 +31,7 @@ struct RaySize
     double step;    ///< [cell] of the fine grid
     uint32_t paths; ///< of a pixel of each reference
 };
-constexpr RaySize kSmallPicture{16, 2, 1.2, 64}, kPicture{32, 2, 1.2, 64}, kLargePicture{256, 1, 2.4, 8};
+constexpr RaySize kSmallPicture{16, 2, 1.2, 64}, kPicture{32, 2, 1.2, 64}, kLargePicture{256, 1, 1.2, 8};
 constexpr int kFrames = 10;      // of a cloud that moves
 constexpr double kGrowth = 0.02; // of the lumps' distances in a frame
 
@@ -98,97 +100,140 @@ constexpr std::array<NetworkForm, 18> kForms{
 /// A piece of a ray with medium.
 struct Piece
 {
-    glm::dvec3 place;
-    double depth;                                     ///< [1]
-    double lightDepth, lineDepth, irradiance, cosine; ///< see LumpyCloud
+    float at;                    ///< [m] of its middle from the eye
+    float depth;                 ///< [1]
+    float lightDepth, lineDepth; ///< see CloudPoint
 };
 
 struct EyeRay
 {
-    glm::dvec3 toEye;
-    std::vector<Piece> pieces; ///< from the eye on
+    glm::dvec3 eye, direction;
+    size_t begin, end; ///< range of its pieces, from the eye on
+
+    glm::dvec3 place(const Piece& piece) const { return eye + double(piece.at) * direction; }
 };
 
-std::vector<EyeRay> raysThrough(const LumpyCloud& cloud, const RaySize& size)
+struct EyeRays
+{
+    const LumpyCloud* cloud = nullptr;
+    std::vector<EyeRay> rays;
+    std::vector<Piece> pieces;
+
+    std::span<const Piece> of(const EyeRay& ray) const
+    {
+        return std::span(pieces).subspan(ray.begin, ray.end - ray.begin);
+    }
+    bool isParallel() const { return cloud->light() != CloudLight::Inside; } ///< light of the sun
+};
+
+/// Distances between which a ray is in the box of the cloud.
+std::pair<double, double> withinBox(const glm::dvec3& eye, const glm::dvec3& direction)
+{
+    double first = 0.0, last = 1e30;
+    for (int a = 0; a < 3; ++a) {
+        const double low = (-kCloudHalf - eye[a]) / direction[a], high = (kCloudHalf - eye[a]) / direction[a];
+        if (direction[a] == 0.0 && std::abs(eye[a]) > kCloudHalf)
+            return {0.0, 0.0};
+        if (direction[a] != 0.0) {
+            first = std::max(first, std::min(low, high));
+            last = std::min(last, std::max(low, high));
+        }
+    }
+    return {first, last};
+}
+
+EyeRays raysThrough(const LumpyCloud& cloud, const RaySize& size)
 {
     const render::ReferenceCamera camera = cloud.camera();
     const render::RayGrid grid = camera.grid(size.size, size.size);
-    const double step = size.step * cloud.grid().side, far = glm::length(camera.eye);
-    std::vector<EyeRay> rays;
+    const double step = size.step * cloud.grid().side;
+    EyeRays rays{&cloud, {}, {}};
     for (int y = 0; y < size.size * size.across; ++y)
         for (int x = 0; x < size.size * size.across; ++x) {
             const render::TraceRay ray = grid.ray((x + 0.5) / size.across, (y + 0.5) / size.across);
-            EyeRay eye{-ray.direction, {}};
-            for (double at = far - 2.0 + 0.5 * step; at < far + 2.0; at += step) {
-                const glm::dvec3 place = camera.eye + ray.origin + at * ray.direction;
-                if (std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}) > kCloudHalf)
-                    continue;
-                const double extinction = cloud.extinction(place);
-                if (!(extinction > 0.0))
-                    continue;
-                glm::dvec3 travel;
-                const double irradiance = cloud.irradiance(place, travel);
-                eye.pieces.push_back({place, step * extinction, cloud.lightDepth(place),
-                                      cloud.lineDepth(place), irradiance, glm::dot(travel, eye.toEye)});
+            EyeRay eye{camera.eye + ray.origin, ray.direction, rays.pieces.size(), 0};
+            const auto [first, last] = withinBox(eye.eye, eye.direction);
+            for (double at = first + 0.5 * step; at < last; at += step) {
+                const CloudPoint point = cloud.at(eye.eye + at * eye.direction);
+                if (point.extinction > 0.0f)
+                    rays.pieces.push_back(
+                        {float(at), float(step) * point.extinction, point.lightDepth, point.lineDepth});
             }
-            rays.push_back(std::move(eye));
+            eye.end = rays.pieces.size();
+            rays.rays.push_back(eye);
         }
     return rays;
 }
 
 /// Means of the rays of each pixel. @param light(ray) its radiance
 template <class Light>
-std::vector<double> pictureOf(const std::vector<EyeRay>& rays, const RaySize& size, Light&& light)
+std::vector<double> pictureOf(const EyeRays& rays, const RaySize& size, Light&& light)
 {
     std::vector<double> picture(size_t(size.size) * size_t(size.size), 0.0);
     const size_t of = size_t(size.across);
-    for (size_t i = 0; i < rays.size(); ++i) {
+    for (size_t i = 0; i < rays.rays.size(); ++i) {
         const size_t across = size_t(size.size) * of, x = i % across / of, y = i / across / of;
-        picture[y * size_t(size.size) + x] += light(rays[i]) / double(of * of);
+        picture[y * size_t(size.size) + x] += light(rays.rays[i]) / double(of * of);
     }
     return picture;
 }
 
-double withoutNetwork(const EyeRay& ray, double albedo, double g, bool isSingle)
+double withoutNetwork(const EyeRays& rays, const EyeRay& ray, double albedo, double g, bool isSingle)
 {
     double light = 0.0, transmittance = 1.0;
-    for (const Piece& p : ray.pieces) {
-        const double scattered =
-            isSingle ? albedo * formula64::fxHenyeyGreenstein(p.cosine, g) * std::exp(-p.lightDepth)
-                     : formula64::fxScatteredLight(albedo, g, p.cosine, p.lightDepth, p.lineDepth);
-        const double passed = transmittance * std::exp(-p.depth);
-        light += (transmittance - passed) * scattered * p.irradiance;
+    for (const Piece& p : rays.of(ray)) {
+        glm::dvec3 travel;
+        const double irradiance = rays.cloud->irradiance(ray.place(p), travel);
+        const double cosine = -glm::dot(travel, ray.direction), t = double(p.lightDepth);
+        const double scattered = isSingle
+                                     ? albedo * formula64::fxHenyeyGreenstein(cosine, g) * std::exp(-t)
+                                     : formula64::fxScatteredLight(albedo, g, cosine, t, double(p.lineDepth));
+        const double passed = transmittance * std::exp(-double(p.depth));
+        light += (transmittance - passed) * scattered * irradiance;
         transmittance = passed;
     }
     return light;
 }
 
 /// @param light scattered again, of balls
-double withParticles(const EyeRay& ray, double albedo, double g, const BallLight& light)
+double withParticles(const EyeRays& rays, const EyeRay& ray, double albedo, double g, const BallLight& light)
 {
-    double sum = withoutNetwork(ray, albedo, g, true), transmittance = 1.0;
-    for (const Piece& p : ray.pieces) {
-        const double passed = transmittance * std::exp(-p.depth);
-        sum += (transmittance - passed) * light.at(p.place);
+    double sum = withoutNetwork(rays, ray, albedo, g, true), transmittance = 1.0;
+    for (const Piece& p : rays.of(ray)) {
+        const double passed = transmittance * std::exp(-double(p.depth));
+        sum += (transmittance - passed) * light.at(ray.place(p));
         transmittance = passed;
     }
     return sum;
 }
 
-double withNetwork(const EyeRay& ray, double albedo, const render::NetworkPhase& phase,
-                   const render::NetworkState& state)
+double withNetwork(const EyeRays& rays, const EyeRay& ray, double albedo, const render::NetworkPhase& phase,
+                   const render::GatherMoments& moments)
 {
+    if (ray.begin == ray.end)
+        return 0.0;
+    const auto angleAt = [&](const glm::dvec3& place, double& outIrradiance) {
+        glm::dvec3 travel;
+        outIrradiance = rays.cloud->irradiance(place, travel);
+        return render::GatherAngle(phase, -glm::dot(travel, ray.direction));
+    };
+    const auto weights = moments.weights(-ray.direction);
     const double share = phase.extinctionShare(albedo);
-    double light = 0.0, transmittance = 1.0, scaled = 1.0, depth = 0.0;
-    for (const Piece& p : ray.pieces) {
-        const render::GatheredLight first = render::gatherUnscattered(
-            phase, {albedo, p.lightDepth, depth + 0.5 * p.depth, p.cosine, p.irradiance});
-        const double more = render::gatherScattered(phase, albedo, state, p.place, ray.toEye);
-        const double passed = transmittance * std::exp(-p.depth), less = scaled * std::exp(-share * p.depth);
+    double irradiance, light = 0.0, transmittance = 1.0, scaled = 1.0, depth = 0.0;
+    render::GatherAngle angle = angleAt(glm::dvec3(0.0), irradiance);
+    for (const Piece& p : rays.of(ray)) {
+        const glm::dvec3 place = ray.place(p);
+        const double here = double(p.depth);
+        if (!rays.isParallel())
+            angle = angleAt(place, irradiance);
+        const render::GatheredLight first =
+            render::gatherUnscattered(angle, {albedo, double(p.lightDepth), depth + 0.5 * here, irradiance});
+        const double more = albedo * moments.at(place, weights);
+        const double passed = transmittance * std::exp(-here), less = scaled * std::exp(-share * here);
         light += (transmittance - passed) * first.plain + (scaled - less) / share * (first.scaled + more);
         transmittance = passed;
         scaled = less;
-        depth += p.depth;
+        depth += here;
     }
     return light;
 }
@@ -252,7 +297,7 @@ private:
     std::optional<LumpyCloud> cloud_;
     double sceneSeconds_ = 0.0; ///< [s] of fine grids and of the rays of a picture
     std::map<int, LumpyCloud> frames_;
-    std::vector<EyeRay> rays_;
+    EyeRays rays_;
     std::map<double, CloudTruth> truths_; ///< by g
 };
 
@@ -334,7 +379,7 @@ base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::funct
 {
     if (!cloud_) {
         const double start = threadSeconds();
-        cloud_.emplace(scene_.depth, scene_.light, isSmall_ ? 64 : 128);
+        cloud_.emplace(scene_.depth, scene_.light, isSmall_ || isLarge_ ? 64 : 128);
         rays_ = raysThrough(*cloud_, size_);
         sceneSeconds_ = threadSeconds() - start;
     }
@@ -358,7 +403,7 @@ base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::funct
             double start = threadSeconds(), before = sceneSeconds_;
             if (form.form == Form::Single || form.form == Form::Closed) {
                 picture = pictureOf(rays_, size_, [&](const EyeRay& ray) {
-                    return withoutNetwork(ray, albedo, g, form.form == Form::Single);
+                    return withoutNetwork(rays_, ray, albedo, g, form.form == Form::Single);
                 });
             } else {
                 const auto solved =
@@ -372,9 +417,10 @@ base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::funct
                 sample.seconds += solved->seconds + (solved->balls ? solved->setup : 0.0);
                 before += solved->setup + solved->seconds;
                 start = threadSeconds();
+                const render::GatherMoments moments(solved->phase, solved->state);
                 picture = pictureOf(rays_, size_, [&](const EyeRay& ray) {
-                    return solved->balls ? withParticles(ray, albedo, g, *solved->balls)
-                                         : withNetwork(ray, albedo, solved->phase, solved->state);
+                    return solved->balls ? withParticles(rays_, ray, albedo, g, *solved->balls)
+                                         : withNetwork(rays_, ray, albedo, solved->phase, moments);
                 });
             }
             const double gathering = threadSeconds() - start;

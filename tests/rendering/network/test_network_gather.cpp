@@ -21,12 +21,13 @@ double seenThrough(const NetworkCase& c, const ScatteringNetwork& network, const
 {
     const double k = double(c.extinction[0]), albedo = double(c.albedo[0]);
     const double share = network.phase().extinctionShare(albedo);
+    const GatherMoments moments(network.phase(), state);
+    const auto weights = moments.weights({0.0, 0.0, 1.0});
     constexpr int kSteps = 400;
     double light = 0.0;
     for (int i = 0; i < kSteps; ++i) {
         const double s = (i + 0.5) / kSteps;
-        light += std::exp(-share * k * s) * k / kSteps *
-                 gatherScattered(network.phase(), albedo, state, {0.5, 0.5, 1.0 - s}, {0.0, 0.0, 1.0});
+        light += std::exp(-share * k * s) * k / kSteps * albedo * moments.at({0.5, 0.5, 1.0 - s}, weights);
     }
     return light + std::exp(-share * k) * behind;
 }
@@ -48,10 +49,33 @@ TEST(NetworkGather, ofAWhiteMediumInAWhiteRoomIsTheRoom)
     }
 }
 
+TEST(NetworkGather, momentsAreWeightedByHarmonicsOfTheDirectionToTheEye)
+{
+    // formula (1) with light interpolated one moment after another, also outside of the grid
+    for (const int moments : {4, 9}) {
+        const NetworkPhase phase = networkPhase(0.6, moments);
+        NetworkState state{{{-0.3, 0.2, 0.1}, 0.4, {3, 4, 5}}, moments, {}};
+        for (size_t i = 0; i < size_t(moments) * state.grid.count(); ++i)
+            state.light.push_back(i < state.grid.count() ? 9.0f : std::sin(0.7f * float(i)));
+        const GatherMoments gather(phase, state);
+        for (const glm::dvec3& toEye : {glm::dvec3(0.48, 0.6, -0.64), {0.0, -1.0, 0.0}})
+            for (const glm::dvec3& place : {glm::dvec3(0.31, 0.77, 1.33), {-5.0, 0.9, 9.0}, {0.4, 0.4, 0.6}})
+            {
+                const auto y = harmonics(toEye);
+                double sum = 0.0;
+                for (size_t k = 0; k < size_t(moments); ++k)
+                    sum += phase.factors[size_t(harmonicBand(int(k)))] * y[k] *
+                           interpolated(state.light.data() + k * state.grid.count(), state.grid, place);
+                EXPECT_NEAR(gather.at(place, gather.weights(toEye)), (1.0 - phase.peak) * sum, 2e-6)
+                    << moments;
+            }
+    }
+}
+
 TEST(NetworkGather, ofIsotropicScatteringIsExactSingleScattering)
 {
     for (const double eyeDepth : {0.0, 3.0}) {
-        const GatheredLight light = gatherUnscattered(networkPhase(0.0, 4), {0.9, 2.0, eyeDepth, 0.3, 4.0});
+        const GatheredLight light = gatherUnscattered({networkPhase(0.0, 4), 0.3}, {0.9, 2.0, eyeDepth, 4.0});
         EXPECT_NEAR(light.plain, 0.0, 1e-12);
         EXPECT_NEAR(light.scaled, 4.0 * std::exp(-2.0) * 0.9 / (4.0 * std::numbers::pi), 1e-6);
     }
@@ -63,7 +87,7 @@ TEST(NetworkGather, inThinMediaIsExactSingleScatteringWithTheWholePhaseFunction)
         for (const double g : {-0.3, 0.4, 0.85, 0.95})
             for (const double cosine : {-1.0, 0.0, 0.9, 1.0}) {
                 const GatheredLight light =
-                    gatherUnscattered(networkPhase(g, moments), {0.95, 0.0, 0.0, cosine, 1.0});
+                    gatherUnscattered({networkPhase(g, moments), cosine}, {0.95, 0.0, 0.0, 1.0});
                 EXPECT_NEAR(light.plain + light.scaled, 0.95 * formula64::fxHenyeyGreenstein(cosine, g),
                             1e-9);
             }
@@ -75,7 +99,7 @@ TEST(NetworkGather, hasTheLightThatIsScatteredTwiceThroughSmallAngles)
     const NetworkPhase phase = networkPhase(0.85, 9);
     const double depth = 1.5, step = 1e-3, c = 0.98;
     const auto both = [&](double albedo) {
-        const GatheredLight light = gatherUnscattered(phase, {albedo, depth, 0.0, c, 1.0});
+        const GatheredLight light = gatherUnscattered({phase, c}, {albedo, depth, 0.0, 1.0});
         return light.plain + light.scaled;
     };
     const double second = (both(2.0 * step) - 2.0 * both(step)) / (2.0 * step * step);
@@ -95,7 +119,8 @@ TEST(NetworkGather, isNeverNegative)
             for (const double depth : {0.0, 1.0, 20.0, 1000.0})
                 for (const double eyeDepth : {0.0, 2.0, 30.0}) {
                     const NetworkPhase phase = networkPhase(g, 9);
-                    const GatheredLight light = gatherUnscattered(phase, {1.0, depth, eyeDepth, cosine, 1.0});
+                    const GatheredLight light =
+                        gatherUnscattered({phase, cosine}, {1.0, depth, eyeDepth, 1.0});
                     EXPECT_GE(light.scaled, 0.0);
                     EXPECT_GE(light.plain + light.scaled * std::exp(phase.peak * eyeDepth), -1e-12);
                 }
