@@ -90,6 +90,7 @@ ParticleBundle::ParticleBundle(std::span<const NetworkParticle> particles, const
                                const Space& space)
     : area_(space.area())
 {
+    static_assert(kBytesOfLink >= sizeof(Found) + sizeof(Link) + sizeof(Segment) + sizeof(uint32_t));
     const auto [u, v] = across(axis);
     std::vector<Found> found;
     for (uint32_t p = 0; p < particles.size(); ++p) {
@@ -118,6 +119,8 @@ ParticleBundle::ParticleBundle(std::span<const NetworkParticle> particles, const
         if (i == found.size() || found[i].line != found[first].line)
             lineEnds_.push_back(uint32_t(segments_.size()));
     }
+    segments_.shrink_to_fit();
+    lineEnds_.shrink_to_fit();
 }
 
 double ParticleBundle::throughSegment(size_t segment, double radiance, std::span<const float> source,

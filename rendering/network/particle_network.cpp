@@ -61,8 +61,9 @@ base::Status check(std::span<const NetworkParticle> particles, const ParticleNet
     for (size_t i = 0; i < particles.size(); ++i)
         if (!isMedium(particles[i]))
             return refused("particle " + std::to_string(i) +
-                           " of the network must be finite, with radius, cross section and emission of at "
-                           "least 0 and an albedo of 0..1");
+                           " of the network needs a center within 1e9 m, a radius above 0 and up to 1e9 m, a "
+                           "cross section above 0 and up to 1e9 squared radii, an albedo of 0..1 and an "
+                           "emission of 0..1e30");
     return {};
 }
 
@@ -116,15 +117,30 @@ std::vector<glm::dvec3> latticeDirections(int count)
 
 } // namespace
 
+double ParticleNetwork::mostBytes(std::span<const NetworkParticle> particles,
+                                  const ParticleNetworkSettings& settings)
+{
+    // Each direction of a particle: first, met and scattered light, and what iterations remember of it.
+    constexpr double kBytesOfLight = 64.0;
+    constexpr double kBytesOfPhase = 12.0; // each pair of directions, in both precisions
+    const double directions = settings.directions;
+    return mostLinks(particles, spaceOf(particles, settings)) * 0.5 * directions *
+               double(ParticleBundle::kBytesOfLink) +
+           directions * (kBytesOfLight * double(particles.size()) + kBytesOfPhase * directions);
+}
+
 base::Status ParticleNetwork::build(std::span<const NetworkParticle> particles,
                                     const ParticleNetworkSettings& settings, base::TaskRunner& tasks)
 {
     if (base::Status status = check(particles, settings); !status)
         return status;
+    const double bytes = mostBytes(particles, settings), mebibyte = 0x1p20;
+    if (bytes > kMaxBytes)
+        return {base::Code::TooLarge, "the particle network takes up to " +
+                                          std::to_string(int64_t(bytes / mebibyte)) + " MiB, more than " +
+                                          std::to_string(int64_t(kMaxBytes / mebibyte)) +
+                                          "; use fewer lines or directions, or longer segments"};
     const ParticleBundle::Space space = spaceOf(particles, settings);
-    if (mostLinks(particles, space) * 0.5 * settings.directions > kMaxLinks)
-        return {base::Code::TooLarge,
-                "the particle network has too many links; use fewer lines or directions, or longer segments"};
     particles_.assign(particles.begin(), particles.end());
     anisotropy_ = settings.anisotropy;
     directions_ = latticeDirections(settings.directions);

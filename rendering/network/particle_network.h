@@ -61,11 +61,16 @@ class ParticleNetwork
 {
 public:
     static constexpr size_t kMaxParticles = 4096;
-    static constexpr double kMaxLinks = double(1 << 27); ///< upper bound of the estimated number of links
+    static constexpr double kMaxBytes = 0x1p31; ///< [byte] largest value of mostBytes()
+
+    /// [byte] Upper bound of the memory in which a network is built and iterated, for settings within their
+    /// ranges.
+    static double mostBytes(std::span<const NetworkParticle> particles,
+                            const ParticleNetworkSettings& settings);
 
     /// Computes the links of a medium at rest. Also sets all light to 0.
     /// @return InvalidArgument for values outside of their ranges; TooLarge for more than kMaxParticles
-    ///     particles or kMaxLinks links. Then the network does not change
+    ///     particles or kMaxBytes bytes. Then the network does not change
     base::Status build(std::span<const NetworkParticle> particles, const ParticleNetworkSettings& settings,
                        base::TaskRunner& tasks);
 

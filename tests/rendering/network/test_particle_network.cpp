@@ -308,6 +308,13 @@ TEST(ParticleNetwork, refusesWhatItCannotHold)
             bad.center[axis] = value;
             EXPECT_EQ(code(bad, {}), base::Code::InvalidArgument) << value;
         }
+    for (double NetworkParticle::*member : {&NetworkParticle::radius, &NetworkParticle::crossSection}) {
+        NetworkParticle nothing = good;
+        nothing.*member = 0.0;
+        const base::Status status = network.build(std::span(&nothing, 1), {}, *tasks);
+        EXPECT_EQ(status.code(), base::Code::InvalidArgument);
+        EXPECT_NE(status.message().find("above 0"), std::string::npos) << status.message();
+    }
     const std::vector<NetworkParticle> many(ParticleNetwork::kMaxParticles + 1, good);
     EXPECT_EQ(network.build(many, {}, *tasks).code(), base::Code::TooLarge);
     const std::vector<NetworkParticle> dense(1000, good);
@@ -315,4 +322,30 @@ TEST(ParticleNetwork, refusesWhatItCannotHold)
     EXPECT_EQ(network.directions().size(), 64u) << "it is as it was";
     EXPECT_EQ(network.setEnvironment(std::vector<float>(63, 1.0f)).code(), base::Code::InvalidArgument);
     EXPECT_EQ(network.setEnvironment(std::vector<float>(64, -1.0f)).code(), base::Code::InvalidArgument);
+}
+
+TEST(ParticleNetwork, takesNoMoreBytesThanItsBound)
+{
+    const auto tasks = base::makeSerialRunner();
+    for (const double segment : {0.0, 0.1, 0.5, 10.0})
+        for (const double radius : {1e-3, 0.1, 0.7}) {
+            std::vector<NetworkParticle> particles;
+            for (int i = 0; i < 60; ++i) // of unequal size
+                particles.push_back({{std::sin(i), std::cos(3 * i), std::sin(7 * i)},
+                                     radius * (0.5 + 0.025 * i),
+                                     radius * radius,
+                                     0.9,
+                                     0.0});
+            const ParticleNetworkSettings settings{12, 40, segment, 0.0};
+            ParticleNetwork network;
+            ASSERT_TRUE(network.build(particles, settings, *tasks));
+            EXPECT_LE(double(network.bytes()), ParticleNetwork::mostBytes(particles, settings))
+                << segment << " " << radius;
+        }
+    const std::vector<NetworkParticle> dense(2000, {glm::dvec3(0.0), 1.0, 1.0, 0.9, 0.0});
+    EXPECT_GT(ParticleNetwork::mostBytes(dense, {32, 64, 0.1, 0.0}), ParticleNetwork::kMaxBytes);
+    ParticleNetwork network;
+    const base::Status status = network.build(dense, {32, 64, 0.1, 0.0}, *tasks);
+    EXPECT_EQ(status.code(), base::Code::TooLarge);
+    EXPECT_NE(status.message().find("2048"), std::string::npos) << status.message();
 }
