@@ -69,6 +69,21 @@ void addHashOption(CLI::App& command, uint64_t& hash)
         "Exit code 1 when the results have another hash (hexadecimal)");
 }
 
+FrameOptions FrameOptions::orSmall(double smallTime) const
+{
+    return isSmall ? FrameOptions{smallTime, 96, 54, 1, true} : *this;
+}
+
+void addFrameOptions(CLI::App& command, FrameOptions& options)
+{
+    command.add_option("--time", options.time, "[s] Scene time of the first frame")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+    addRepeatOption(command, options.repeat);
+    addSizeOption(command, options.width, options.height);
+    addSmallOption(command, options.isSmall);
+}
+
 std::string hashText(uint64_t hash)
 {
     char text[19];

@@ -49,6 +49,22 @@ void addSmallOption(CLI::App& command, bool& isSmall);
 /// Adds --validate-hash, hexadecimal with or without 0x.
 void addHashOption(CLI::App& command, uint64_t& hash);
 
+/// Options of measurements of whole frames.
+struct FrameOptions
+{
+    double time = 0.0; ///< [s] scene time of the first frame
+    int width = 320, height = 180;
+    int repeat = 5; ///< number of frames, of which the shortest time is reported
+    bool isSmall = false;
+
+    /// Returns the options of --small if that is set, otherwise these. @param smallTime [s] of a small
+    /// measurement
+    FrameOptions orSmall(double smallTime) const;
+};
+
+/// Adds --time, --repeat, --size and --small, with the values of `options` as defaults.
+void addFrameOptions(CLI::App& command, FrameOptions& options);
+
 /// Formats a hash as "0x0123456789abcdef".
 std::string hashText(uint64_t hash);
 

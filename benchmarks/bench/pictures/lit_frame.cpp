@@ -31,10 +31,7 @@ constexpr int kRefreshFrames = 4; ///< SliceSettings::refreshFrames that is comp
 struct Options
 {
     std::vector<std::string> files;
-    double time = 6.0; ///< [s]
-    int width = 640, height = 360;
-    int repeat = 5;
-    bool isSmall = false;
+    FrameOptions frames{.time = 6.0, .width = 640, .height = 360};
 };
 
 struct Cost
@@ -104,7 +101,7 @@ MovingFrames framesOf(const Subject& subject, int refreshFrames, int rounds)
     return frames;
 }
 
-void measureSubject(const Subject& subject, const Options& options, Machine machine)
+void measureSubject(const Subject& subject, const FrameOptions& options, Machine machine)
 {
     Costs with, without;
     std::vector<float> pictures[2];
@@ -160,7 +157,7 @@ void require(const base::Status& status)
         fail(status.message());
 }
 
-void measureScene(const std::string& name, const scene_file::SceneFile& file, const Options& options)
+void measureScene(const std::string& name, const scene_file::SceneFile& file, const FrameOptions& options)
 {
     const std::unique_ptr<QualityStage> stage =
         taken(QualityStage::create(file, options.width, options.height));
@@ -180,7 +177,7 @@ void measureScene(const std::string& name, const scene_file::SceneFile& file, co
                    options, readMachine());
 }
 
-void measureBlobs(const Options& options)
+void measureBlobs(const FrameOptions& options)
 {
     const uint32_t count = options.isSmall ? kBlobs / 20 : kBlobs;
     const std::vector<render::MediumBlob> blobs = blobsOf({count, 0.1, 4.0, 0.9, 0.3});
@@ -199,17 +196,12 @@ void measureBlobs(const Options& options)
                    options, readMachine());
 }
 
-void measure(Options options)
+void measure(const Options& asked)
 {
-    if (options.isSmall) {
-        options.width = 96;
-        options.height = 54;
-        options.repeat = 1;
-        options.time = 1.0;
-    }
+    const FrameOptions options = asked.frames.orSmall(1.0);
     measureScene("smoke-column", taken(sceneOfPreset("library:smoke-column")), options);
     measureBlobs(options);
-    for (const std::string& file : options.files)
+    for (const std::string& file : asked.files)
         measureScene(file, taken(scene_file::loadSceneFile(file)), options);
 }
 
@@ -217,12 +209,7 @@ void addOptions(CLI::App& command, int& outExitCode)
 {
     auto options = std::make_shared<Options>();
     command.add_option("FILE", options->files, "Scenes (*.scene.json) besides the two that are built in");
-    command.add_option("--time", options->time, "[s] Scene time of the first frame; default 6")
-        ->check(CLI::Range(0.0, 3600.0));
-    command.add_option("--repeat", options->repeat, "Moments, of which the fastest counts")
-        ->check(CLI::Range(1, 1000));
-    addSizeOption(command, options->width, options->height);
-    addSmallOption(command, options->isSmall);
+    addFrameOptions(command, options->frames);
     setMeasurement(command, outExitCode, [options] { measure(*options); });
 }
 

@@ -26,14 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kMostFrames = 40; ///< in which light comes to rest
 
-struct Options
-{
-    double time = 4.0; ///< [s]
-    int width = 320, height = 180;
-    int repeat = 5;
-    bool isSmall = false;
-};
-
 struct FrameCost
 {
     double wallMs = 1e30, processorMs = 1e30; ///< least of all frames
@@ -74,7 +66,8 @@ struct NetworkFrames
     }
 };
 
-void measureCase(const char* preset, const scene_file::SceneFile& file, int cells, const Options& options)
+void measureCase(const char* preset, const scene_file::SceneFile& file, int cells,
+                 const FrameOptions& options)
 {
     NetworkFrames frames{file, taken(QualityStage::create(file, options.width, options.height)),
                          base::toTicks(options.time)};
@@ -118,14 +111,9 @@ void measureCase(const char* preset, const scene_file::SceneFile& file, int cell
                               machine));
 }
 
-void measure(Options options)
+void measure(const FrameOptions& asked)
 {
-    if (options.isSmall) {
-        options.width = 96;
-        options.height = 54;
-        options.repeat = 1;
-        options.time = 2.0;
-    }
+    const FrameOptions options = asked.orSmall(2.0);
     for (const char* preset : {"library:smoke-column", "library:steam"}) {
         const scene_file::SceneFile file = taken(sceneOfPreset(preset));
         for (const int cells : {0, 24, 32, 48})
@@ -136,13 +124,8 @@ void measure(Options options)
 
 void addOptions(CLI::App& command, int& outExitCode)
 {
-    auto options = std::make_shared<Options>();
-    command.add_option("--time", options->time, "[s] Scene time of the first frame; default 4")
-        ->check(CLI::Range(0.0, 3600.0));
-    command.add_option("--repeat", options->repeat, "Frames, of which the fastest counts")
-        ->check(CLI::Range(1, 1000));
-    addSizeOption(command, options->width, options->height);
-    addSmallOption(command, options->isSmall);
+    auto options = std::make_shared<FrameOptions>(FrameOptions{.time = 4.0});
+    addFrameOptions(command, *options);
     setMeasurement(command, outExitCode, [options] { measure(*options); });
 }
 
