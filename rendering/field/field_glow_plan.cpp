@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -67,10 +68,10 @@ float networkCellSide(const glm::vec3& extent, int networkCells)
     return sideOf(quarters);
 }
 
-bool gains(const MediumMoments& medium, const FieldGlowPlan::Choice& choice)
+bool gains(const MediumMoments& medium, bool had, const FieldGlowPlan::Choice& choice)
 {
     const double distance = choice.orthographic ? 1.0 : glm::length(medium.center());
-    return networkUse(medium, distance / double(choice.pixelsPerSlope)) == NetworkUse::Network;
+    return networkUse(medium, distance / double(choice.pixelsPerSlope), had) == NetworkUse::Network;
 }
 
 } // namespace
@@ -86,7 +87,9 @@ bool FieldGlowPlan::brighter(const Source& a, const Source& b)
     return std::tie(a.emitted, a.low.x, a.low.y, a.low.z) > std::tie(b.emitted, b.low.x, b.low.y, b.low.z);
 }
 
-FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory) : sources_(memory), grids_(memory) {}
+FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory)
+    : sources_(memory), kept_(memory), grids_(memory)
+{}
 
 void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float> emitted,
                           const glm::dvec3& eye, int networkCells, const Choice* choice)
@@ -96,12 +99,41 @@ void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float>
     for (FieldBlock& field : ioFields)
         field.limits.w = 0.0f;
     listSources(ioFields, emitted, networkCells > 0, choice);
+    if (networkCells > 0)
+        recallNetworks(eye);
     if (choice)
-        std::erase_if(sources_, [&](const Source& source) { return !gains(source.medium, *choice); });
+        std::erase_if(sources_,
+                      [&](const Source& source) { return !gains(source.medium, source.had, *choice); });
     std::ranges::sort(sources_, brighter);
     sources_.resize(std::min(sources_.size(), kMaxGlowGrids));
+    rememberNetworks(eye);
     for (const Source& source : sources_)
         placeGrid(source, ioFields, eye);
+}
+
+/// A medium is that of the last frame where the middle of one is in the box of the other.
+void FieldGlowPlan::recallNetworks(const glm::dvec3& eye)
+{
+    const auto isWithin = [](const glm::dvec3& place, const glm::dvec3& low, const glm::dvec3& high) {
+        return glm::all(glm::lessThanEqual(low, place)) && glm::all(glm::lessThanEqual(place, high));
+    };
+    for (Source& source : sources_) {
+        const glm::dvec3 low = glm::dvec3(source.low) + eye, high = glm::dvec3(source.high) + eye;
+        source.had = std::ranges::any_of(kept_, [&](const Kept& kept) {
+            return isWithin(0.5 * (kept.low + kept.high), low, high) ||
+                   isWithin(0.5 * (low + high), kept.low, kept.high);
+        });
+        if (source.had)
+            source.emitted *= kNetworkPromotion * kNetworkPromotion; // an area
+    }
+}
+
+void FieldGlowPlan::rememberNetworks(const glm::dvec3& eye)
+{
+    kept_.clear();
+    if (networkCells_ > 0)
+        for (const Source& source : sources_)
+            kept_.push_back({glm::dvec3(source.low) + eye, glm::dvec3(source.high) + eye});
 }
 
 /// Fields that emit enough to be seen, or all; those that overlap are one.

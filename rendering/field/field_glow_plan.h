@@ -30,7 +30,9 @@ constexpr int kSpareGlowCells = 2;
 /// Largest number of grids per view; the fields that emit least get no grid.
 constexpr size_t kMaxGlowGrids = 4;
 
-/// Builds the list of grids of a frame. The memory is kept from frame to frame. Threads: one at a time.
+/// Builds the list of grids of a frame. The memory is kept from frame to frame, and so are the places of the
+/// networks: a medium that had one is the last to lose it, see kKeptNetworkShare and kNetworkPromotion.
+/// Threads: one at a time.
 class FieldGlowPlan
 {
 public:
@@ -62,9 +64,17 @@ private:
     /// Overlapping fields that share a grid.
     struct Source
     {
-        glm::vec3 low, high;  ///< [m] corners of the fields' common box, relative to the eye
-        float emitted;        ///< [exposed m2] emitted light; with networks, the size on the picture [sr]
+        glm::vec3 low, high; ///< [m] corners of the fields' common box, relative to the eye
+        /// [exposed m2] emitted light; with networks, the size on the picture [sr], that of a medium that had
+        /// a network times the square of kNetworkPromotion
+        float emitted;
         MediumMoments medium; ///< empty without Choice
+        bool had = false;     ///< true: it had a network in the last frame
+    };
+    /// A medium with a network.
+    struct Kept
+    {
+        glm::dvec3 low, high; ///< [m] corners of its box in the world
     };
 
     /// True if `a` is sorted before `b`. Sources are sorted by decreasing `emitted`, and for equal `emitted`
@@ -72,10 +82,13 @@ private:
     static bool brighter(const Source& a, const Source& b);
     void listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all,
                      const Choice* choice);
+    void recallNetworks(const glm::dvec3& eye);
+    void rememberNetworks(const glm::dvec3& eye);
     void placeGrid(const Source& source, std::span<FieldBlock> ioFields, const glm::dvec3& eye);
 
     int networkCells_ = 0; ///< as in build()
     std::pmr::vector<Source> sources_;
+    std::pmr::vector<Kept> kept_; ///< of the last frame
     std::pmr::vector<FieldGlowBlock> grids_;
 };
 

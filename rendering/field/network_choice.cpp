@@ -61,13 +61,14 @@ double MediumMoments::albedo() const
     return isEmpty() ? 0.0 : std::max({albedo_.x, albedo_.y, albedo_.z}) / crossSection_;
 }
 
-NetworkUse networkUse(const MediumMoments& medium, double pixel)
+NetworkUse networkUse(const MediumMoments& medium, double pixel, bool had)
 {
-    if (medium.opticalDepth() < kLeastNetworkDepth)
+    const double share = had ? kKeptNetworkShare : 1.0;
+    if (medium.opticalDepth() < share * kLeastNetworkDepth)
         return NetworkUse::Thin;
-    if (medium.albedo() < kLeastNetworkAlbedo)
+    if (medium.albedo() < share * kLeastNetworkAlbedo)
         return NetworkUse::Dark;
-    return diameterIn(medium, pixel) < kLeastNetworkPixels ? NetworkUse::Small : NetworkUse::Network;
+    return diameterIn(medium, pixel) < share * kLeastNetworkPixels ? NetworkUse::Small : NetworkUse::Network;
 }
 
 std::string textOf(NetworkUse use, const MediumMoments& medium, double pixel)

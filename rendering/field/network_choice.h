@@ -51,12 +51,20 @@ constexpr double kLeastNetworkAlbedo = 0.3;
 /// pixels.
 constexpr double kLeastNetworkPixels = 24.0;
 
+/// [1] A medium that had a network in the last frame keeps it down to this share of each of the three limits,
+/// so that one at a limit does not change its light to and fro.
+constexpr double kKeptNetworkShare = 0.8;
+/// [1] Where more media ask for networks than a picture has, one without a network counts as larger than one
+/// with a network only if it is so many times as wide on the picture.
+constexpr float kNetworkPromotion = 1.25f;
+
 /// With fewer ViewSettings::voxels, as a budget may choose, automatic scattering leaves networks out: the
 /// smallest grid would have more cells than half of the voxels along a side.
 constexpr int kLeastNetworkVoxels = 48;
 
 /// @param pixel [m] size of a pixel at the medium
-NetworkUse networkUse(const MediumMoments& medium, double pixel);
+/// @param had true: the medium had a network in the last frame
+NetworkUse networkUse(const MediumMoments& medium, double pixel, bool had = false);
 
 /// The reason in words with its numbers, for reports.
 std::string textOf(NetworkUse use, const MediumMoments& medium, double pixel);

@@ -150,8 +150,8 @@ class FxCommand(FxTest):
         scene = {"version": 1, "camera": {"position": [0, 1, 9], "target": [0, 1, 0]}, "composition": "automatic",
                  "instances": [{"preset": "smoke.fx.json"}, {"preset": "network.fx.json"}]}
 
-        def explained(name, content):
-            outcome = fx("explain", self.write(name, json.dumps(content)), "--json", "--size", 64)
+        def explained(name, content, size=64):
+            outcome = fx("explain", self.write(name, json.dumps(content)), "--json", "--size", size)
             self.assertEqual(outcome.code, 0, outcome.err)
             return [(entry["asks"], entry["gets"], entry["why"]) for entry in json.loads(outcome.out)["scattering"]]
 
@@ -163,6 +163,16 @@ class FxCommand(FxTest):
             asks, gets, reason = explained("a.fx.json", medium)[0]
             self.assertEqual((asks, gets), ("network", "closed_form"))
             self.assertIn(why, reason)
+        between = explained("a.fx.json", only(albedoOverLife=[0.27, 0.27, 0.27]))[0]
+        self.assertEqual(between[1], "closed_form")
+        self.assertIn("keeps it down to 80 % of the limit", between[2])
+        for name in "bcdef": # as many as a picture may have, and one that is farther away
+            self.write(f"{name}.fx.json", json.dumps(network))
+        places = [{"preset": f"{name}.fx.json", "position": [8 * i, 0, 0 if name != "d" else -12]} for i, name in enumerate("bcdef")]
+        many = explained("s.scene.json", scene | {"scattering": "automatic", "instances": places,
+                                                  "camera": {"position": [16, 1, 40], "target": [16, 1, 0]}}, 1080)
+        self.assertEqual([gets for _, gets, _ in many], ["network", "network", "closed_form", "network", "network"])
+        self.assertIn("4 media with networks are larger on the picture", many[2][2])
         self.assertEqual(explained("a.fx.json", smoke | {"scattering": "network"})[0][1:],
                          ("closed_form", "networks need the composition volume or slabs"))
         for setting, gets, why in ((None, "closed_form", "the scene says so"), ("off", "single", "the scene says so"),

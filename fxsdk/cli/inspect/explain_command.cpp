@@ -12,6 +12,7 @@
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/presets/order_members.h"
 #include "fxsdk/techniques.h"
+#include "rendering/field/field_glow_plan.h"
 #include "rendering/field/network_choice.h"
 #include "rendering/reference/render/medium_blobs.h"
 #include "rendering/techniques/draw_techniques.h"
@@ -217,6 +218,18 @@ base::Result<std::vector<render::MediumMoments>> mediaOf(const scene_file::Scene
     return media;
 }
 
+/// Size of a pixel [m] at a medium.
+double pixelAt(const render::MediumMoments& medium, const scene_file::SceneFile& file,
+               const ExplainOptions& options)
+{
+    const scene_file::CameraPath& camera = file.camera;
+    const double distance = glm::length(camera.at(options.time).position - medium.center());
+    const double height = camera.orthographicHeight > 0.0f
+                              ? double(camera.orthographicHeight)
+                              : 2.0 * distance * std::tan(0.5 * glm::radians(double(camera.fovYDegrees)));
+    return height / double(options.size);
+}
+
 /// Automatic scattering leaves out networks from which a medium does not gain. A picture in which nothing of
 /// the medium is there says nothing about that.
 Scattering chosenFor(const render::MediumMoments& medium, const scene_file::SceneFile& file,
@@ -226,17 +239,36 @@ Scattering chosenFor(const render::MediumMoments& medium, const scene_file::Scen
         return {sim::PreferredScattering::ClosedForm, "the view has few voxels for a network"};
     if (medium.isEmpty())
         return asked;
-    const scene_file::CameraPath& camera = file.camera;
-    const double distance = glm::length(camera.at(options.time).position - medium.center());
-    const double height = camera.orthographicHeight > 0.0f
-                              ? double(camera.orthographicHeight)
-                              : 2.0 * distance * std::tan(0.5 * glm::radians(double(camera.fovYDegrees)));
-    const double pixel = height / double(options.size);
+    const double pixel = pixelAt(medium, file, options);
     const render::NetworkUse use = render::networkUse(medium, pixel);
     const std::string numbers = render::textOf(use, medium, pixel);
-    return use == render::NetworkUse::Network
-               ? Scattering{asked.value, asked.why + "; " + numbers}
-               : Scattering{sim::PreferredScattering::ClosedForm, "a network would gain little: " + numbers};
+    if (use == render::NetworkUse::Network)
+        return {asked.value, asked.why + "; " + numbers};
+    std::string why = "a network would gain little: " + numbers;
+    if (render::networkUse(medium, pixel, true) == render::NetworkUse::Network) {
+        const int percent = int(std::lround(100.0 * render::kKeptNetworkShare));
+        why += "; a medium that has had one keeps it down to " + std::to_string(percent) + " % of the limit";
+    }
+    return {sim::PreferredScattering::ClosedForm, why};
+}
+
+/// A picture has no more than kMaxGlowGrids networks: those of the media that are largest on it.
+void leaveOutSmallest(std::span<const render::MediumMoments> media, const scene_file::SceneFile& file,
+                      const ExplainOptions& options, std::span<Scattering> io)
+{
+    std::vector<std::pair<double, size_t>> sizes;
+    for (size_t i = 0; i < media.size(); ++i) {
+        if (io[i].value != sim::PreferredScattering::Network || media[i].isEmpty())
+            continue;
+        const glm::dvec3 axes = media[i].semiAxes();
+        sizes.emplace_back(-std::max({axes.x, axes.y, axes.z}) / pixelAt(media[i], file, options), i);
+    }
+    std::ranges::sort(sizes);
+    for (size_t rank = render::kMaxGlowGrids; rank < sizes.size(); ++rank)
+        io[sizes[rank].second] = {
+            sim::PreferredScattering::ClosedForm,
+            std::to_string(render::kMaxGlowGrids) +
+                " media with networks are larger on the picture, as many as it may have"};
 }
 
 /// What the preset of each effect with a medium asks for, what it gets, and why.
@@ -246,16 +278,19 @@ Json scatteringOf(const scene_file::SceneFile& file, const ExplainOptions& optio
     const Scattering asked = scatteringIn(file, isScene);
     const bool chooses =
         asked.value == sim::PreferredScattering::Network && (!isScene || file.view.slices.automatic);
+    std::vector<Scattering> chosen;
+    for (const render::MediumMoments& medium : media)
+        chosen.push_back(chooses ? chosenFor(medium, file, options, asked) : asked);
+    leaveOutSmallest(media, file, options, chosen);
     Json list = Json::array();
     for (size_t i = 0; i < file.presets.size(); ++i) {
         const scene_file::ScenePreset& preset = file.presets[i];
         if (!preset.effect->publishes(base::kBlobKind))
             continue;
-        const Scattering chosen = chooses ? chosenFor(media[i], file, options, asked) : asked;
         list.push_back({{"preset", preset.name},
                         {"asks", kScatterings.at(size_t(preset.effect->hints.scattering))},
-                        {"gets", kScatterings.at(size_t(chosen.value))},
-                        {"why", chosen.why}});
+                        {"gets", kScatterings.at(size_t(chosen[i].value))},
+                        {"why", chosen[i].why}});
     }
     return list;
 }

@@ -332,6 +332,83 @@ TEST(FieldPlan, networksAreChosenForEachMediumThatTouchesNoOther)
     }
 }
 
+namespace {
+
+/// Balls of a white medium within some 1.3 m of a place.
+std::vector<FieldBall> whiteBalls(uint32_t effect, const glm::dvec3& place, float crossSection)
+{
+    std::vector<FieldBall> balls = randomBalls(60, 5, place, effect);
+    for (FieldBall& ball : balls) {
+        ball.center = place + 0.4 * (ball.center - place);
+        ball.radius *= 0.4f;
+        ball.crossSection = crossSection;
+        ball.albedo = glm::vec3(0.9f);
+    }
+    return balls;
+}
+
+/// Cross section of whiteBalls() with a mean optical depth as large as the limit.
+float limitingCrossSection()
+{
+    MediumMoments medium;
+    for (const FieldBall& ball : whiteBalls(0, glm::dvec3(0.0), 1.0f))
+        medium.add(ball.center, double(ball.radius), 1.0, glm::dvec3(0.9));
+    return float(kLeastNetworkDepth / medium.opticalDepth());
+}
+
+} // namespace
+
+TEST(FieldPlan, aMediumAtALimitDoesNotChangeToAndFro)
+{
+    const float limit = limitingCrossSection();
+    FieldPlan plan(std::pmr::new_delete_resource());
+    const auto hasNetwork = [&](float share, double moved) {
+        const FieldScene scene(whiteBalls(0, {moved, 0, 0}, share * limit),
+                               cameraAt({moved, 0, 20}, {0, 0, 0}));
+        FieldPlanInputs in = scene.inputs(kWidth, kHeight, 48);
+        in.networkCells = 24;
+        in.choosesNetworks = true;
+        plan.build(in);
+        return plan.hasNetworks();
+    };
+    EXPECT_FALSE(hasNetwork(0.95f, 0.0));
+    EXPECT_TRUE(hasNetwork(1.05f, 0.0));
+    for (int frame = 0; frame < 20; ++frame) // it moves, and the eye with it
+        EXPECT_TRUE(hasNetwork(frame % 2 == 0 ? 0.9f : 1.05f, 0.3 * frame)) << frame;
+    EXPECT_FALSE(hasNetwork(0.7f, 6.0));
+    for (int frame = 0; frame < 20; ++frame)
+        EXPECT_FALSE(hasNetwork(frame % 2 == 0 ? 0.9f : 0.98f, 6.0)) << frame;
+}
+
+TEST(FieldPlan, amongMoreMediaThanNetworksOneThatComesNearIsPromotedOnce)
+{
+    // Five media around an eye; the nearest four have networks. One of them comes and goes.
+    FieldPlan plan(std::pmr::new_delete_resource());
+    const auto fifthHasNetwork = [&](double distance) {
+        std::vector<FieldBall> balls;
+        for (uint32_t e = 0; e < 5; ++e) {
+            const double angle = 0.25 * (double(e) - 2.0), away = e == 4 ? distance : 30.0;
+            for (const FieldBall& ball :
+                 whiteBalls(e, {away * std::sin(angle), 0.0, -away * std::cos(angle)}, 0.5f))
+                balls.push_back(ball);
+        }
+        const FieldScene scene(balls, cameraAt({0, 0, 0}, {0, 0, -1}));
+        FieldPlanInputs in = scene.inputs(kWidth, kHeight, 128);
+        in.networkCells = 24;
+        plan.build(in);
+        EXPECT_EQ(plan.fields().size(), 5u);
+        EXPECT_EQ(plan.glows().size(), kMaxGlowGrids);
+        return plan.fields()[4].limits.w > 0.0f;
+    };
+    EXPECT_FALSE(fifthHasNetwork(40.0));
+    for (const double distance : {29.5, 30.5, 29.0, 31.0}) // nearly as large as the others
+        EXPECT_FALSE(fifthHasNetwork(distance)) << distance;
+    EXPECT_TRUE(fifthHasNetwork(20.0));
+    for (const double distance : {29.5, 30.5, 29.0, 31.0})
+        EXPECT_TRUE(fifthHasNetwork(distance)) << distance;
+    EXPECT_FALSE(fifthHasNetwork(45.0));
+}
+
 TEST(FieldPlan, equalInputsGiveEqualPlans)
 {
     const FieldScene scene(randomBalls(150, 5, glm::dvec3(0.0)), cameraAt({0, 0, 9}, {0, 0, 0}));

@@ -88,3 +88,20 @@ TEST(NetworkChoice, thinDarkAndSmallMediaHaveNone)
     EXPECT_EQ(use(5.0, kWhite, 0.2), NetworkUse::Small) << "10 pixels";
     EXPECT_EQ(networkUse(MediumMoments(), kPixel), NetworkUse::Thin) << "none";
 }
+
+TEST(NetworkChoice, mediaThatHadANetworkKeepItBelowEachLimit)
+{
+    const auto use = [](double depth, double albedo, double pixel, bool had) {
+        return networkUse(ellipsoid(glm::dvec3(1.0), 1.5 * depth, glm::dvec3(albedo)), pixel, had);
+    };
+    const double small = 2.0 / kLeastNetworkPixels; // pixel of a medium as large as the limit
+    for (const double share : {0.9, 0.7}) {
+        const bool isKept = share > kKeptNetworkShare;
+        EXPECT_NE(use(share * kLeastNetworkDepth, 0.9, kPixel, false), NetworkUse::Network);
+        EXPECT_EQ(use(share * kLeastNetworkDepth, 0.9, kPixel, true) == NetworkUse::Network, isKept);
+        EXPECT_NE(use(5.0, share * kLeastNetworkAlbedo, kPixel, false), NetworkUse::Network);
+        EXPECT_EQ(use(5.0, share * kLeastNetworkAlbedo, kPixel, true) == NetworkUse::Network, isKept);
+        EXPECT_NE(use(5.0, 0.9, small / share, false), NetworkUse::Network);
+        EXPECT_EQ(use(5.0, 0.9, small / share, true) == NetworkUse::Network, isKept);
+    }
+}
