@@ -119,14 +119,20 @@ base::Result<base::AssetId> AssetLoader::mesh(std::string_view name, std::string
 
 base::Result<base::AssetId> AssetLoader::volume(std::string_view name)
 {
+    if (const auto known = volumes_.find(name); known != volumes_.end())
+        return known->second;
     const base::Result<std::string> bytes = read(name, kMaxVolumeFileBytes);
     if (!bytes)
         return bytes.status();
     base::Result<base::VoxelVolume> volume = parseVolume(*bytes);
     if (!volume)
         return inAsset(name, volume.status());
-    return table_.addVolume(std::make_shared<const base::VoxelVolume>(std::move(*volume)),
-                            base::hashBytes(2, bytes->data(), bytes->size()));
+    base::Result<base::AssetId> id =
+        table_.addVolume(std::make_shared<const base::VoxelVolume>(std::move(*volume)),
+                         base::hashBytes(2, bytes->data(), bytes->size()));
+    if (id)
+        volumes_.emplace(name, *id);
+    return id;
 }
 
 } // namespace fx::asset

@@ -6,6 +6,8 @@
 #include "foundation/assets/asset_table.h"
 #include "fxsdk/assets/asset_resolver.h"
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -43,7 +45,7 @@ public:
     /// Reads the bytes of the asset `name`, which is relative to the document. @return codes of
     /// AssetResolver::read()
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes);
-    /// Hash of all bytes read, in the order of reading; 0 if nothing was read.
+    /// Hash of all bytes read, in the order of reading; 0 if nothing was read. A volume is read once.
     uint64_t contentHash() const { return contentHash_; }
     const base::AssetTable& table() const { return table_; }
 
@@ -54,8 +56,8 @@ public:
     base::Result<base::AssetId> image(std::string_view name, ImageUse use, int columns, int rows,
                                       std::string& outWarning);
     base::Result<base::AssetId> mesh(std::string_view name, std::string& outWarning);
-    /// Loads a volume (volume_file.h). A missing or damaged volume is always an error, because no other
-    /// medium could stand in.
+    /// Loads a volume (volume_file.h). A volume that the document names again is not read again. A missing or
+    /// damaged volume is always an error, because no other medium could stand in.
     base::Result<base::AssetId> volume(std::string_view name);
 
 private:
@@ -66,6 +68,7 @@ private:
     base::AssetTable& table_;
     MissingAsset missing_;
     std::string folder_;
+    std::map<std::string, base::AssetId, std::less<>> volumes_; ///< by name
     uint64_t contentHash_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #include "foundation/snapshot/volume_kind.h"
+#include "fxsdk/assets/asset_loader.h"
 #include "fxsdk/assets/volume_file.h"
 #include "fxsdk/presets/preset_loader.h"
 #include "simulation/volume/volume_solver.h"
@@ -136,6 +137,37 @@ TEST(VolumeFile, lightOfVoxelsWithoutMediumIsNotWrittenAndIsRefused)
     const std::string sealed = glowing.substr(0, hash + 6) + digits + "\ndata\n" + glowing.substr(data);
     const base::Status refused = asset::parseVolume(sealed).status();
     EXPECT_NE(refused.message().find("emission: voxel 0"), std::string::npos) << refused.message();
+}
+
+TEST(VolumeFile, thatADocumentNamesTwiceIsReadOnce)
+{
+    struct Storage
+    {
+        std::string bytes;
+        int reads = 0;
+    } storage{*asset::writeVolume(twoBricks())};
+    const asset::ReadHook hook{&storage, [](void* user, const char* name, uint64_t,
+                                            void (*deliver)(void*, const void*, size_t), void* sink) {
+                                   auto& own = *static_cast<Storage*>(user);
+                                   if (std::string_view(name) != "a.fxvolume")
+                                       return 1;
+                                   ++own.reads;
+                                   deliver(sink, own.bytes.data(), own.bytes.size());
+                                   return 0;
+                               }};
+    const asset::AssetResolver resolver("", {}, hook);
+    base::AssetTable table(std::pmr::get_default_resource());
+    asset::AssetLoader loader(resolver, table, asset::MissingAsset::IsAnError);
+    const auto first = loader.volume("a.fxvolume");
+    ASSERT_TRUE(first.ok()) << first.status().message();
+    const uint64_t hash = loader.contentHash();
+    const auto second = loader.volume("a.fxvolume");
+    ASSERT_TRUE(second.ok());
+    EXPECT_EQ(*second, *first);
+    EXPECT_EQ(storage.reads, 1);
+    EXPECT_EQ(loader.contentHash(), hash);
+    EXPECT_FALSE(loader.volume("b.fxvolume").ok());
+    EXPECT_FALSE(loader.volume("b.fxvolume").ok()) << "an error stays one";
 }
 
 TEST(VolumeCells, haveTheMediumOfAllVoxelsAndReachTheBricksBefore)
