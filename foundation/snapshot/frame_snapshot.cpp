@@ -1,6 +1,7 @@
 #include "foundation/snapshot/frame_snapshot.h"
 
 #include "foundation/math/hash.h"
+#include "foundation/snapshot/late_groups.h"
 
 #include <algorithm>
 #include <atomic>
@@ -47,6 +48,21 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence, Ticks step)
     groupCount_ = 0;
     poolCount_ = 0;
     roster_.reset();
+    if (late_)
+        late_->clear();
+}
+
+SnapshotGroup& FrameSnapshot::addLateGroup(KindId kind, LateRows rows)
+{
+    if (!late_)
+        late_ = std::make_shared<LateGroups>(memory_);
+    late_->add(groupCount_, rows);
+    return addGroup(kind, 0);
+}
+
+const SnapshotGroup& FrameSnapshot::lateGroup(size_t place) const
+{
+    return late_->group(*this, place);
 }
 
 PooledRows& FrameSnapshot::addPool(KindId kind, size_t capacity, ColumnSet present, uint32_t each)
@@ -119,7 +135,8 @@ uint64_t FrameSnapshot::hashAt(Ticks tick) const
 {
     uint64_t h = hashWord(0, uint64_t(tick));
     const auto add = [&h, this](const SnapshotGroup& group) {
-        if (group.count() > 0 && !group.info().isCosmetic) // what shows nothing is as if it were not there
+        const bool isHashed = !group.info().isCosmetic && !group.info().isLate;
+        if (group.count() > 0 && isHashed) // what shows nothing is as if it were not there
             h = hashGroup(h, group, schema_->kind(group.info().kind).columns);
     };
     if (roster_)

@@ -5,9 +5,9 @@
 /// A snapshot is a list of groups in creation order. A group holds the elements of one kind that one solver
 /// of one instance published: typed columns, shared constants, bounds, and an id per element. The id
 /// identifies the same element in the previous snapshot. Many small groups of one kind may be published as
-/// one pool of rows, see pooled_groups.h; readers of the snapshot see ordinary groups. Threads: one thread
-/// writes a snapshot and publishes it through a SnapshotRing. A published snapshot does not change, and any
-/// thread may read it.
+/// one pool of rows, see pooled_groups.h, and the rows of a group may be computed when they are first read,
+/// see late_groups.h; readers of the snapshot see ordinary groups. Threads: one thread writes a snapshot and
+/// publishes it through a SnapshotRing. A published snapshot does not change, and any thread may read it.
 #pragma once
 
 #include "foundation/snapshot/pooled_groups.h"
@@ -39,6 +39,14 @@ inline GroupName nameOf(const GroupInfo& info)
     return {info.instance, info.solver, info.kind};
 }
 
+class FrameSnapshot;
+class LateGroups;
+
+/// Computes the rows of a group that has been added by FrameSnapshot::addLateGroup(), from groups that were
+/// added before it. Any thread may call it, once for each publication.
+/// @param place the group is FrameSnapshot::added(place) @param io has room for info().count rows
+using LateRows = void (*)(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io);
+
 /// All groups of a scene at the end of the step that ended at `tick`.
 class FrameSnapshot
 {
@@ -60,12 +68,16 @@ public:
     Ticks step() const { return step_; } ///< [tick] length of the step, as passed to begin()
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
     /// The group at `index`. The first call for a pooled group copies the rows of all pools to the pooled
-    /// groups. The call allocates nothing.
+    /// groups, and allocates nothing. The first call for a late group computes its rows.
     const SnapshotGroup& group(size_t index) const
     {
         const uint32_t place = placeOf(index);
-        return (place & kPooled) != 0 ? spread_->group(*this, place & ~kPooled) : groups_[place];
+        if ((place & kPooled) != 0)
+            return spread_->group(*this, place & ~kPooled);
+        return groups_[place].info().isLate ? lateGroup(place) : groups_[place];
     }
+    /// Added group number `place`, without pooled groups. A late group has no rows here.
+    const SnapshotGroup& added(size_t place) const { return groups_[place]; }
     /// Roster entry of a pooled group, by which its rows can be read in the pool; null if the group has its
     /// own rows.
     const GroupRoster::Entry* pooled(size_t index) const
@@ -112,6 +124,9 @@ public:
             return groups_[groupCount_++];
         return findGroup(kind, capacity, present);
     }
+    /// Adds a group whose rows are computed by the first call of group(). The caller sets its info with
+    /// isLate (count, bounds) and its constants. The snapshot's hash does not include the group.
+    SnapshotGroup& addLateGroup(KindId kind, LateRows rows);
     SnapshotGroup& editGroup(size_t index) { return groups_[index]; }
     /// Adds a pool of rows. The caller fills the pool. The memory of the previous content's pool with the
     /// same index is reused.
@@ -131,6 +146,7 @@ private:
     static constexpr uint32_t kPooled = 1u << 31;
     /// Index of a group in groups_; or, if the bit kPooled is set, its index in the roster.
     uint32_t placeOf(size_t index) const { return roster_ ? places_[index] : uint32_t(index); }
+    const SnapshotGroup& lateGroup(size_t place) const;
     void listPlaces();
     SnapshotGroup& findGroup(KindId kind, size_t capacity, ColumnSet present);
 
@@ -150,6 +166,7 @@ private:
     std::pmr::vector<uint32_t> places_;      ///< by group: result of placeOf(); used only if there are pools
     uint64_t listed_ = 0;                    ///< GroupRoster::shape to which places_ and ends_ belong
     std::unique_ptr<UnpackedGroups> spread_; ///< null if there are no pools
+    std::shared_ptr<LateGroups> late_;       ///< null if there are no late groups
 };
 
 } // namespace fx::base

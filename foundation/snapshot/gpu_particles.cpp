@@ -78,8 +78,8 @@ GpuStepMark gpuMarkOf(const SnapshotGroup& group)
 
 bool hasGpuParticles(const FrameSnapshot& snapshot)
 {
-    for (size_t g = 0; g < snapshot.groupCount(); ++g)
-        if (snapshot.group(g).program())
+    for (size_t place = 0; place < snapshot.addedCount(); ++place) // no pooled group has a program
+        if (snapshot.added(place).program())
             return true;
     return false;
 }

@@ -101,7 +101,10 @@ void UnpackedGroups::visit(const FrameSnapshot& snapshot, Visitor visitor, void*
         const GroupRoster::Entry* const entry = snapshot.pooled(g);
         if (entry && !isSpread)
             fill(snapshot, *entry, scratch_[entry->pool]);
-        visitor(user, entry && !isSpread ? scratch_[entry->pool] : snapshot.group(g));
+        if (!entry)
+            visitor(user, snapshot.groups_[snapshot.placeOf(g)]); // a late group stays without rows
+        else
+            visitor(user, isSpread ? snapshot.group(g) : scratch_[entry->pool]);
     }
 }
 

@@ -29,6 +29,8 @@ struct GroupInfo
     Bounds bounds; ///< bounds in the local space of the placement; they contain every element with its radius
     /// True: the snapshot's hash does not include this group, because the group may be computed on the GPU.
     bool isCosmetic = false;
+    /// True: the rows are computed when they are first read, see FrameSnapshot::addLateGroup().
+    bool isLate = false;
 };
 
 class GpuParticleProgram;
