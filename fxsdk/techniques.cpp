@@ -1,5 +1,6 @@
 #include "fxsdk/techniques.h"
 
+#include "fxsdk/presets/blocks/blocks_technique.h"
 #include "fxsdk/presets/clouds/clouds_technique.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "fxsdk/presets/fragments/fragments_technique.h"
@@ -20,7 +21,7 @@ constexpr Technique kTechniques[] = {
 #if FXSDK_WITH_SPH
     kGasTechnique,
 #endif
-    kCloudsTechnique,  kVolumesTechnique,
+    kCloudsTechnique,  kVolumesTechnique,   kBlocksTechnique,
 };
 
 #if !FXSDK_WITH_SPH

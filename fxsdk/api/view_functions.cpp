@@ -95,6 +95,10 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.spilledFragments = frame.spilledCards;
     statistics.composition = uint32_t(frame.composition);
     statistics.compositionSize = frame.compositionSize;
+    statistics.blocks = frame.blocks;
+    statistics.blockInstances = frame.blockInstances;
+    statistics.blockParticles = frame.blockParticles;
+    statistics.blockParticlesRefused = frame.blockParticlesRefused;
     return statistics;
 }
 

@@ -344,6 +344,11 @@ struct FrameStatistics
     uint32_t compositionSize = 0;
     /// Mean overflow per pixel in units of DazzleSettings::white; set only with countOverdraw and dazzle.
     double overflow[3] = {0, 0, 0};
+    uint32_t blocks = 0;         ///< block types of the visible effects; each phase in use counts
+    uint32_t blockInstances = 0; ///< blocks of the visible effects, at all levels of their hierarchies
+    uint64_t blockParticles = 0; ///< blobs to which these blocks expand
+    /// Blobs of blocks that are missing because they are beyond the bounds of their effects.
+    uint64_t blockParticlesRefused = 0;
 };
 
 } // namespace fx::render

@@ -11,6 +11,8 @@ constexpr const DrawTechnique* kTechniques[] = {
     &kBlobTechnique,          //
     &kFieldDetailTechnique,   //
     &kVolumeTechnique,        //
+    &kBlockTechnique,         //
+    &kBlockBallTechnique,     //
     &kLightSliceTechnique,    //
     &kSpriteTechnique,        //
     &kRibbonTechnique,        //

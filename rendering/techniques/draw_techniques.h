@@ -18,6 +18,13 @@ extern const DrawTechnique kFieldDetailTechnique;
 /// Voxels of volumes, which replace balls. The state of kBlobTechnique draws them.
 extern const DrawTechnique kVolumeTechnique;
 
+/// Hierarchies of blocks of medium: their counts. The state of kBlobTechnique draws the balls that they
+/// expand to.
+extern const DrawTechnique kBlockTechnique;
+
+/// Content of block types, which is drawn as a part of kBlockTechnique.
+extern const DrawTechnique kBlockBallTechnique;
+
 /// Shadows of media: timer group and scalability levels of light slices. The passes of light slices are in
 /// rendering/lights/slices and belong to every view.
 extern const DrawTechnique kLightSliceTechnique;

@@ -13,11 +13,12 @@ TEST(Techniques, registerEachKindOnce)
 {
     fx::base::SnapshotSchema schema;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 7u);
-    for (const char* kind : {"blob", "material", "particle", "ribbon", "light", "gpuParticle", "volume"})
+    EXPECT_EQ(schema.size(), 9u);
+    for (const char* kind :
+         {"blob", "material", "particle", "ribbon", "light", "gpuParticle", "volume", "block", "blockBall"})
         EXPECT_NE(schema.find(kind), fx::base::kNoKind) << kind;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 7u);
+    EXPECT_EQ(schema.size(), 9u);
 }
 
 TEST(Techniques, haveNamesAndAllOfAPresetMember)

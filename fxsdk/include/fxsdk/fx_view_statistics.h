@@ -140,6 +140,18 @@ typedef struct FxViewStatistics
     /// Number of slabs along a ray, or of voxels along 16 particle radii, with which the frame was drawn; 0
     /// with FX_COMPOSITION_SORTED.
     uint32_t compositionSize;
+
+    /// Number of block types of the visible effects. Each phase of an animated type that is in use counts.
+    uint32_t blocks;
+
+    /// Number of blocks of the visible effects, at all levels of their hierarchies.
+    uint32_t blockInstances;
+
+    /// Number of particles of media that these blocks consist of.
+    uint64_t blockParticles;
+
+    /// Number of particles of blocks beyond the member "maxParticles" of their effects, which are not drawn.
+    uint64_t blockParticlesRefused;
 } FxViewStatistics;
 
 #ifdef __cplusplus
