@@ -53,7 +53,8 @@ TEST(PresetLibrary, holdsWhatItPromisesAndAllOfItIsValid)
                                      "gas-fire",       "campfire",       "smoke-column",    "dust-burst",
                                      "sparks",         "steam",          "burning-debris",  "rain",
                                      "snow",           "fireworks",      "waterfall-mist",  "magic-trail",
-                                     "muzzle-flash",   "tracer",         "debris"}));
+                                     "muzzle-flash",   "tracer",         "debris",          "cumulus",
+                                     "stratus-bank",   "ash-plume",      "sandstorm",       "avalanche"}));
     for (const std::string& name : list) {
         const auto effect = load(name);
         ASSERT_TRUE(effect);
