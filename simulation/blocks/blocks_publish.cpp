@@ -139,7 +139,7 @@ void BlocksSolver::writeEmitted(uint32_t i, const SnapshotGroup& particles, Snap
     placed.type = def_.emitted[pick(u[0], def_.emitted.size())];
     const BlockType& type = def_.types[placed.type];
     const float radius = particles.start(blob::Radius)[i];
-    placed.scale = radius / type.radius;
+    placed.scale = radius / std::max(type.radius, 1e-6f); // of an empty type, 0
     placed.density = particles.start(blob::CrossSection)[i] / crossSectionOf(1.0f, radius);
     for (int k = 0; k < 3; ++k)
         placed.position[k] = particles.start(blob::PositionX + size_t(k))[i];
