@@ -1,8 +1,20 @@
 #include "foundation/snapshot/late_groups.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace fx::base {
+
+namespace {
+
+/// Room for at least `count` rows, at most a quarter more, so that growing groups rarely allocate.
+size_t capacityFor(size_t count)
+{
+    const size_t unit = std::max<size_t>(std::bit_ceil(count) / 8, 1);
+    return (count + unit - 1) / unit * unit;
+}
+
+} // namespace
 
 void LateGroups::add(size_t place, LateRows rows)
 {
@@ -26,8 +38,9 @@ const SnapshotGroup& LateGroups::group(const FrameSnapshot& snapshot, size_t pla
         return entry.group;
     const SnapshotGroup& described = snapshot.added(place);
     const GroupInfo& info = described.info();
-    if (!entry.group.prepareAgain(info.kind, info.count, kAllColumns, false))
-        entry.group.prepare(snapshot.schema(), info.kind, info.count);
+    const size_t capacity = capacityFor(info.count);
+    if (!entry.group.prepareAgain(info.kind, capacity, kAllColumns, false))
+        entry.group.prepare(snapshot.schema(), info.kind, capacity);
     entry.group.editInfo() = info;
     entry.group.editInfo().isLate = false; // it has its rows
     std::ranges::copy(described.constants(), entry.group.editConstants().begin());

@@ -139,6 +139,7 @@ public:
         return reader.ok() && reader.left() == 0;
     }
     base::Ticks tick() const { return tick_; }
+    uint64_t allocations() const { return memory_.allocationCount(); }
 
 private:
     const sim::BlocksDef def_;

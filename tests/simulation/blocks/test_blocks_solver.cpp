@@ -231,6 +231,24 @@ TEST(BlocksSolver, refusesStatesThatAreCutOrOfOtherBlocks)
     EXPECT_FALSE(BlockBench(other).restore(saved, bench.tick()));
 }
 
+TEST(BlocksSolver, stepsAndPublishesWithoutAllocations)
+{
+    const sim::BlocksDef def = emitted();
+    BlockBench bench(def);
+    uint32_t most = 0;
+    for (int i = 0; i < 300; ++i) { // until the snapshot has room for the most balls
+        bench.play(1);
+        most = std::max(most, bench.balls().count());
+    }
+    const uint64_t before = bench.allocations();
+    for (int i = 0; i < 60; ++i) {
+        bench.play(1);
+        if (bench.balls().count() > most)
+            GTEST_SKIP() << "there are more balls than ever before";
+    }
+    EXPECT_EQ(bench.allocations(), before);
+}
+
 TEST(BlocksSolver, allBallsAreWithinReach)
 {
     sim::BlocksDef def = threeTypes();
