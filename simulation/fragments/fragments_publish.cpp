@@ -80,30 +80,32 @@ void FragmentsSolver::openTrail(const base::GroupInfo& base, base::FrameSnapshot
     writer.constant(constant::Shutter) = 0.0f;
 }
 
-/// The rows [begin, end).
+/// The elements [begin, end), by ascending id.
 void FragmentsSolver::writeTrail(uint32_t solver, uint32_t begin, uint32_t end, BlobWriter& writer) const
 {
     namespace column = trail_column;
     const TrailDef& def = def_.trail;
-    for (size_t k = 0; k < 3; ++k) {
-        writer.copy(blob::PositionX + k, trail_.at(column::X + k), begin, end);
-        writer.copy(blob::VelocityX + k, trail_.at(column::VelocityX + k), begin, end);
+    for (size_t k = 0; k < 3; ++k)
         writer.fill(blob::EmissionR + k, 0.0f, begin, end);
-    }
     for (uint32_t i = begin; i < end; ++i) {
-        const float age = float(base::toSeconds(now_ - trail_.born[i]));
-        const float life = float(base::toSeconds(trail_.dies[i] - trail_.born[i]));
-        const SmokeAppearance appearance = smokeAppearance(def, trail_.at(column::Radius)[i], age, life);
+        const uint32_t row = trail_.order[i];
+        const float age = float(base::toSeconds(now_ - trail_.born[row]));
+        const float life = float(base::toSeconds(trail_.dies[row] - trail_.born[row]));
+        const SmokeAppearance appearance = smokeAppearance(def, trail_.at(column::Radius)[row], age, life);
+        for (size_t k = 0; k < 3; ++k) {
+            writer.column(blob::PositionX + k)[i] = trail_.at(column::X + k)[row];
+            writer.column(blob::VelocityX + k)[i] = trail_.at(column::VelocityX + k)[row];
+        }
         const std::array<float, 3> albedo = def.albedoOverLife.at(age / life);
         writer.column(blob::Radius)[i] = appearance.radius;
-        writer.column(blob::CrossSection)[i] = trail_.at(column::CrossSection)[i] * appearance.share;
+        writer.column(blob::CrossSection)[i] = trail_.at(column::CrossSection)[row] * appearance.share;
         writer.column(blob::Temperature)[i] = appearance.temperature;
         writer.column(blob::FireShare)[i] = fireShareOf(appearance.temperature, kGlow);
         writer.column(blob::Heat)[i] = def_.heat * (appearance.temperature - kAirTemperature);
         writer.column(blob::Age)[i] = age;
         for (size_t k = 0; k < 3; ++k)
             writer.column(blob::AlbedoR + k)[i] = albedo[k];
-        writer.ids()[i] = blobId(solver, kTrail | trail_.id[i]);
+        writer.ids()[i] = blobId(solver, kTrail | trail_.id[row]);
     }
     writer.addBounds(begin, end);
 }

@@ -136,13 +136,13 @@ std::unique_ptr<Solver> FragmentsDef::create(const base::SnapshotSchema& schema,
 FragmentsSolver::FragmentsSolver(const FragmentsDef& def, base::KindId kind,
                                  std::pmr::memory_resource* memory)
     : def_(def), kind_(kind), start_(boundedTicks(def.start)), fragments_(memory, def.count),
-      trail_(memory, def.capacity() - def.count), ways_(memory, def.count)
+      trail_(memory, def.capacity() - def.count, def.count), ways_(memory, def.count)
 {}
 
 uint64_t FragmentsDef::bytes() const
 {
     return uint64_t(count) * (FragmentStore::kRowBytes + sizeof(FragmentWay)) +
-           TrailStore::bytesOf(capacity() - count);
+           TrailStore::bytesOf(capacity() - count, count);
 }
 
 /// All that there is room for moves and is shown; of the smoke, what dies is left anew.
@@ -176,6 +176,7 @@ bool FragmentsSolver::proceed(const StepContext& context, base::WorkBudget& work
         fragments_.trailed[i] += ways_[i].blobs;
     fragments_.removeDead(step.end);
     trail_.removeDead(step.end);
+    trail_.sort();
     now_ = step.end;
     open_.tick = -1;
     return true;

@@ -24,6 +24,7 @@ class Simulation(unittest.TestCase):
         for group in groups:
             self.assertEqual({len(column) for column in group.columns.values()}, {len(group.ids)})
             self.assertEqual(group.units["radius"], "m")
+            self.assertTrue((group.ids[1:] > group.ids[:-1]).all())
 
     def test_equal_calls_give_equal_bits(self):
         hashes = []
