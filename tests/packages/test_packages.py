@@ -74,7 +74,7 @@ class Unpacked(unittest.TestCase):
 
     def test_python(self):
         package = next(self.prefix.rglob("dist-packages"))
-        environment = self.environment | {"PYTHONPATH": str(package)}
+        environment = self.environment | {"PYTHONPATH": str(package), "FX_INCLUDE": str(self.prefix / "include")}
         picture = self.folder / "campfire.png"
         run(PYTHON, "-m", "fxsdk", "campfire", "--time", "0.5", "--size", "48x32", "-o", picture, env=environment)
         self.assertTrue(drawn(picture))
@@ -140,6 +140,16 @@ class Archive(Unpacked):
 
 class Sources(unittest.TestCase):
     """The sources as a part of another project, by add_subdirectory."""
+
+    def test_the_library_alone_is_configured_as_documented(self):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, folder)
+        page = (ROOT / "docs/howto/install.md").read_text()
+        line, = re.findall(r"^cmake -G Ninja -B build (.*)$", page, re.MULTILINE)
+        run("cmake", "-G", "Ninja", "-S", ROOT, "-B", folder, *line.split())
+        targets = set(re.findall(r"^(\S+): ", run("ninja", "-C", folder, "-t", "targets", "all"), re.MULTILINE))
+        self.assertEqual({"fxsdk", "fxsdk_static"} - targets, set())
+        self.assertEqual({"fx", "tests_unit", "00_hello"} & targets, set())
 
     def test_host_by_add_subdirectory(self):
         folder = pathlib.Path(tempfile.mkdtemp())

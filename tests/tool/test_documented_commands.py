@@ -24,7 +24,7 @@ DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "benchmarks/RE
 EXCEPTIONS = {
     "./scripts/demo": "installs packages and builds",
     "./scripts/test": "installs packages, builds, and runs this test",
-    "cmake -G Ninja -B build -DFXSDK_BUILD_TOOLS=OFF -DFXSDK_BUILD_EXAMPLES=OFF -DFXSDK_BUILD_TESTS=OFF": "packages.Sources configures so",
+    "cmake -G Ninja -B build -DFXSDK_BUILD_TOOLS=OFF -DFXSDK_BUILD_EXAMPLES=OFF -DFXSDK_BUILD_TESTS=OFF": "builds; packages.Sources configures so",
     "cmake --build build": "builds",
     "cmake --install build --prefix /usr/local": "writes to the system; the tests packages.* install",
     "./scripts/package": "the tests packages.*",

@@ -16,10 +16,13 @@
 
 #include "fxsdk/fxsdk.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fxsdk {
@@ -194,6 +197,7 @@ public:
         std::vector<FxInstanceId> all(count);
         if (count > 0)
             check(fxScene_GetInstances(get(), all.data(), count, &count));
+        all.resize(count);
         return all;
     }
 
@@ -204,6 +208,7 @@ public:
         check(fxScene_SaveState(get(), nullptr, 0, &size));
         std::vector<unsigned char> state(size);
         check(fxScene_SaveState(get(), state.data(), state.size(), &size));
+        state.resize(size);
         return state;
     }
     void restoreState(const std::vector<unsigned char>& state)

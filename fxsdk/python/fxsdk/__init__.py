@@ -19,6 +19,7 @@ import ctypes
 import dataclasses
 import math
 import struct as _binary
+import weakref
 import zlib
 
 import numpy
@@ -32,14 +33,32 @@ _STEP = 1.0 / 60.0  # [s]
 _BRIGHT_SKY = (0.30, 0.38, 0.50)  # exposed
 
 
+#: Definitions of contexts that exist in the library: their callbacks are called until the context is destroyed.
+_definitions = {}
+
+
 class _Object:
-    """Owns an object of the C API."""
+    """Owns an object of the C API. @param pointer to it; null when it is destroyed"""
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
         self.close()
+
+
+class _Owned(_Object):
+    """A scene or a view, which keeps its context."""
+    _destroy = None
+
+    def __init__(self, context):
+        self._context = context
+        context._owned.add(self)
+
+    def close(self):
+        if self.pointer:
+            self._destroy(self.pointer)
+            self.pointer = None
 
 
 class Context(_Object):
@@ -55,11 +74,14 @@ class Context(_Object):
         if gl is not None:
             loader = definition.gl
             loader.getProcAddress = dict(loader._fields_)["getProcAddress"](lambda user, name: gl(name))
-        self._definition = definition  # keeps the callbacks
         self._presets = {}
-        self._owned = []
+        self._owned = weakref.WeakSet()
         self.pointer = opaque("FxContext")
         fx.fxCreateContext(ctypes.byref(definition), ctypes.byref(self.pointer))
+        _definitions[self._key()] = definition
+
+    def _key(self):
+        return ctypes.cast(self.pointer, ctypes.c_void_p).value
 
     def load(self, name):
         """The preset of a *.fx.json file, or of the library under a name such as "explosion"; loaded once."""
@@ -85,10 +107,12 @@ class Context(_Object):
     def close(self):
         """Destroys the context with its scenes and views."""
         if self.pointer:
+            key = self._key()
             fx.fxDestroyContext(self.pointer)
             for owned in self._owned:
                 owned.pointer = None
             self.pointer = None
+            del _definitions[key]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -113,15 +137,15 @@ class Group:
         return self.position + turned
 
 
-class Scene(_Object):
+class Scene(_Owned):
     """Instances of effects, and a clock."""
+    _destroy = staticmethod(fx.fxDestroyScene)
 
     def __init__(self, context, **members):
-        self._context = context
         definition = assign(default("FxSceneDef"), members)
         self.pointer = opaque("FxScene")
         fx.fxCreateScene(context.pointer, ctypes.byref(definition), ctypes.byref(self.pointer))
-        context._owned.append(self)
+        super().__init__(context)
 
     def add(self, preset, **members):
         """An instance of a preset, named as for Context.load(). @param members of FxInstanceDef, such as
@@ -185,24 +209,23 @@ class Scene(_Object):
         return Group(group.kind.decode(), group.instance.bits, group.solver, group.scale, numpy.array(group.position),
                      numpy.array(group.rotation, float), _copied(group.ids, group.count), units, columns)
 
-    def close(self):
-        if self.pointer:
-            fx.fxDestroyScene(self.pointer)
-            self.pointer = None
 
-
-class View(_Object):
+class View(_Owned):
     """Draws a scene. @param settings members of FxViewSettings"""
+    _destroy = staticmethod(fx.fxDestroyView)
 
     def __init__(self, context, scene, **settings):
         self._settings = assign(default("FxViewSettings"), settings)
         self.pointer = opaque("FxView")
         fx.fxCreateView(context.pointer, scene.pointer, ctypes.byref(self._settings), ctypes.byref(self.pointer))
-        context._owned.append(self)
+        self._scene = scene
+        super().__init__(context)
 
     def set(self, **settings):
-        """Changes members of FxViewSettings."""
-        fx.fxView_SetSettings(self.pointer, ctypes.byref(assign(self._settings, settings)))
+        """Changes members of FxViewSettings. A failed call changes nothing."""
+        changed = assign(type(self._settings).from_buffer_copy(self._settings), settings)
+        fx.fxView_SetSettings(self.pointer, ctypes.byref(changed))
+        self._settings = changed
 
     def render(self, **frame):
         """Draws a frame. @param frame members of FxFrameDef: camera and target"""
@@ -211,11 +234,6 @@ class View(_Object):
     def statistics(self):
         """FxViewStatistics."""
         return filled("FxViewStatistics", fx.fxView_GetStatistics, self.pointer)
-
-    def close(self):
-        if self.pointer:
-            fx.fxDestroyView(self.pointer)
-            self.pointer = None
 
 
 def _copied(pointer, count):
