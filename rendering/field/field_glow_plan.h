@@ -56,7 +56,10 @@ public:
     /// @param choice null: all fields may have networks
     void build(std::span<FieldBlock> ioFields, std::span<const float> emitted, const glm::dvec3& eye,
                int networkCells = 0, const Choice* choice = nullptr);
+    /// Removes the grids. The next frame still knows which media had networks.
     void clear() { grids_.clear(); }
+    /// Forgets which media had networks, for a frame without any.
+    void forget() { kept_.clear(); }
 
     std::span<const FieldGlowBlock> grids() const { return grids_; }
 

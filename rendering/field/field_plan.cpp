@@ -120,8 +120,10 @@ void FieldPlan::clear()
 void FieldPlan::build(const FieldPlanInputs& in)
 {
     clear();
-    if (in.balls.empty())
+    if (in.balls.empty()) {
+        glow_.forget();
         return;
+    }
     chooseVoxels(in);
     const auto isDetailed = [](const BlobEffect& effect) { return effect.detail >= 0; };
     const bool isMixed =
