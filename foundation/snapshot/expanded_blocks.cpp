@@ -111,6 +111,7 @@ public:
                 break;
             places_[size_t(variant)] = uint32_t(root_);
         }
+        leaveOutEmpty(end);
     }
 
     const SnapshotGroup& root() const { return snapshot_.added(root_); }
@@ -123,6 +124,27 @@ public:
     }
 
 private:
+    /// Removes the variants without any ball, so that a walk through blocks ends with the balls. What a block
+    /// consists of comes before it.
+    void leaveOutEmpty(size_t end)
+    {
+        const KindId balls = snapshot_.schema().find(kBlockBallKind.name);
+        for (size_t place = root_ + 1; place < end; ++place) {
+            const SnapshotGroup& group = snapshot_.added(place);
+            const bool isBalls = group.info().kind == balls;
+            bool isEmpty = group.count() == 0;
+            for (uint32_t i = 0; !isBalls && !isEmpty; ++i) {
+                if (i == group.count())
+                    isEmpty = true;
+                else if (contentOf(group, i))
+                    break;
+            }
+            if (isEmpty)
+                places_[size_t(group.constants()[isBalls ? size_t(block_ball_constant::Variant)
+                                                         : size_t(block_constant::Owner)])] = kAbsent;
+        }
+    }
+
     const FrameSnapshot& snapshot_;
     std::array<uint32_t, kMaxBlockVariants> places_; ///< by variant
     size_t root_;

@@ -18,8 +18,9 @@ namespace {
 using base::RandomPurpose;
 using base::randomUnit4;
 
-constexpr uint32_t kTrials = 256;   ///< places tried for each lump
-constexpr float kAnvilFoot = 0.72f; ///< [1] share of the height above which an anvil spreads
+constexpr uint32_t kTrials = 256;                  ///< places tried for each lump
+constexpr uint64_t kMaxTrials = uint64_t(1) << 21; ///< places tried for all lumps, some tenths of a second
+constexpr float kAnvilFoot = 0.72f;                ///< [1] share of the height above which an anvil spreads
 constexpr float kFilamentShare = 0.35f;
 constexpr float kPlumeFoot = 0.18f; ///< [1] width of a plume at its foot over that at its top
 
@@ -71,7 +72,8 @@ public:
         const float cut = build_.base * build_.size.y;
         if (hasFoot() && p.y < cut)
             return -1.0f;
-        return std::min(bareDepthAt(p) + build_.noise * noise_.at(p), 1.0f);
+        const float bare = bareDepthAt(p);
+        return bare < -build_.noise ? bare : std::min(bare + build_.noise * noise_.at(p), 1.0f);
     }
 
 private:
@@ -181,7 +183,7 @@ std::vector<BlockLump> buildLumps(const BlockBuild& build)
     std::vector<BlockLump> lumps;
     lumps.reserve(build.count);
     const glm::vec3 low = form.lowest(), high = form.high();
-    const uint64_t trials = uint64_t(build.count) * kTrials;
+    const uint64_t trials = std::min(uint64_t(build.count) * kTrials, kMaxTrials);
     for (uint64_t trial = 0; trial < trials && lumps.size() < build.count; ++trial) {
         const auto u = randomUnit4(build.seed, 0, trial, RandomPurpose::Position);
         const glm::vec3 place = low + glm::vec3(u[0], u[1], u[2]) * (high - low);

@@ -23,6 +23,8 @@ using base::Ticks;
 static_assert(blob::Count == 18);
 
 constexpr double kStepsPerSecond = 60.0;
+constexpr uint64_t kMaxRecordingWork = uint64_t(1) << 25; ///< particle steps, some tenths of a second
+constexpr uint64_t kStepWork = 64;                        ///< [particle step] of a step without particles
 constexpr uint32_t kMaxPeriods = (1u << BlockLoop::kPeriodBits) - 2; ///< of a life, so that ids are unique
 
 /// One emitter whose births end with the period, and what it needs to be stepped alone.
@@ -63,6 +65,7 @@ public:
     }
 
     bool isOver(Ticks tick) const { return solver_->finished(tick); }
+    uint64_t particles() const { return solver_->elementCount(); }
 
 private:
     EmitterDef def_;
@@ -82,6 +85,9 @@ private:
 base::Result<std::shared_ptr<const BlockLoop>> BlockLoop::record(const EmitterDef& emitter,
                                                                  const Settings& settings)
 {
+    if (emitter.lifetime.max > settings.period * float(kMaxPeriods))
+        return Status(Code::InvalidArgument, "the lifetime is more than " + std::to_string(kMaxPeriods) +
+                                                 " periods; make the period longer");
     const base::FloatingPointScope floatingPoint;
     auto loop = std::make_shared<BlockLoop>();
     const uint32_t frames = settings.frames;
@@ -90,6 +96,7 @@ base::Result<std::shared_ptr<const BlockLoop>> BlockLoop::record(const EmitterDe
     const auto steps =
         std::max(uint32_t(std::ceil(base::toSeconds(loop->frameTicks_) * kStepsPerSecond)), 1u);
     Recording recording(emitter, settings);
+    uint64_t work = 0;
     const Ticks end = loop->period() + base::toTicks(double(emitter.lifetime.max)) + loop->frameTicks_;
     for (uint32_t frame = 0;; ++frame) {
         const Ticks now = loop->frameTicks_ * Ticks(frame);
@@ -107,13 +114,16 @@ base::Result<std::shared_ptr<const BlockLoop>> BlockLoop::record(const EmitterDe
             }
         if (now > end || (now >= loop->period() && recording.isOver(now)))
             break;
-        for (uint32_t k = 0; k < steps; ++k)
+        for (uint32_t k = 0; k < steps; ++k) {
             recording.step(now + loop->frameTicks_ * Ticks(k) / Ticks(steps),
                            now + loop->frameTicks_ * Ticks(k + 1) / Ticks(steps));
+            work += kStepWork + recording.particles();
+            if (work > kMaxRecordingWork)
+                return Status(Code::TooLarge, "the loop takes more than " +
+                                                  std::to_string(kMaxRecordingWork) +
+                                                  " particle steps; lower the rate, period or lifetime");
+        }
     }
-    if (double(emitter.lifetime.max) > base::toSeconds(loop->period()) * double(kMaxPeriods))
-        return Status(Code::InvalidArgument, "the lifetime is more than " + std::to_string(kMaxPeriods) +
-                                                 " periods; make the period longer");
     loop->measure();
     if (loop->maxBalls_ == 0)
         return Status(Code::InvalidArgument, "the emitter has no balls within the period");

@@ -41,7 +41,8 @@ public:
 
     /// Runs the emitter, a medium without events, in steps of at most 1/60 s. Its births are those of the
     /// first period.
-    /// @return TooLarge for more than kMaxLoopRows rows, InvalidArgument if there are no balls
+    /// @return TooLarge for more than kMaxLoopRows rows or 2^25 steps of particles, InvalidArgument if
+    ///         there are no balls or the lifetime is more than 14 periods
     static base::Result<std::shared_ptr<const BlockLoop>> record(const EmitterDef& emitter,
                                                                  const Settings& settings);
 

@@ -49,7 +49,7 @@ Status measureBlocks(std::span<const BlockType> before, BlockType& io)
     if (io.levels > base::kMaxBlockLevels)
         return {Code::InvalidArgument, "\"" + io.name + "\" has " + std::to_string(io.levels) +
                                            " levels of blocks; allowed are " +
-                                           std::to_string(base::kMaxBlockLevels)};
+                                           std::to_string(base::kMaxBlockLevels) + "; use fewer levels"};
     return {};
 }
 
@@ -69,6 +69,10 @@ Status completeTypes(std::span<BlockType> ioTypes)
             return status;
         if (type.span > kMaxBlockSpan)
             return {Code::TooLarge, "\"" + type.name + "\" has too many balls; use fewer blocks"};
+        if (type.blockCount > kMaxInnerBlocks)
+            return {Code::TooLarge, "\"" + type.name + "\" consists of " + std::to_string(type.blockCount) +
+                                        " blocks; allowed are " + std::to_string(kMaxInnerBlocks) +
+                                        "; use fewer blocks"};
     }
     return {};
 }

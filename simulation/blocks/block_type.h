@@ -27,9 +27,10 @@ struct BlockPlacement
     uint32_t phase = 0;                         ///< of the type's animation, below BlockType::phases
 };
 
-constexpr size_t kMaxBlockBalls = size_t(1) << 20;  ///< of all lists of an effect
-constexpr size_t kMaxBlockPlaces = size_t(1) << 18; ///< of all lists of an effect
-constexpr uint64_t kMaxBlockSpan = uint64_t(1) << 36;
+constexpr size_t kMaxBlockBalls = size_t(1) << 20;      ///< in all lists and loops of the types of a solver
+constexpr size_t kMaxBlockPlaces = size_t(1) << 18;     ///< in all lists of the types of a solver
+constexpr uint64_t kMaxBlockSpan = uint64_t(1) << 36;   ///< ids of a type
+constexpr uint64_t kMaxInnerBlocks = uint64_t(1) << 22; ///< blocks in a block, at all levels
 
 /// A type has one of `balls`, `loop` and `blocks`.
 struct BlockType

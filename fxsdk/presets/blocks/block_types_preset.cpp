@@ -161,18 +161,21 @@ void readContent(const PresetValue& element, std::span<const sim::BlockType> bef
         readBuiltBalls(element, out.balls);
 }
 
-void checkTotals(const PresetValue& element, const std::vector<sim::BlockType>& types)
+/// @return false after an error
+bool checkTotals(const PresetValue& element, const std::vector<sim::BlockType>& types)
 {
     size_t balls = 0, blocks = 0;
     for (const sim::BlockType& type : types) {
-        balls += type.balls.size();
+        balls += type.balls.size() + (type.loop ? size_t(type.loop->rowCount()) : 0);
         blocks += type.blocks.size();
     }
-    if (balls > sim::kMaxBlockBalls || blocks > sim::kMaxBlockPlaces)
-        element.error("types", "found " + std::to_string(balls) + " balls and " + std::to_string(blocks) +
-                                   " blocks in types; allowed are " + std::to_string(sim::kMaxBlockBalls) +
-                                   " and " + std::to_string(sim::kMaxBlockPlaces) +
-                                   "; use blocks of fewer types");
+    if (balls <= sim::kMaxBlockBalls && blocks <= sim::kMaxBlockPlaces)
+        return true;
+    element.error("types", "found " + std::to_string(balls) + " balls and " + std::to_string(blocks) +
+                               " blocks in types; allowed are " + std::to_string(sim::kMaxBlockBalls) +
+                               " and " + std::to_string(sim::kMaxBlockPlaces) +
+                               "; use blocks of fewer types");
+    return false;
 }
 
 } // namespace
@@ -188,9 +191,10 @@ void readBlockTypes(const PresetValue& element, std::vector<sim::BlockType>& out
         readContent(type, out, made);
         out.push_back(std::move(made));
         if (const base::Status status = sim::completeTypes(out); !status)
-            return type.error("name", "the type " + status.message() + "; use fewer levels");
+            return type.error("name", "the type " + status.message());
+        if (!checkTotals(element, out))
+            return;
     }
-    checkTotals(element, out);
 }
 
 void readBlockList(const PresetValue& element, std::span<const sim::BlockType> types,

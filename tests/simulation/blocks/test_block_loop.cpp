@@ -123,6 +123,18 @@ TEST(BlockLoop, neverLeavesItsRadius)
     }
 }
 
+TEST(BlockLoop, refusesWhatTakesTooManySteps)
+{
+    const auto slow = boiling(5000.0f);
+    slow->maxParticles = 20000;
+    sim::BlockLoop::Settings settings;
+    settings.period = 600.0f;
+    settings.frames = 2;
+    const auto loop = sim::BlockLoop::record(*slow, settings);
+    ASSERT_EQ(loop.status().code(), base::Code::TooLarge);
+    EXPECT_NE(loop.status().message().find("particle steps"), std::string::npos) << loop.status().message();
+}
+
 TEST(BlockLoop, refusesWhatIsTooLargeOrEmpty)
 {
     sim::BlockLoop::Settings settings;

@@ -77,6 +77,15 @@ TEST(BlockTypes, fourLevelsAreTheMost)
         << status.message();
 }
 
+TEST(BlockTypes, aBlockOfTooManyBlocksIsRefused)
+{
+    std::vector<sim::BlockType> types{typeOf("puff", sim::BallList{ballAt({0, 0, 0})})};
+    types.push_back(typeOf("cloud", std::vector(2048, placedAt({1, 0, 0}, 0))));
+    ASSERT_TRUE(sim::completeTypes(types).ok());
+    types.push_back(typeOf("sky", std::vector(2048, placedAt({1, 0, 0}, 1))));
+    EXPECT_EQ(sim::completeTypes(types).code(), base::Code::TooLarge);
+}
+
 TEST(BlockTypes, fourLevelsAreExpanded)
 {
     sim::BlocksDef def;
