@@ -9,12 +9,20 @@
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/scenes/frame_changes.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace fx::cli {
 namespace {
+
+/// Balls below this radius are widened to it, their cross section kept, in all pictures. Sparks are smaller
+/// than a pixel: the reference's one ray hits one in a frame and misses it in the next, which is its own
+/// flicker.
+constexpr double kLeastRadius = 0.75; // [pixel]
 
 struct FlightSetting
 {
@@ -56,6 +64,13 @@ std::vector<float> luminanceOf(const LitPicture& picture)
     return luminance;
 }
 
+void widenSmallBalls(int height, FlightFrame& io)
+{
+    const double slope = 2.0 * std::tan(0.5 * io.view.fovYDegrees * std::numbers::pi / 180.0) / height;
+    for (render::MediumBlob& blob : io.blobs)
+        blob.radius = std::max(blob.radius, kLeastRadius * slope * glm::distance(blob.center, io.view.eye));
+}
+
 class FlightAccuracy final : public AccuracyTechnique
 {
 public:
@@ -72,6 +87,7 @@ public:
                                  {{"frames", frames_},
                                   {"width", size_.width},
                                   {"height", size_.height},
+                                  {"least_radius", kLeastRadius},
                                   {"bound", bound_.factor},
                                   {"control", setting.isControl}}});
     }
@@ -129,7 +145,8 @@ base::Status FlightAccuracy::start(const std::function<bool()>& stop)
     if (!flight.ok())
         return flight.status();
     flight_ = std::move(*flight);
-    for (const FlightFrame& frame : flight_) {
+    for (FlightFrame& frame : flight_) {
+        widenSmallBalls(size_.height, frame);
         const auto picture = integrated(frame.blobs, frame.view, size_, stop);
         if (!picture.ok())
             return picture.status();
