@@ -35,7 +35,7 @@ constexpr Broken kBroken[] = {
     {"presetAboveTheFolder", "\"instances\":[{\"preset\":\"a/../../x.fx.json\"}]", "/instances/0/preset",
      "\"..\" leads out"},
     {"unknownLibraryPreset", "\"instances\":[{\"preset\":\"library:explosoin\"}]", "/instances/0/preset",
-     "it holds: artillery-dirt barrel-smoke"},
+     "it holds: artillery-dirt ash-plume"},
     {"brokenPreset", "\"instances\":[{\"preset\":\"broken.fx.json\"}]", "/instances/0/preset",
      "broken.fx.json:1:25: /duration"},
     {"missingPresetMember", "\"instances\":[{}]", "/instances/0", "\"preset\" is missing"},

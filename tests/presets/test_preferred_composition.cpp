@@ -61,16 +61,18 @@ TEST(PreferredComposition, isNoPartOfTheEffect)
               effectOf(presetWith(""))->fingerprint);
 }
 
-TEST(PreferredComposition, ofTheLibraryIsVolumeWhereMediaHaveDetail)
+TEST(PreferredComposition, ofTheLibraryIsVolumeWhereMediaHaveDetailAndSlabsForBlocks)
 {
     size_t detailed = 0;
     for (const auto& entry : fx::preset::presetLibrary()) {
         const bool hasDetail = entry.text.find("\"detail\":") != std::string_view::npos;
+        const bool hasBlocks = entry.text.find("\"blocks\":") != std::string_view::npos;
         const auto loaded = fx::preset::loadPresetText(entry.text, std::string(entry.name));
         ASSERT_TRUE(loaded.ok()) << loaded.status().message();
-        EXPECT_EQ(loaded->effect->hints.composition,
-                  hasDetail ? PreferredComposition::Volume : PreferredComposition::None)
-            << entry.name;
+        const auto expected = hasDetail   ? PreferredComposition::Volume
+                              : hasBlocks ? PreferredComposition::Slabs
+                                          : PreferredComposition::None;
+        EXPECT_EQ(loaded->effect->hints.composition, expected) << entry.name;
         detailed += hasDetail ? 1 : 0;
     }
     EXPECT_GE(detailed, 11u);
