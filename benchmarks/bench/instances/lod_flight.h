@@ -18,7 +18,7 @@ constexpr double kLodEyeHeight = 40.0; ///< [m]
 /// Limits of pops. At most one in a hundred of the changed blocks changes by more than kLodPopP99. No block
 /// changes by more than kMaxLodPop times the largest change of the flight itself. Blocks are used because
 /// single pixels at the edge of a thick flame change with motion of a hundredth of a pixel.
-constexpr double kLodPopP99 = 0.04; ///< [1] 99th percentile of pops, in display values
+constexpr double kLodPopP99 = 0.045; ///< [1] 99th percentile of pops, in display values
 constexpr double kMaxLodPop = 0.6;  ///< [1] factor on the largest change of the flight
 
 /// A case of the measurement.
