@@ -1,5 +1,5 @@
 /// @file late_groups.h
-/// Groups of a snapshot whose rows are computed when they are first read, so that rows that nobody reads cost
+/// Groups of a snapshot whose rows are computed when they are first read. Rows that are never read cost
 /// nothing.
 #pragma once
 

@@ -85,7 +85,7 @@ public:
     Ends follow(bool forward, std::span<const float> source, double entering, std::span<double> ioMet) const;
 
     size_t links() const { return links_.size(); } ///< number of symbols t
-    /// [byte] Largest memory for a link, that of its construction included.
+    /// [byte] Memory for a link while its bundle is built, without the spare capacity of lists.
     static constexpr size_t kBytesOfLink = 68;
     size_t bytes() const;
 

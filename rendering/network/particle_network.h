@@ -63,8 +63,8 @@ public:
     static constexpr size_t kMaxParticles = 4096;
     static constexpr double kMaxBytes = 0x1p31; ///< [byte] largest value of mostBytes()
 
-    /// [byte] Upper bound of the memory in which a network is built and iterated, for settings within their
-    /// ranges.
+    /// [byte] Estimate of the memory in which a network is built and iterated, from an upper bound of its
+    /// links; lists that grow may have as much in spare.
     static double mostBytes(std::span<const NetworkParticle> particles,
                             const ParticleNetworkSettings& settings);
 

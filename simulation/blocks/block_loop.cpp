@@ -37,7 +37,7 @@ public:
     {
         def_.emission.duration =
             std::clamp(settings.period - def_.emission.start, 0.0f, def_.emission.duration);
-        kind_ = schema_.add(base::kBlobKind);
+        schema_.add(base::kBlobKind);
         solver_ = def_.create(schema_, {}, std::pmr::get_default_resource());
     }
 
@@ -73,7 +73,6 @@ private:
     std::unique_ptr<base::TaskRunner> tasks_;
     base::Arena scratch_;
     base::SnapshotSchema schema_;
-    base::KindId kind_ = base::kNoKind;
     base::FrameSnapshot snapshot_;
     std::unique_ptr<Solver> solver_;
     InstanceParameters parameters_;

@@ -1,5 +1,6 @@
 #include "simulation/blocks/block_noise.h"
 
+#include "foundation/math/elementary.h"
 #include "foundation/math/hash.h"
 
 #include <cmath>
@@ -24,7 +25,7 @@ float mix(float a, float b, float t)
 
 float fade(float t)
 {
-    return t * t * (3.0f - 2.0f * t);
+    return base::smoothStep(0.0f, 1.0f, t);
 }
 
 } // namespace

@@ -31,7 +31,7 @@ glm::vec2 discPoint(uint64_t seed, uint32_t stream, uint64_t index)
 
 glm::quat uprightTurn(uint64_t seed, uint64_t index)
 {
-    const glm::vec2 halfAngle = discPoint(seed, 0, index) / glm::length(discPoint(seed, 0, index));
+    const glm::vec2 point = discPoint(seed, 0, index), halfAngle = point / glm::length(point);
     return {halfAngle.x, 0.0f, halfAngle.y, 0.0f};
 }
 

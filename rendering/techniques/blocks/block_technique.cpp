@@ -1,11 +1,15 @@
 #include "foundation/snapshot/block_kind.h"
 #include "rendering/techniques/draw_techniques.h"
 
+#include <algorithm>
+
 namespace fx::render {
 
 namespace {
 
 namespace constant = base::block_constant;
+
+constexpr float kMostCounted = 4e9f; ///< below 2^32
 
 /// Counts the blocks of the visible effects. Their balls are drawn by kBlobTechnique.
 class BlockView final : public TechniqueView
@@ -42,7 +46,7 @@ private:
         else if (info.kind == blocks_ && group.constants()[constant::Owner] != base::kNoOwner)
             ++counts_.blocks;
         else if (info.kind == blocks_) {
-            counts_.blockInstances += uint32_t(group.constants()[constant::Blocks]);
+            counts_.blockInstances += uint32_t(std::min(group.constants()[constant::Blocks], kMostCounted));
             counts_.blockParticlesRefused += uint64_t(group.constants()[constant::Refused]);
             expands_ = {info.instance, info.solver, blobs_};
         } else if (base::nameOf(info) == expands_) {

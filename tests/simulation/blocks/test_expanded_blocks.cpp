@@ -1,4 +1,5 @@
-// The balls of hierarchies of blocks: placements, ids, bounds, and that nobody pays for what nobody reads.
+// Tests the balls of hierarchies of blocks: placements, ids, bounds, and that balls are computed only when
+// they are read.
 #include "block_fixture.h"
 
 #include <glm/gtc/quaternion.hpp>
