@@ -62,6 +62,12 @@ protected:
         return request;
     }
 
+    std::vector<float> stagePicture(const render::FrameRequest& frame, const render::StageLighting& lit)
+    {
+        EXPECT_TRUE(stage_->render(frame.camera, lit, kEv100, kSize, kSize).ok());
+        return render::readTexture(*device_, stage_->colorTexture(), kSize, kSize, 4);
+    }
+
     void prepare(const base::FrameSnapshot& snapshot, const render::FrameRequest& request)
     {
         base::SnapshotPair pair;
@@ -182,15 +188,11 @@ TEST_F(MediaShadow, inPointsAndSpotsFollowsTheClosedFormToo)
         render::StageLighting lit;
         lit.lighting.groundAlbedo = 0.0f;
         lit.lights = {&given, 1};
-        const auto picture = [&] {
-            EXPECT_TRUE(stage_->render(frame.camera, lit, kEv100, kSize, kSize).ok());
-            return render::readTexture(*device_, stage_->colorTexture(), kSize, kSize, 4);
-        };
-        const std::vector<float> open = picture();
+        const std::vector<float> open = stagePicture(frame, lit);
         given.shadow = view_->mediaShadow(render::LightKind::Host, i, frame.camera.origin);
         lit.shadowTexture = view_->mediaShadowTexture();
         EXPECT_GT(given.shadow->tiles[0].w, 0.5f);
-        const std::vector<float> shaded = picture();
+        const std::vector<float> shaded = stagePicture(frame, lit);
         double worst = 0.0;
         int shadowed = 0;
         for (int y = 0; y < kSize; ++y)
@@ -361,15 +363,11 @@ TEST_F(MediaShadow, ofAFireIsNotThatOfItsOwnBumps)
     render::StageLighting lit;
     lit.lighting.groundAlbedo = 0.0f;
     lit.lights = {&given, 1};
-    const auto picture = [&] {
-        EXPECT_TRUE(stage_->render(frame.camera, lit, kEv100, kSize, kSize).ok());
-        return render::readTexture(*device_, stage_->colorTexture(), kSize, kSize, 4);
-    };
-    const std::vector<float> open = picture();
+    const std::vector<float> open = stagePicture(frame, lit);
     given.shadow = view_->mediaShadow(render::LightKind::Effect, 0, frame.camera.origin);
     lit.shadowTexture = view_->mediaShadowTexture();
     ASSERT_GT(given.shadow->tiles[0].w, 0.5f);
-    const std::vector<float> shaded = picture();
+    const std::vector<float> shaded = stagePicture(frame, lit);
     double worst = 0.0;
     int seen = 0;
     for (int y = 0; y < kSize; ++y)
