@@ -19,7 +19,7 @@ constexpr double kLodEyeHeight = 40.0; ///< [m]
 /// changes by more than kMaxLodPop times the largest change of the flight itself. Blocks are used because
 /// single pixels at the edge of a thick flame change with motion of a hundredth of a pixel.
 constexpr double kLodPopP99 = 0.045; ///< [1] 99th percentile of pops, in display values
-constexpr double kMaxLodPop = 0.6;  ///< [1] factor on the largest change of the flight
+constexpr double kMaxLodPop = 0.6;   ///< [1] factor on the largest change of the flight
 
 /// A case of the measurement.
 struct LodCase
