@@ -23,8 +23,7 @@ using base::Ticks;
 static_assert(blob::Count == 18);
 
 constexpr double kStepsPerSecond = 60.0;
-constexpr uint64_t kMaxRecordingWork = uint64_t(1) << 25; ///< particle steps, some tenths of a second
-constexpr uint64_t kStepWork = 64;                        ///< [particle step] of a step without particles
+constexpr uint64_t kStepWork = 64; ///< [particle step] of a step without particles
 constexpr uint32_t kMaxPeriods = (1u << BlockLoop::kPeriodBits) - 2; ///< of a life, so that ids are unique
 
 /// One emitter whose births end with the period, and what it needs to be stepped alone.
@@ -117,9 +116,8 @@ base::Result<std::shared_ptr<const BlockLoop>> BlockLoop::record(const EmitterDe
             recording.step(now + loop->frameTicks_ * Ticks(k) / Ticks(steps),
                            now + loop->frameTicks_ * Ticks(k + 1) / Ticks(steps));
             work += kStepWork + recording.particles();
-            if (work > kMaxRecordingWork)
-                return Status(Code::TooLarge, "the loop takes more than " +
-                                                  std::to_string(kMaxRecordingWork) +
+            if (work > settings.maxWork)
+                return Status(Code::TooLarge, "the loop takes more than " + std::to_string(settings.maxWork) +
                                                   " particle steps; lower the rate, period or lifetime");
         }
     }

@@ -36,12 +36,13 @@ public:
         float period = 4.0f;  ///< [s] > 0
         uint32_t frames = 24; ///< in a period, 1 to kMaxLoopFrames
         uint64_t seed = 1;
+        uint64_t maxWork = uint64_t(1) << 25; ///< [particle step] bound of recording: some tenths of a second
         glm::vec3 gravity{0.0f, -9.80665f, 0.0f}; ///< [m/s2]
     };
 
     /// Runs the emitter, a medium without events, in steps of at most 1/60 s. Its births are those of the
     /// first period.
-    /// @return TooLarge for more than kMaxLoopRows rows or 2^25 steps of particles, InvalidArgument if
+    /// @return TooLarge for more than kMaxLoopRows rows or Settings::maxWork, InvalidArgument if
     ///         there are no balls or the lifetime is more than 14 periods
     static base::Result<std::shared_ptr<const BlockLoop>> record(const EmitterDef& emitter,
                                                                  const Settings& settings);

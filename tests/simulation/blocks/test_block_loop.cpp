@@ -130,6 +130,7 @@ TEST(BlockLoop, refusesWhatTakesTooManySteps)
     sim::BlockLoop::Settings settings;
     settings.period = 600.0f;
     settings.frames = 2;
+    settings.maxWork = 1u << 18;
     const auto loop = sim::BlockLoop::record(*slow, settings);
     ASSERT_EQ(loop.status().code(), base::Code::TooLarge);
     EXPECT_NE(loop.status().message().find("particle steps"), std::string::npos) << loop.status().message();
