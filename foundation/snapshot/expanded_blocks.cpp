@@ -1,7 +1,6 @@
 #include "foundation/snapshot/expanded_blocks.h"
 
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
+#include "foundation/snapshot/block_groups.h"
 
 #include <algorithm>
 #include <array>
@@ -11,45 +10,18 @@ namespace fx::base {
 namespace {
 
 namespace blob = blob_column;
-namespace block = block_column;
-
-constexpr uint32_t kAbsent = UINT32_MAX;
 
 glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
 {
     return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
 }
 
-/// What the blocks above an element do to it.
-struct Frame
+/// Blocks whose rows are to be expanded.
+struct Level
 {
-    const SnapshotGroup* blocks = nullptr; ///< group whose rows are to be expanded
-    uint32_t row = 0;                      ///< next row
-    glm::vec3 position{0.0f};
-    glm::vec3 velocity{0.0f};
-    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
-    float scale = 1.0f;
-    float density = 1.0f;
-    float age = kSettledAge;
-    uint64_t id = 0;
-
-    glm::vec3 turned(const glm::vec3& v) const { return rotation * (scale * v); }
-
-    /// The frame of the content of the block in row `i` of `blocks`.
-    Frame inside(uint32_t i) const
-    {
-        const auto value = [&](size_t column) { return blocks->start(column)[i]; };
-        Frame inner;
-        inner.position = position + turned(vectorAt(*blocks, block::PositionX, i));
-        inner.velocity = velocity + turned(vectorAt(*blocks, block::VelocityX, i));
-        inner.rotation = rotation * glm::quat(value(block::RotationW), value(block::RotationX),
-                                              value(block::RotationY), value(block::RotationZ));
-        inner.scale = scale * value(block::Scale);
-        inner.density = density * value(block::Density);
-        inner.age = std::min(age, value(block::Age));
-        inner.id = id + blocks->ids()[i];
-        return inner;
-    }
+    BlockFrame frame;
+    const SnapshotGroup* blocks = nullptr;
+    uint32_t row = 0; ///< next row
 };
 
 class BallWriter
@@ -60,7 +32,7 @@ public:
     bool isFull() const { return next_ == group_.count(); }
     uint32_t missing() const { return group_.count() - next_; }
 
-    void write(const SnapshotGroup& balls, const Frame& frame)
+    void write(const SnapshotGroup& balls, const BlockFrame& frame)
     {
         const uint32_t count = std::min(balls.count(), group_.count() - next_);
         const float section = frame.density * frame.scale * frame.scale;
@@ -93,74 +65,17 @@ private:
     uint32_t next_ = 0;
 };
 
-/// The groups of a solver's blocks.
-class BlockGroups
-{
-public:
-    /// @param end one above the place of the last of them; the first one is the blocks of the effect
-    BlockGroups(const FrameSnapshot& snapshot, size_t end) : snapshot_(snapshot), root_(end - 1)
-    {
-        places_.fill(kAbsent);
-        const KindId balls = snapshot.schema().find(kBlockBallKind.name);
-        for (; root_ > 0; --root_) {
-            const SnapshotGroup& group = snapshot.added(root_);
-            const float variant =
-                group.constants()[group.info().kind == balls ? size_t(block_ball_constant::Variant)
-                                                             : size_t(block_constant::Owner)];
-            if (variant == kNoOwner)
-                break;
-            places_[size_t(variant)] = uint32_t(root_);
-        }
-        leaveOutEmpty(end);
-    }
-
-    const SnapshotGroup& root() const { return snapshot_.added(root_); }
-    bool isBlocks(const SnapshotGroup& group) const { return group.info().kind == root().info().kind; }
-    /// The content of the block in row `i`; null if its variant has no group.
-    const SnapshotGroup* contentOf(const SnapshotGroup& blocks, uint32_t i) const
-    {
-        const uint32_t place = places_[size_t(blocks.start(block::Variant)[i])];
-        return place == kAbsent ? nullptr : &snapshot_.added(place);
-    }
-
-private:
-    /// Removes the variants without any ball, so that a walk through blocks ends with the balls. What a block
-    /// consists of comes before it.
-    void leaveOutEmpty(size_t end)
-    {
-        const KindId balls = snapshot_.schema().find(kBlockBallKind.name);
-        for (size_t place = root_ + 1; place < end; ++place) {
-            const SnapshotGroup& group = snapshot_.added(place);
-            const bool isBalls = group.info().kind == balls;
-            bool isEmpty = group.count() == 0;
-            for (uint32_t i = 0; !isBalls && !isEmpty; ++i) {
-                if (i == group.count())
-                    isEmpty = true;
-                else if (contentOf(group, i))
-                    break;
-            }
-            if (isEmpty)
-                places_[size_t(group.constants()[isBalls ? size_t(block_ball_constant::Variant)
-                                                         : size_t(block_constant::Owner)])] = kAbsent;
-        }
-    }
-
-    const FrameSnapshot& snapshot_;
-    std::array<uint32_t, kMaxBlockVariants> places_; ///< by variant
-    size_t root_;
-};
-
 } // namespace
 
 void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io)
 {
     const BlockGroups groups(snapshot, place);
     BallWriter writer(io);
-    std::array<Frame, kMaxBlockLevels> stack;
+    std::array<Level, kMaxBlockLevels> stack;
     size_t depth = 0;
     stack[depth++].blocks = &groups.root();
     while (depth > 0 && !writer.isFull()) {
-        Frame& top = stack[depth - 1];
+        Level& top = stack[depth - 1];
         if (top.row == top.blocks->count()) {
             --depth;
             continue;
@@ -169,13 +84,11 @@ void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io
         const SnapshotGroup* const content = groups.contentOf(*top.blocks, row);
         if (!content)
             continue;
-        Frame inner = top.inside(row);
-        if (!groups.isBlocks(*content)) {
+        const BlockFrame inner = top.frame.inside(*top.blocks, row);
+        if (!groups.isBlocks(*content))
             writer.write(*content, inner);
-        } else if (depth < stack.size()) {
-            inner.blocks = content;
-            stack[depth++] = inner;
-        }
+        else if (depth < stack.size())
+            stack[depth++] = {inner, content, 0};
     }
     io.editInfo().count -= writer.missing();
 }

@@ -76,6 +76,9 @@ public:
             return spread_->group(*this, place & ~kPooled);
         return groups_[place].info().isLate ? lateGroup(place) : groups_[place];
     }
+    /// The group at `index` without the rows of a late group, which this does not compute. The group must not
+    /// be pooled.
+    const SnapshotGroup& unread(size_t index) const { return groups_[placeOf(index)]; }
     /// Added group number `place`, without pooled groups. A late group has no rows here.
     const SnapshotGroup& added(size_t place) const { return groups_[place]; }
     /// Roster entry of a pooled group, by which its rows can be read in the pool; null if the group has its

@@ -147,7 +147,7 @@ void RowRevisions::build(const base::FrameSnapshot& newer, const base::FrameSnap
             parts_[g] = {0, rows, rows > 0 ? revisionOf(newer, g, older, ioLast) : 0};
             continue;
         }
-        const base::SnapshotGroup& group = newer.group(g);
+        const base::SnapshotGroup& group = newer.unread(g);
         parts_[g] = {0, group.count(), 0};
         if (!hasRows(group, kinds))
             continue;

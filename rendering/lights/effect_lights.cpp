@@ -1,5 +1,7 @@
 #include "rendering/lights/effect_lights.h"
 
+#include "foundation/snapshot/block_kind.h"
+
 #include "foundation/math/bits.h"
 
 #include <glm/geometric.hpp>
@@ -78,6 +80,32 @@ EffectLight GroupGlow::light(const base::Placement& placement, float extent, flo
     return light;
 }
 
+namespace {
+
+/// True if the balls of blocks do not glow, so that their rows need not be computed.
+bool isDark(const base::FrameSnapshot& snapshot, size_t index)
+{
+    namespace blob = base::blob_column;
+    const base::SnapshotGroup& late = snapshot.unread(index);
+    if (!late.info().isLate)
+        return false;
+    const base::KindId kind = snapshot.schema().find(base::kBlockBallKind.name);
+    for (size_t g = index; g-- > 0 && !snapshot.pooled(g);) {
+        const base::SnapshotGroup& balls = snapshot.unread(g);
+        if (balls.info().instance != late.info().instance || balls.info().solver != late.info().solver)
+            break;
+        if (balls.info().kind != kind)
+            continue;
+        const auto glows = [](float value) { return value > 0.0f; };
+        for (const size_t column : {blob::EmissionR, blob::EmissionG, blob::EmissionB, blob::Temperature})
+            if (std::ranges::any_of(balls.column(column), glows))
+                return false;
+    }
+    return true;
+}
+
+} // namespace
+
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSource* const> sources,
                     std::span<EffectLight> out)
 {
@@ -90,7 +118,8 @@ size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSo
     size_t count = 0;
     for (size_t g = 0; g < snapshot.groupCount() && !out.empty(); ++g) {
         const auto kind = std::find(kinds.begin(), kinds.begin() + sources.size(), snapshot.name(g).kind);
-        if (kind == kinds.begin() + sources.size() || snapshot.group(g).count() == 0)
+        if (kind == kinds.begin() + sources.size() || (!snapshot.pooled(g) && isDark(snapshot, g)) ||
+            snapshot.group(g).count() == 0)
             continue;
         EffectLight light;
         const LightSource* source = sources[size_t(kind - kinds.begin())];
