@@ -50,6 +50,8 @@ struct MediaComposition
     std::string_view meaning; ///< description in one line
     /// True: the composition needs balls of medium sorted by distance. False: balls are not sorted.
     bool needsOrder = true;
+    /// True: the composition draws the tiles of balls, see BallList::tiles. False: techniques must give none.
+    bool drawsTiles = false;
     /// Creates the composition's state in a view. Null: the composition has no state, and the media pass
     /// draws all streams.
     std::unique_ptr<CompositionView> (*create)(const TechniqueSetup& setup) = nullptr;

@@ -193,6 +193,21 @@ struct LodSettings
     bool operator==(const LodSettings&) const = default;
 };
 
+/// Settings of the impostors of blocks of medium. An impostor stands for all balls of a block.
+struct BlockSettings
+{
+    /// [pixel] Largest shift of the front of a block against its back, by which a tile may differ from the
+    /// true direction, and largest motion of animated content until a tile is drawn again. 0: all balls are
+    /// drawn.
+    float parallax = 0.5f;
+    float resolution = 1.0f; ///< texels of a tile per pixel, 0.25..4
+    /// [pixel] Largest diameter on the picture of blocks that are drawn as impostors, up to kMaxPixels.
+    float maxPixels = 96.0f;
+    static constexpr float kMaxPixels = 128.0f;
+
+    bool operator==(const BlockSettings&) const = default;
+};
+
 /// Settings for all frames until the host changes the settings.
 struct ViewSettings
 {
@@ -221,6 +236,7 @@ struct ViewSettings
     /// waits for the GPU.
     bool countOverdraw = false;
     LodSettings lod;
+    BlockSettings blocks;
     /// True: draw the boxes of FrameRequest::overlay, which the caller of the renderer fills.
     bool overlay = false;
     /// Least divisor of layers: 1, 2 or 4. Media and transparent particles are drawn to layers, with at most
@@ -349,6 +365,9 @@ struct FrameStatistics
     uint64_t blockParticles = 0; ///< blobs to which these blocks expand
     /// Blobs of blocks that are missing because they are beyond the bounds of their effects.
     uint64_t blockParticlesRefused = 0;
+    uint32_t blockImpostors = 0;     ///< blocks that were drawn as impostors
+    uint32_t blockTilesDrawn = 0;    ///< tiles that were drawn in this frame
+    uint32_t blockTilesDeferred = 0; ///< impostors with the tile of a neighboring direction or moment
 };
 
 } // namespace fx::render

@@ -95,19 +95,6 @@ private:
     bool hasOld_ = false;
 };
 
-float seedOf(uint64_t id)
-{
-    const uint64_t x = (id ^ (id >> 29)) * 0xBF58476D1CE4E5B9u;
-    return float(x >> 40) * 0x1.0p-24f;
-}
-
-/// @param instance, id identity of the ball in the scene: ids are unique in an instance
-/// @param piece of its streak
-float listRank(uint64_t instance, uint64_t id, int piece)
-{
-    return float(base::hashWord(base::hashWord(instance, id), uint64_t(piece)) >> 40) * 0x1.0p-24f;
-}
-
 /// Squares are finite too: shaders take dot products, and compilers of drivers may negate comparisons.
 bool finite(const GatheredBlob& b, const glm::vec3& velocity)
 {
@@ -246,7 +233,7 @@ private:
         blob.emission = reader.vector(column::EmissionR);
         blob.fireShare = glm::clamp(reader.value(column::FireShare), 0.0f, 1.0f);
         blob.heat = reader.value(column::Heat);
-        blob.seed = seedOf(reader.id());
+        blob.seed = detailSeed(reader.id());
         blob.detailAmount = constants[constant::DetailAmount];
         blob.detailScale = constants[constant::DetailScale];
         blob.anisotropy = constants[constant::Anisotropy];
@@ -351,13 +338,39 @@ void addRun(const BlobRun& run, std::pmr::vector<BlobRun>& ioRuns)
     ioRuns.back().mediumEnd = run.mediumEnd;
 }
 
+bool hasLateBalls(uint64_t instance, std::span<const LateBalls> late)
+{
+    return std::ranges::any_of(late, [=](const LateBalls& balls) { return balls.name.instance == instance; });
+}
+
+const LateBalls* lateBallsOf(const base::GroupName& name, std::span<const LateBalls> late)
+{
+    const auto same = std::ranges::find(late, name, &LateBalls::name);
+    return same == late.end() ? nullptr : &*same;
+}
+
+void addLate(const LateBalls& late, bool castsShadows, std::pmr::vector<GatheredBlob>& ioVisible,
+             std::pmr::vector<MediumCaster>& ioMedium, std::pmr::vector<InstanceBlobs>& ioInstances,
+             FieldGather* ioFields)
+{
+    const BlobRun begin{ioInstances.size() - 1, -1, ioVisible.size(), 0, ioMedium.size(), 0};
+    ioVisible.insert(ioVisible.end(), late.visible.begin(), late.visible.end());
+    if (castsShadows)
+        ioMedium.insert(ioMedium.end(), late.casters.begin(), late.casters.end());
+    ioInstances.back().visibleEnd = ioVisible.size();
+    if (ioFields)
+        addRun({begin.instance, -1, begin.visibleBegin, ioVisible.size(), begin.mediumBegin, ioMedium.size()},
+               ioFields->runs);
+}
+
 } // namespace
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share, LevelOfDetail* lod,
-                         ImpostorField* impostors, bool castsShadows, FieldGather* outFields)
+                         ImpostorField* impostors, bool castsShadows, FieldGather* outFields,
+                         std::span<const LateBalls> late)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -372,15 +385,21 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         if (newer.name(g).kind != kind)
             continue;
-        const base::SnapshotGroup& group = newer.group(g);
-        if (outInstances.empty() || outInstances.back().instance != group.info().instance) {
+        const uint64_t instance = newer.name(g).instance;
+        if (outInstances.empty() || outInstances.back().instance != instance) {
+            const bool isPlanned = impostors && !hasLateBalls(instance, late);
             const ImpostorPlan plan =
-                impostors ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
-            outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(), plan});
+                isPlanned ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
+            outInstances.push_back({instance, outVisible.size(), outVisible.size(), plan});
             gather.cullToView(!plan.isTaken);
             if (plan.blobShare <= 0.0f && !plan.isTaken)
                 far = farCasters(newer, g);
         }
+        if (const LateBalls* const given = lateBallsOf(newer.name(g), late)) {
+            addLate(*given, castsShadows, outVisible, outMedium, outInstances, outFields);
+            continue;
+        }
+        const base::SnapshotGroup& group = newer.group(g);
         const ImpostorPlan& plan = outInstances.back().plan;
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);

@@ -8,6 +8,7 @@
 #include "rendering/lights/medium_caster.h"
 #include "rendering/lod/impostor_field.h"
 #include "rendering/lod/level_of_detail.h"
+#include "rendering/media/late_balls.h"
 #include "rendering/volumes/volume_place.h"
 
 #include <glm/vec3.hpp>
@@ -17,29 +18,6 @@
 #include <vector>
 
 namespace fx::render {
-
-/// A blob relative to the eye, before lighting.
-struct GatheredBlob
-{
-    glm::vec3 center;         ///< [m] position relative to the eye, along world axes
-    float radius;             ///< [m] > 0
-    float crossSection;       ///< [m2] > 0
-    float temperature;        ///< [K]
-    glm::vec3 albedo;         ///< [1]
-    glm::vec3 emission;       ///< [cd/m2] emission in addition to black-body emission
-    float fireShare;          ///< [1]
-    float heat;               ///< [K]
-    float seed;               ///< [0, 1) seed of procedural detail, computed from the id of the blob
-    float rank;               ///< [0, 1) see BlobInstance::layer
-    float detailAmount;       ///< [1]
-    float detailScale;        ///< [1]
-    float anisotropy;         ///< [1]
-    uint32_t layer;           ///< MediaLayer
-    int detail = -1;          ///< index of the detail of its group; -1: no detail
-    glm::vec3 velocity{0.0f}; ///< [m/s] velocity relative to the world
-    /// [cell] Offsets of the noise coordinates, see BlobDetail::carried().
-    std::array<glm::vec3, 2> carried{};
-};
 
 /// Range of an instance's blobs in the list of visible blobs.
 struct InstanceBlobs
@@ -102,6 +80,9 @@ struct GatherCounts
 /// @param lod reduces the number of blobs of groups that are small on the picture, also for shadows; null:
 ///     no reduction
 /// @param castsShadows true: effects that are drawn only as an impostor cast shadows
+/// @param late balls of late groups whose rows are not read; sorted as the groups. They are neither thinned
+/// nor
+///     drawn as impostors of effects
 /// @param outFields receives the detail and the volumes of groups, and runs of blobs; may be null. Blobs that
 ///     stand for a volume are then not thinned, and cast shadows as balls that their bricks contain
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
@@ -109,6 +90,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share = 1.0f,
                          LevelOfDetail* lod = nullptr, ImpostorField* impostors = nullptr,
-                         bool castsShadows = true, FieldGather* outFields = nullptr);
+                         bool castsShadows = true, FieldGather* outFields = nullptr,
+                         std::span<const LateBalls> late = {});
 
 } // namespace fx::render

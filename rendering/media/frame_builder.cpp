@@ -27,7 +27,7 @@ BlobInstance shadeBlob(const GatheredBlob& blob, float exposure)
     instance.centerRadius = {blob.center, blob.radius};
     instance.medium = {blob.crossSection, blob.heat, blob.detailAmount, blob.seed};
     instance.scatter = {blob.albedo, blob.anisotropy};
-    instance.layer = {float(blob.layer) * 2.0f + blob.fireShare, blob.rank, 0.0f, 0.0f};
+    instance.layer = {float(blob.layer) * 2.0f + blob.fireShare, blob.rank, float(blob.tile), 0.0f};
     const glm::vec3 share = (1.0f - blob.albedo) * thermal * exposure;
     const float total = emitted.x + emitted.y + emitted.z;
     const float thermalShare = total > 0.0f ? (share.x + share.y + share.z) / total : 0.0f;
@@ -48,7 +48,7 @@ FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
                          const ViewSettings& settings, const CameraGeometry& camera, LevelOfDetail& lod,
-                         uint64_t content, bool castsShadows, bool isSorted)
+                         uint64_t content, bool castsShadows, bool isSorted, std::span<const LateBalls> late)
 {
     gathered_.clear();
     casters_.clear();
@@ -61,7 +61,7 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
     beginImpostors(request, settings, camera, content);
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
                           casters_, instances_, settings.particleShare, &lod, &impostors_, castsShadows,
-                          isSorted ? nullptr : &fields_);
+                          isSorted ? nullptr : &fields_, late);
     impostors_.end();
     shade(settings, camera, isSorted);
     sort(camera, isSorted);

@@ -28,10 +28,11 @@ public:
     /// @param lod level of detail, for which LevelOfDetail::begin() has been called in this frame
     /// @param content revision of the shown content; impostors are rendered again if the revision changes
     /// @param castsShadows see gatherBlobs()
+    /// @param late see gatherBlobs()
     /// @param isSorted true: blobs() are sorted by distance; false: by group and id
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
                const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0,
-               bool castsShadows = true, bool isSorted = true);
+               bool castsShadows = true, bool isSorted = true, std::span<const LateBalls> late = {});
 
     /// Blobs, sorted by decreasing distance. If build() had isSorted = false, blobs are sorted by group and
     /// id.

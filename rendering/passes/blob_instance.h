@@ -16,7 +16,8 @@ struct BlobInstance
     glm::vec4 medium;  ///< x cross section [m2]; y heat [K]; z detail amount [1]; w seed of the detail [0, 1)
     glm::vec4 scatter; ///< rgb albedo; w mean cosine of the phase function
     /// x number of the layer times 2, plus the share of fire; y rank [0, 1) by which balls are chosen where a
-    /// list has no room for all: uniform, independent of other properties, and the same in all frames
+    /// list has no room for all: uniform, independent of other properties, and the same in all frames;
+    /// z number of the tile + 1 that the extinction follows instead of the kernel, 0: the kernel
     glm::vec4 layer;
     /// rgb emitted light, exposed; w exponent of the factor of detail (temperature factor)^w for the emission
     glm::vec4 emission;

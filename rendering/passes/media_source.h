@@ -37,6 +37,15 @@ constexpr uint32_t kCardHeadBinding = 4;
 constexpr uint32_t kCardNodeBinding = 5;
 constexpr uint32_t kCardMarkBinding = 7;
 
+/// Tiles of blocks, see rendering/blocks.
+struct BlockTileBindings
+{
+    ResourceId atlas = {};   ///< texture of tiles; invalid: no ball has a tile
+    ResourceId records = {}; ///< buffer of BlockRecord
+
+    bool valid() const { return atlas.valid(); }
+};
+
 /// Balls of medium, for compositions that sum balls.
 struct BallList
 {
@@ -44,7 +53,8 @@ struct BallList
     ResourceId lights = {}; ///< buffer written by BlobLightPass, one entry for each ball
     /// The balls of the buffer `balls`, for the CPU; must stay valid until the graph has executed.
     std::span<const BlobInstance> instances{};
-    bool detail = false; ///< true: the procedural detail of balls is drawn
+    bool detail = false;       ///< true: the procedural detail of balls is drawn
+    BlockTileBindings tiles{}; ///< tiles of the balls with BlobInstance::layer.z > 0
 };
 
 /// Targets and options of a draw.

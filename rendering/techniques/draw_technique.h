@@ -21,6 +21,7 @@
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lights/medium_caster.h"
 #include "rendering/lod/level_of_detail.h"
+#include "rendering/media/late_balls.h"
 #include "rendering/passes/blob_instance.h"
 #include "rendering/passes/light_bindings.h"
 #include "rendering/passes/media_source.h"
@@ -60,6 +61,7 @@ struct GatherInputs
     bool castsShadows = true;            ///< true: there are lights, and media cast shadows
     /// True: balls must be sorted, farthest first, because they are blended over each other.
     bool needsOrder = true;
+    bool drawsTiles = false; ///< true: balls may have tiles, see BallList::tiles
 };
 
 /// Data that techniques have gathered for a frame. The view calls gather() of its techniques in the order of
@@ -81,7 +83,8 @@ struct GatheredFrame
     std::span<const GroupDetail> details{};
     /// Volumes of effects; empty if blobs are not in the order of instances.
     std::span<const GroupVolume> volumes{};
-    bool anyHeat = false; ///< true: a blob causes heat shimmer
+    bool anyHeat = false;              ///< true: a blob causes heat shimmer
+    std::span<const LateBalls> late{}; ///< balls of late groups, for the technique that draws balls
 };
 
 /// Stages of a frame in which techniques add passes. buildViewGraph() defines the order of all passes.
@@ -111,6 +114,7 @@ struct PassFrame
     ResourceId distance = {};
     ResourceId layerDistance = {}; ///< [m] `distance` in the size of layers
     ResourceId picture = {};       ///< the picture; valid in the stage Refract and later stages
+    BlockTileBindings tiles{};     ///< tiles of balls; valid in the stage Upload and later stages
     ResourceId blobs = {}; ///< buffer of GatheredFrame::blobs; valid in the stage Upload and later stages
     bool anyPass = false;  ///< true: the technique's passes are needed even if there are no media
 };

@@ -8,11 +8,11 @@ namespace fx::render {
 namespace {
 
 constexpr const DrawTechnique* kTechniques[] = {
+    &kBlockTechnique,         // before the balls, some of which it replaces
+    &kBlockBallTechnique,     //
     &kBlobTechnique,          //
     &kFieldDetailTechnique,   //
     &kVolumeTechnique,        //
-    &kBlockTechnique,         //
-    &kBlockBallTechnique,     //
     &kLightSliceTechnique,    //
     &kSpriteTechnique,        //
     &kRibbonTechnique,        //

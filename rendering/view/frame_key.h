@@ -26,6 +26,7 @@ struct FrameKey
     SliceSettings slices;
     float particleShare = 1;
     LodSettings lod;
+    BlockSettings blocks;
     Composition composition = Composition::Sorted;
     int voxels = 0;
     bool layerOutputs = false;
@@ -51,6 +52,7 @@ inline FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& requ
     key.slices = settings.slices;
     key.particleShare = settings.particleShare;
     key.lod = settings.lod;
+    key.blocks = settings.blocks;
     key.composition = settings.composition;
     key.voxels = settings.voxels;
     key.layerOutputs = settings.layerOutputs;

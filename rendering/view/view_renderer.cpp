@@ -141,7 +141,8 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               &lod,
                               contentOf(now, request.interpolation),
                               castsShadows(settings, glowCount),
-                              composing->needsOrder};
+                              composing->needsOrder,
+                              composing->drawsTiles};
     streams.clear();
     solids.clear();
     mediaBatches = {};

@@ -16,6 +16,13 @@ layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]
 layout(local_size_x = 64) in;
 layout(std430, binding = 6) readonly buffer BlobLights { vec4 blobLights[]; }; // pass.z a blob, see lights/blob_light.comp.glsl
 layout(rgba32f, binding = 0) uniform writeonly image2D balls;
+#if FX_BLOCKS
+struct BlockRecord
+{
+    vec4 right, up, tile; // as BlockRecord of rendering/blocks/block_walk.h
+};
+layout(std430, binding = 7) readonly buffer BlockRecords { BlockRecord blockRecords[]; };
+#endif
 
 void main()
 {
@@ -49,4 +56,13 @@ void main()
     imageStore(balls, ballTexel(ball, kSlope), vec4(blobLights[first + 1u].xyz / max(blob.centerRadius.w, 1e-20), 0.0));
     float periods = blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w;
     imageStore(balls, ballTexel(ball, kDetail), vec4(blob.medium.w, periods, 0.0, 0.0));
+#if FX_BLOCKS
+    if (blob.layer.z > 0.5) {
+        BlockRecord block = blockRecords[int(blob.layer.z) - 1];
+        imageStore(balls, ballTexel(ball, kMedium), vec4(blob.medium.x * block.up.w, blob.centerRadius.w, blob.layer.x, -1.0));
+        imageStore(balls, ballTexel(ball, kTile), block.tile);
+        imageStore(balls, ballTexel(ball, kTileRight), block.right);
+        imageStore(balls, ballTexel(ball, kTileUp), block.up);
+    }
+#endif
 }

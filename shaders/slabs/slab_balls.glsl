@@ -9,6 +9,10 @@ const int kScatter = 3; // rgb albedo; w mean cosine of the phase function
 const int kLight = 4;   // rgb light that changes little within the ball [exposed]; w 1: of an illumination network
 const int kSlope = 5;   // xyz relative change of it [1/m]
 const int kDetail = 6;  // x seed [0, 1); y noise periods across the radius
+// Of a ball with a tile, see blocks/block_chord.glsl; kMedium.x is then the factor of the tile's depth, kMedium.w is -1:
+const int kTile = 6;      // x [texel] side; yz [texel] corner; w exposed light per unit of the tile, -1: it has no colors
+const int kTileRight = 7; // xyz axis; w 0
+const int kTileUp = 8;    // xyz axis
 // Only where fields have detail:
 const int kCarried0 = 7; // xyz [cell] coordinates of the first generation; w first texel of the detail of the field + 1, or 0
 const int kCarried1 = 8; // xyz of the second; w thinning of the ball by itself

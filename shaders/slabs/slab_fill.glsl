@@ -27,6 +27,10 @@ struct BallLight
 #if FX_NETWORK
     vec3 straight; // [1] share of the optical depth that attenuates the sun: formula network-cell (5)
 #endif
+#if FX_BLOCKS
+    bool isAlongRay; // what changes little is known along the ray, times `tint`
+    vec3 tint;
+#endif
 };
 
 BallLight lightOf(SlabRay ray, Chord chord, uint ball)
@@ -41,6 +45,17 @@ BallLight lightOf(SlabRay ray, Chord chord, uint ball)
     light.straight = 1.0 - smoothly.w * scatter.rgb * fxNetworkPeak(clamp(scatter.w, -0.3, 0.98));
 #else
     light.smoothly = texelFetch(balls, ballTexel(ball, kLight), 0).rgb;
+#endif
+#if FX_BLOCKS
+    bool isColored = chord.block.color.w > 0.5;
+    light.smoothly *= isColored ? chord.block.color.rgb / max(scatter.rgb, vec3(1e-6)) : vec3(1.0);
+    scatter.rgb = isColored ? chord.block.color.rgb : scatter.rgb;
+    light.emitted = isColored ? chord.block.light : light.emitted;
+    light.isAlongRay = chord.isBlock;
+#if FX_NETWORK
+    light.isAlongRay = light.isAlongRay && smoothly.w < 0.5;
+#endif
+    light.tint = scatter.rgb / max(blockScatter.rgb, vec3(1e-6));
 #endif
     light.base = 1.0 + dot(slope, chord.across);
     light.slope = dot(slope, ray.direction);
@@ -148,7 +163,7 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
     float power = texelFetch(balls, ballTexel(ball, kEmitted), 0).w;
     float front = max(chord.tc - chord.w, ray.t0);
     float back = max(min(chord.tc + chord.w, ray.t1), front);
-    float share = fxKernelPassed(placeOn(chord, back)) - fxKernelPassed(placeOn(chord, front));
+    float share = passedAt(chord, back) - passedAt(chord, front);
     float seen = mix(front, back, 0.5 / (1.0 + 0.5 * chord.depth * share));
     vec3 relative = (chord.across + (seen - chord.tc) * ray.direction) / medium.y;
     vec3 p = detailAxes(detail.x, detail.y) * relative + detail.x * vec3(61.3, 37.7, 83.1);
@@ -158,6 +173,17 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
 }
 #endif
 
+// Share of the depth of a chord up to a ray parameter, and its first moment in units of half the chord.
+vec2 passedWithMoment(Chord chord, float t)
+{
+    float u = placeOn(chord, t);
+    vec2 passed = vec2(fxKernelPassed(u), fxKernelMoment(u));
+#if FX_BLOCKS
+    passed = chord.isBlock ? blockPassed(chord.block, t) : passed;
+#endif
+    return passed;
+}
+
 // What of a ball lies between two faces.
 struct BallPart
 {
@@ -166,18 +192,25 @@ struct BallPart
     vec3 scattered; // light, where it is thin
 };
 
-// sun: its light that is scattered there; passed: depth and moment up to the near face, over those of the chord, on return up to the far one
+// sun: its light that is scattered there; smoothly: what changes little, where light.isAlongRay; passed: depth and moment up to the near face, over those of the chord, on return up to the far one
+#if FX_BLOCKS
+BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, vec3 smoothly, inout vec2 passed)
+#else
 BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, inout vec2 passed)
+#endif
 {
     float middle = 0.5 * (near + far);
     float perWidth = 1.0 / max(far - near, 1e-20); // some have no thickness
-    float u = placeOn(chord, far);
-    vec2 next = vec2(fxKernelPassed(u), fxKernelMoment(u));
+    vec2 next = passedWithMoment(chord, far);
     BallPart part;
     part.depth = chord.depth * (next.x - passed.x);
     part.moment = ((chord.tc - middle) * part.depth + chord.w * chord.depth * (next.y - passed.y)) * perWidth;
     float along = clamp(middle - chord.tc, -chord.w, chord.w);
-    part.scattered = light.smoothly * max(light.base + light.slope * along, 0.0) + sun;
+    part.scattered = light.smoothly * max(light.base + light.slope * along, 0.0);
+#if FX_BLOCKS
+    part.scattered = light.isAlongRay ? light.tint * smoothly : part.scattered;
+#endif
+    part.scattered += sun;
     passed = next;
     return part;
 }
@@ -186,12 +219,35 @@ BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, i
 #include "slabs/slab_detail.glsl"
 #endif
 
+#if FX_BLOCKS
+// A block is large: the light that changes little within a ball, see lights/blob_light.comp.glsl, is looked up along the ray.
+vec3 smoothAt(SlabRay ray, float t)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < (blockScatter.w > 0.0 ? 1 : 0); ++i) { // software renderers skip a loop without turns
+        vec3 p = ray.origin + t * ray.direction, toEye = -ray.direction;
+        vec2 towardsSun = sunDepth(p);
+        sum = skySource(p, toEye, blockScatter.rgb, blockPhase) + scatteredOfPoints(p, toEye, blockScatter.rgb, blockPhase);
+        if (lightOfSky.w > 0.5)
+            sum += sunScatteredAgain(p, toEye, blockScatter.rgb, blockPhase, towardsSun);
+    }
+    return sum;
+}
+#define FX_SMOOTH(k) , 0.5 * (smoothly[k] + smoothly[k + 1])
+#define FX_SMOOTH_PARAMETER vec3 smoothly[kGroup + 1],
+#define FX_SMOOTH_ARGUMENT smoothly,
+#else
+#define FX_SMOOTH(k)
+#define FX_SMOOTH_PARAMETER
+#define FX_SMOOTH_ARGUMENT
+#endif
+
 // Adds a ball. edges, sun: at the faces of the slabs; end: of the range
 #if FX_FIELD_DETAIL
-void addEach(SlabRay ray, uint entry, vec4 carried0, float edges[kGroup + 1], FX_SUN sun[kGroup + 1], float end,
+void addEach(SlabRay ray, uint entry, vec4 carried0, float edges[kGroup + 1], FX_SUN sun[kGroup + 1], FX_SMOOTH_PARAMETER float end,
              inout DetailedSlab detailed[kGroup], inout SlabSums sums[kGroup], inout float behind)
 #else
-void addEach(SlabRay ray, uint entry, float edges[kGroup + 1], FX_SUN sun[kGroup + 1], float end, inout SlabSums sums[kGroup],
+void addEach(SlabRay ray, uint entry, float edges[kGroup + 1], FX_SUN sun[kGroup + 1], FX_SMOOTH_PARAMETER float end, inout SlabSums sums[kGroup],
              inout float behind)
 #endif
 {
@@ -201,7 +257,7 @@ void addEach(SlabRay ray, uint entry, float edges[kGroup + 1], FX_SUN sun[kGroup
 #if FX_FIELD_DETAIL
     bool isMet = chord.depth > 0.0 && chord.tc - chord.w < edges[kGroup] && chord.tc + chord.w > edges[0];
     if (!isMet) { // most balls are in few slabs
-        behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - fxKernelPassed(placeOn(chord, edges[kGroup])));
+        behind += chord.depth * (passedAt(chord, end) - passedAt(chord, edges[kGroup]));
         return;
     }
     vec4 carried1 = texelFetch(balls, ballTexel(ball, kCarried1), 0);
@@ -211,11 +267,10 @@ void addEach(SlabRay ray, uint entry, float edges[kGroup + 1], FX_SUN sun[kGroup
 #if FX_BALL_DETAIL
     addDetail(ray, ball, medium, chord, light);
 #endif
-    float u = placeOn(chord, edges[0]);
-    vec2 passed = vec2(fxKernelPassed(u), fxKernelMoment(u));
+    vec2 passed = passedWithMoment(chord, edges[0]);
 #if FX_FIELD_DETAIL
 #define FX_ADD_BALL(k)                                                                                              \
-    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
+    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]) FX_SMOOTH(k), passed); \
     if (carried0.w > 0.5)                                                                                           \
         addDetailedBall(detailed[k], light, medium.z, part.depth, part.moment, part.scattered, carried0.xyz,        \
                         carried1, power);                                                                           \
@@ -223,12 +278,12 @@ void addEach(SlabRay ray, uint entry, float edges[kGroup + 1], FX_SUN sun[kGroup
         addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
 #else
 #define FX_ADD_BALL(k)                                                                                              \
-    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]), passed); \
+    part = partOf(chord, light, edges[k], edges[k + 1], light.sun * sunBetween(light, sun[k], sun[k + 1]) FX_SMOOTH(k), passed); \
     addBall(sums[k], light, medium.z, part.depth, part.moment, part.scattered);
 #endif
     BallPart part;
     FX_EACH_OF_GROUP(FX_ADD_BALL)
-    behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - passed.x);
+    behind += chord.depth * (passedAt(chord, end) - passed.x);
 }
 
 // @param edges kGroup + 1, of the slabs [m], which do not fall; lit: interval [m] in which sunlight is looked up;
@@ -239,6 +294,11 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout S
     FX_SUN sun[kGroup + 1];
     for (int k = 0; k <= kGroup; ++k)
         sun[k] = sunAt(ray, clamp(edges[k], lit.x, lit.y));
+#if FX_BLOCKS
+    vec3 smoothly[kGroup + 1];
+    for (int k = 0; k <= kGroup; ++k)
+        smoothly[k] = smoothAt(ray, clamp(edges[k], lit.x, lit.y));
+#endif
 #if FX_FIELD_DETAIL
     // Balls of one field come one after the other. Software renderers run the loops within a branch that is not taken once, so
     // that what is done at the end of a field is not within the loop over balls.
@@ -252,14 +312,14 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout S
             vec4 carried0 = texelFetch(balls, ballTexel(ballOfEntry(entry), kCarried0), 0);
             if (carried0.w != texel)
                 break;
-            addEach(ray, entry, carried0, edges, sun, end, detailed, sums, behind);
+            addEach(ray, entry, carried0, edges, sun, FX_SMOOTH_ARGUMENT end, detailed, sums, behind);
         }
         if (texel > 0.5)
             addEroded(ray, edges, int(texel) - 1, detailed, sums);
     }
 #else
     for (int i = 0; i < tileList.y; ++i)
-        addEach(ray, entryOfTile(i), edges, sun, end, sums, behind);
+        addEach(ray, entryOfTile(i), edges, sun, FX_SMOOTH_ARGUMENT end, sums, behind);
 #endif
     for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec4 light = cardNodes[card - 1u].light;

@@ -1,5 +1,8 @@
 // What a ray meets, and which part of it matters. Needs shared/view_block.glsl, shared/card_nodes.glsl, shared/unrolled.glsl,
 // slabs/slab_balls.glsl, slabs/slab_ray.glsl and formulas/kernel_quantile.fx.h.
+#ifndef FX_BLOCKS
+#define FX_BLOCKS 0
+#endif
 layout(binding = 8) uniform sampler2D balls;
 layout(binding = 9) uniform usampler2D lists;
 flat in ivec2 tileList;    // first entry and entries
@@ -15,6 +18,12 @@ const float kMaxDepth = 9.0;    // [1] up to its end: glow behind it may be a th
 const float kEvenly = 0.4;       // [1] share of the slabs that are spread evenly; the others are where media are seen
 const float kSeenDecay = 0.5;    // [1] a medium counts as seen by exp(-kSeenDecay depth before it): what hides is to be exact too
 const int kBins = 8;             // of each of the two passes that find it
+
+#if FX_BLOCKS
+#include "blocks/block_chord.glsl"
+vec4 blockScatter = vec4(0.0); // rgb albedo of the blocks on the ray, mean by optical depth; w [1] this depth
+float blockPhase = 0.0;        // mean cosine of their phase functions
+#endif
 
 // The first of the cards of the texel. pass.y: 1 when there are cards
 uint firstCard()
@@ -33,6 +42,10 @@ struct Chord
     float w;       // [m] half the chord, > 0
     float perHalf; // [1/m] 1 / w
     float depth;   // [1] optical depth of the whole chord, 0 beside the ball
+#if FX_BLOCKS
+    bool isBlock; // the depth is that of a tile
+    BlockChord block;
+#endif
 };
 
 // A ball of the tile, see listEntry.
@@ -52,6 +65,19 @@ Chord chordOf(SlabRay ray, uint entry)
     chord.w = place.w * max(q, 1e-6);
     chord.perHalf = 1.0 / chord.w;
     chord.depth = tileWeight * weightOfEntry(entry) * medium.x * q2 * q2 * q;
+#if FX_BLOCKS
+    chord.isBlock = medium.w < 0.0;
+    chord.block = emptyBlockChord();
+    chord.depth = chord.isBlock ? 0.0 : chord.depth;
+    for (int i = 0; i < (chord.isBlock && q2 > 0.0 ? 1 : 0); ++i) { // software renderers skip a loop without turns
+        chord.block = blockChord(ball, toCenter, ray.direction, medium.y);
+        chord.perHalf = 0.25 * chord.block.perPlane;
+        chord.w = 1.0 / chord.perHalf;
+        chord.tc = chord.block.start + chord.w;
+        chord.across = chord.tc * ray.direction - toCenter;
+        chord.depth = tileWeight * weightOfEntry(entry) * medium.x * chord.block.depth;
+    }
+#endif
     return chord;
 }
 
@@ -61,6 +87,16 @@ Chord chordOfTile(SlabRay ray, int i) { return chordOf(ray, entryOfTile(i)); }
 float placeOn(Chord chord, float t)
 {
     return clamp((t - chord.tc) * chord.perHalf, -1.0, 1.0);
+}
+
+// Share of the depth of a chord up to a ray parameter.
+float passedAt(Chord chord, float t)
+{
+    float passed = fxKernelPassed(placeOn(chord, t));
+#if FX_BLOCKS
+    passed = chord.isBlock ? blockPassed(chord.block, t).x : passed;
+#endif
+    return passed;
 }
 
 // Interval of a card along the ray, of a length > 0; none of it is behind what hides.
@@ -82,7 +118,17 @@ vec2 rangeOf(SlabRay ray)
         bool isMet = chord.depth > 0.0 && front < back;
         range.x = isMet ? min(range.x, front) : range.x;
         range.y = isMet ? max(range.y, back) : range.y;
+#if FX_BLOCKS
+        vec4 scatter = texelFetch(balls, ballTexel(ballOfEntry(entryOfTile(i)), kScatter), 0);
+        float depth = chord.isBlock && isMet ? chord.depth : 0.0;
+        blockScatter += depth * vec4(scatter.rgb, 1.0);
+        blockPhase += depth * scatter.w;
+#endif
     }
+#if FX_BLOCKS
+    blockScatter.rgb /= max(blockScatter.w, 1e-20);
+    blockPhase /= max(blockScatter.w, 1e-20);
+#endif
     for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec2 interval = intervalOf(ray, cardNodes[card - 1u].body);
         range = vec2(min(range.x, interval.x), max(range.y, interval.y));
@@ -98,8 +144,8 @@ void passedIn(SlabRay ray, float start, vec2 range, out float passed[kBins + 1])
         passed[k] = 0.0;
     for (int i = 0; i < tileList.y; ++i) {
         Chord chord = chordOfTile(ray, i);
-        float begin = fxKernelPassed(placeOn(chord, start));
-#define FX_ADD_BIN(k) passed[k] += chord.depth * (fxKernelPassed(placeOn(chord, range.x + float(k) * width)) - begin);
+        float begin = passedAt(chord, start);
+#define FX_ADD_BIN(k) passed[k] += chord.depth * (passedAt(chord, range.x + float(k) * width) - begin);
         FX_EACH_8(FX_ADD_BIN)
         FX_ADD_BIN(kBins)
     }

@@ -10,6 +10,11 @@
 #include "shared/card_nodes.glsl"
 #include "shared/unrolled.glsl"
 #include "shared/light_slices.glsl"
+#if FX_BLOCKS
+#include "formulas/multiple_scattering.fx.h"
+#include "shared/scattered_light.glsl"
+#include "shared/sky_light.glsl"
+#endif
 #include "slabs/slab_balls.glsl"
 #include "slabs/slab_ray.glsl"
 #include "slabs/slab_sums.glsl"

@@ -76,13 +76,14 @@ SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in,
     out.detail = out.fieldDetail.texels.valid() ? SlabDetail::OfFields
                  : balls.detail                 ? SlabDetail::OfBalls
                                                 : SlabDetail::None;
-    const uint32_t most =
-        use.slabs > 0 ? SlabPass::maxOfTile(use.slabs, out.detail, in.layers, use.details.details.size())
-                      : use.maxOfTile;
+    out.blocks = use.slabs > 0 ? balls.tiles : BlockTileBindings();
+    const uint32_t most = use.slabs > 0 ? SlabPass::maxOfTile(use.slabs, out.detail, in.layers,
+                                                              use.details.details.size(), out.blocks.valid())
+                                        : use.maxOfTile;
     out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_, use.marks});
     out.tiles = SlabTilePass::addTo(
         graph, {rects_, entries, in.width, in.height, most, in.view.rayOriginY.w, out.cards, use.fieldTiles});
-    out.balls = SlabBallPass::addTo(graph, balls, out.fieldDetail, in.view);
+    out.balls = SlabBallPass::addTo(graph, balls, out.fieldDetail, in.view, out.blocks.valid());
     if (counts_) {
         tiles_ = out.tiles.tiles;
         heads_ = out.cards.heads;

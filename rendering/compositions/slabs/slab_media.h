@@ -39,9 +39,11 @@ public:
         SlabDetailPass::Outputs fieldDetail;
         CardLists cards;
 
+        BlockTileBindings blocks; ///< tiles of the balls, if the pass that reads the lists is a SlabPass
+
         SlabPass::Inputs inSlabs(const MediaPass::Inputs& media, int slabs) const
         {
-            return {&media, balls, detail, fieldDetail, tiles, cards, slabs};
+            return {&media, balls, detail, fieldDetail, tiles, cards, blocks, slabs};
         }
     };
     /// Options of list().

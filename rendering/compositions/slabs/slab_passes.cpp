@@ -16,26 +16,36 @@ constexpr ProgramDesc program(const char* defines)
     return {"slabs", "slabs/slabs.vert.glsl", "slabs/slabs.frag.glsl", nullptr, defines};
 }
 
-#define FX_SLAB_PROGRAMS(slabs, network)                                                                     \
-    program("FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=0" slabs network),                                 \
-        program("FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=1" slabs network),                             \
-        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=0" slabs network),                             \
-        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=1" slabs network),                             \
-        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=0" slabs network),                             \
-        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=1" slabs network)
+#define FX_SLAB_PROGRAMS(slabs, network, blocks)                                                             \
+    program("FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=0" slabs network blocks),                          \
+        program("FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=1" slabs network blocks),                      \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=0" slabs network blocks),                      \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=1" slabs network blocks),                      \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=0" slabs network blocks),                      \
+        program("FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=1" slabs network blocks)
 
-// index = network * 12 + (16 slabs) * 6 + SlabDetail * 2 + layers
-constexpr ProgramDesc kPrograms[kSlabPrograms] = {
-    FX_SLAB_PROGRAMS(" FX_SLABS=6", " FX_NETWORK=0"), FX_SLAB_PROGRAMS(" FX_SLABS=16", " FX_NETWORK=0"),
-    FX_SLAB_PROGRAMS(" FX_SLABS=6", " FX_NETWORK=1"), FX_SLAB_PROGRAMS(" FX_SLABS=16", " FX_NETWORK=1")};
+#define FX_SLAB_PROGRAMS_OF(blocks)                                                                          \
+    FX_SLAB_PROGRAMS(" FX_SLABS=6", " FX_NETWORK=0", blocks),                                                \
+        FX_SLAB_PROGRAMS(" FX_SLABS=16", " FX_NETWORK=0", blocks),                                           \
+        FX_SLAB_PROGRAMS(" FX_SLABS=6", " FX_NETWORK=1", blocks),                                            \
+        FX_SLAB_PROGRAMS(" FX_SLABS=16", " FX_NETWORK=1", blocks)
+
+// index = blocks * 24 + network * 12 + (16 slabs) * 6 + SlabDetail * 2 + layers
+constexpr ProgramDesc kPrograms[kSlabPrograms] = {FX_SLAB_PROGRAMS_OF(" FX_BLOCKS=0"),
+                                                  FX_SLAB_PROGRAMS_OF(" FX_BLOCKS=1")};
+#undef FX_SLAB_PROGRAMS_OF
 #undef FX_SLAB_PROGRAMS
 
 constexpr ProgramDesc kBallPrograms[] = {
-    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=0"},
-    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=1"},
+    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=0 FX_BLOCKS=0"},
+    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=1 FX_BLOCKS=0"},
+    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=0 FX_BLOCKS=1"},
+    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=1 FX_BLOCKS=1"},
 };
 
 constexpr uint32_t kLumpUnit = 10;       ///< as in shaders/field/field_detail.glsl
+constexpr uint32_t kRecordBinding = 7;   ///< as in shaders/slabs/slab_balls.comp.glsl
+constexpr uint32_t kAtlasUnit = 11;      ///< as in shaders/blocks/block_chord.glsl
 constexpr uint32_t kMaterialBinding = 4; ///< as in shaders/slabs/slab_balls.comp.glsl
 constexpr size_t kCardBytes = 32;
 constexpr size_t kTileBytes = 16;
@@ -60,14 +70,15 @@ ResourceId makeBuffer(FrameGraph::Builder& builder, std::string_view name, size_
 
 } // namespace
 
-const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers, bool network)
+const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers, bool network, bool blocks)
 {
-    return kPrograms[(network ? 12 : 0) + (slabs > 6 ? 6 : 0) + 2 * size_t(detail) + (layers ? 1 : 0)];
+    return kPrograms[(blocks ? 24 : 0) + (network ? 12 : 0) + (slabs > 6 ? 6 : 0) + 2 * size_t(detail) +
+                     (layers ? 1 : 0)];
 }
 
-const ProgramDesc& slabBallsProgram(bool detail)
+const ProgramDesc& slabBallsProgram(bool detail, bool blocks)
 {
-    return kBallPrograms[detail ? 1 : 0];
+    return kBallPrograms[(blocks ? 2 : 0) + (detail ? 1 : 0)];
 }
 
 const ProgramDesc& slabProgramAt(size_t index)
@@ -131,7 +142,7 @@ SlabDetailPass::Outputs SlabDetailPass::addTo(FrameGraph& graph, const BallDetai
 }
 
 ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const SlabDetailPass::Outputs& detail,
-                               const ViewBlock& view)
+                               const ViewBlock& view, bool readsTiles)
 {
     ResourceId texture;
     if (list.instances.empty())
@@ -139,7 +150,8 @@ ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const Sl
     graph.addPass("slab balls", [&](FrameGraph::Builder& builder) {
         builder.read(list.balls);
         builder.read(list.lights);
-        for (const ResourceId id : {detail.texels, detail.materials})
+        const ResourceId records = readsTiles ? list.tiles.records : ResourceId();
+        for (const ResourceId id : {detail.texels, detail.materials, records})
             if (id.valid())
                 builder.read(id);
         const uint32_t count = uint32_t(list.instances.size());
@@ -149,15 +161,20 @@ ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const Sl
         ViewBlock block = view;
         block.pass.y = float(count); // exact up to 2^24
         block.pass.z = float(kBlobLightBytes / sizeof(glm::vec4));
-        return [block, texture, count, detail, given = list.balls, lights = list.lights](Backend& backend) {
+        return [block, texture, count, detail, records, given = list.balls,
+                lights = list.lights](Backend& backend) {
             const bool hasDetail = detail.texels.valid();
-            const BufferBinding buffers[] = {
-                {0, given}, {kBlobLightBinding, lights}, {kMaterialBinding, detail.materials}};
+            BufferBinding buffers[4] = {{0, given}, {kBlobLightBinding, lights}};
+            size_t bufferCount = 2;
+            if (hasDetail)
+                buffers[bufferCount++] = {kMaterialBinding, detail.materials};
+            if (records.valid())
+                buffers[bufferCount++] = {kRecordBinding, records};
             const ImageBinding images[] = {{0, texture}};
             const TextureBinding textures[] = {{kFieldTexelUnit, detail.texels}};
             DispatchCall call;
-            call.program = &slabBallsProgram(hasDetail);
-            call.buffers = std::span(buffers).first(hasDetail ? 3 : 2);
+            call.program = &slabBallsProgram(hasDetail, records.valid());
+            call.buffers = std::span(buffers).first(bufferCount);
             call.textures = std::span(textures).first(hasDetail ? 1 : 0);
             call.images = images;
             call.uniforms = asUniforms(block);
@@ -222,7 +239,7 @@ SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
     return out;
 }
 
-uint32_t SlabPass::maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields)
+uint32_t SlabPass::maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields, bool blocks)
 {
     constexpr uint32_t kReadsOfWindow = 3;  // rangeOf() once and passedIn() twice, in slab_window.glsl
     constexpr uint32_t kTurnsOfField = 100; // of addEroded() in slab_detail.glsl, run between fields too
@@ -232,7 +249,7 @@ uint32_t SlabPass::maxOfTile(int slabs, SlabDetail detail, bool layers, size_t f
     const uint64_t ofFields =
         detail == SlabDetail::OfFields ? uint64_t(kTurnsOfField) * groups * (2 * fields + 1) : 0;
     const uint32_t left = kMaxLoopTurns - uint32_t(std::min<uint64_t>(ofFields, kMaxLoopTurns / 8));
-    return left / (kReadsOfWindow + groups);
+    return left / (blocks ? 3 : 1) / (kReadsOfWindow + groups); // of a block, two loops of one turn
 }
 
 MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const MediaPass::Outputs& under)
@@ -240,8 +257,8 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
     MediaPass::Outputs out = under;
     graph.addPass("slabs", [&](FrameGraph::Builder& builder) {
         const MediaPass::Inputs& media = *in.media;
-        for (const ResourceId id :
-             {in.balls, in.cards.heads, in.cards.nodes, in.fieldDetail.texels, in.fieldDetail.lumpTile})
+        for (const ResourceId id : {in.balls, in.blocks.atlas, in.cards.heads, in.cards.nodes,
+                                    in.fieldDetail.texels, in.fieldDetail.lumpTile})
             if (id.valid())
                 builder.read(id);
         builder.read(in.tiles.tiles);
@@ -251,16 +268,18 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
         const MediaTargets targets(builder, media, under);
         out = targets.outputs();
         return [view = media.view, distance = media.distance, lights = media.lights, balls = in.balls,
-                cards = in.cards, tiles = in.tiles, detail = in.fieldDetail,
-                program = &slabProgram(in.slabs, in.detail, media.layers, in.network),
+                cards = in.cards, tiles = in.tiles, detail = in.fieldDetail, atlas = in.blocks.atlas,
+                program = &slabProgram(in.slabs, in.detail, media.layers, in.network, in.blocks.valid()),
                 targets](Backend& backend) {
             targets.clear(backend);
             ViewBlock block = view;
             block.pass.y = cards.valid() ? 1.0f : 0.0f;
-            TextureBinding textures[7] = {{0, distance}, {9, tiles.lists}};
+            TextureBinding textures[8] = {{0, distance}, {9, tiles.lists}};
             size_t textureCount = 2;
             if (balls.valid())
                 textures[textureCount++] = {8, balls};
+            if (atlas.valid())
+                textures[textureCount++] = {kAtlasUnit, atlas, Sampling::Linear};
             if (lights.planes.valid())
                 textures[textureCount++] = lights.textureBinding();
             if (lights.hostShadow.valid())

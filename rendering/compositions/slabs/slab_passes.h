@@ -16,18 +16,21 @@ enum class SlabDetail : uint8_t
     OfFields, ///< noise of single balls, and detail of fields of balls
 };
 
-constexpr size_t kSlabPrograms = 2 * 2 * 3 * 2;
+constexpr size_t kSlabPrograms = 2 * 2 * 2 * 3 * 2;
 /// Returns the program that sums media in slabs.
 /// @param slabs 6 or 16
 /// @param network true: some balls are in illumination networks
-const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers, bool network = false);
+/// @param blocks true: some balls have tiles
+const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers, bool network = false,
+                               bool blocks = false);
 const ProgramDesc& slabProgramAt(size_t index);
 
 inline constexpr ProgramDesc kSlabCardsProgram{"slab cards", nullptr, nullptr, "slabs/slab_cards.comp.glsl",
                                                nullptr};
 /// Returns the program of SlabBallPass.
 /// @param detail true: the program evaluates the detail of fields
-const ProgramDesc& slabBallsProgram(bool detail);
+/// @param blocks true: some balls have tiles
+const ProgramDesc& slabBallsProgram(bool detail, bool blocks = false);
 inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
                                                nullptr};
 
@@ -87,8 +90,10 @@ public:
 class SlabBallPass
 {
 public:
+    /// @param readsTiles true: balls with tiles are written as such; false: as balls of the kernel
     [[nodiscard]] static ResourceId addTo(FrameGraph& graph, const BallList& list,
-                                          const SlabDetailPass::Outputs& detail, const ViewBlock& view);
+                                          const SlabDetailPass::Outputs& detail, const ViewBlock& view,
+                                          bool readsTiles = false);
 };
 
 /// Largest number of iterations of all loops of an invocation together. Mesa's software renderers end all
@@ -151,14 +156,16 @@ public:
         SlabDetailPass::Outputs fieldDetail;
         SlabTilePass::Outputs tiles;
         CardLists cards;
-        int slabs; ///< number of slabs: 6 or 16
+        BlockTileBindings blocks; ///< tiles of balls; invalid: no ball has a tile
+        int slabs;                ///< number of slabs: 6 or 16
         /// True: the lights of balls are those of illumination networks, see BlobLightPass.
         bool network = false;
     };
     /// Returns the largest SlabTilePass::Inputs::maxOfTile with which the loops over the balls of a tile and
     /// over their fields take at most kMaxLoopTurns iterations.
     /// @param fields number of fields with detail; counted up to an eighth of the iterations
-    static uint32_t maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields);
+    /// @param blocks true: some balls have tiles
+    static uint32_t maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields, bool blocks = false);
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);
 };

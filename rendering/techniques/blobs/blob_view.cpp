@@ -22,7 +22,7 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     restingFrames_ = 0;
     const HostTargets& targets = in.request->targets;
     builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content, in.castsShadows,
-                   in.needsOrder);
+                   in.needsOrder, io.late);
     io.blobs = builder_.blobs();
     io.effects = builder_.effects();
     io.marks = builder_.marks();
@@ -191,7 +191,7 @@ void BlobView::addLights(FrameGraph& graph, const PassFrame& frame)
         blobs_.blobLights = BlobLightPass::addTo(graph, {blobs_.blobs, blobs_.blobLights, frame.lights,
                                                          &frame.view, uint32_t(builder_.blobs().size())})
                                 .blobLights;
-    blobs_.list = {blobs_.blobs, blobs_.blobLights, builder_.blobs(), blobs_.detail};
+    blobs_.list = {blobs_.blobs, blobs_.blobLights, builder_.blobs(), blobs_.detail, frame.tiles};
 }
 
 void BlobView::countOverdraw(FrameGraph& graph, const PassFrame& frame)

@@ -1,0 +1,175 @@
+#include "rendering/blocks/block_contents.h"
+
+#include "foundation/math/hash.h"
+#include "rendering/optics/black_body.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace fx::render {
+
+namespace {
+
+namespace blob = base::blob_column;
+using base::SnapshotGroup;
+
+constexpr size_t kMaxKnown = 1024; ///< identities that are kept
+
+glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
+{
+    return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
+}
+
+/// Light per optical depth, as of thin gas.
+glm::vec3 lightOf(const SnapshotGroup& group, uint32_t i, const glm::vec3& albedo)
+{
+    return (1.0f - albedo) * blackBodyLuminance(group.start(blob::Temperature)[i]) +
+           vectorAt(group, blob::EmissionR, i);
+}
+
+/// Adds `more` with `weight` to means that are sums until divided.
+void addTo(BlockContent& io, const BlockContent& more, float crossSection)
+{
+    io.crossSection += crossSection;
+    io.albedo += crossSection * more.albedo;
+    io.light += crossSection * more.light;
+    io.fireShare += crossSection * more.fireShare;
+    io.heat += crossSection * more.heat;
+    io.brightest = glm::max(io.brightest, more.brightest);
+    io.isColored = io.isColored || more.isColored;
+    io.balls += std::min(more.balls, std::numeric_limits<uint32_t>::max() - io.balls);
+}
+
+void divideMeans(BlockContent& io)
+{
+    const float per = 1.0f / std::max(io.crossSection, std::numeric_limits<float>::min());
+    io.albedo *= per;
+    io.light *= per;
+    io.fireShare *= per;
+    io.heat *= per;
+}
+
+} // namespace
+
+BlockContent BlockContents::sumOfBalls(const SnapshotGroup& group) const
+{
+    BlockContent sum;
+    for (uint32_t i = 0; i < group.count(); ++i) {
+        BlockContent ball;
+        ball.albedo = vectorAt(group, blob::AlbedoR, i);
+        ball.light = ball.brightest = lightOf(group, i, ball.albedo);
+        ball.fireShare = group.start(blob::FireShare)[i];
+        ball.heat = group.start(blob::Heat)[i];
+        ball.balls = 1;
+        addTo(sum, ball, group.start(blob::CrossSection)[i]);
+        sum.isColored = sum.isColored || ball.albedo != vectorAt(group, blob::AlbedoR, 0) ||
+                        group.start(blob::Temperature)[i] != group.start(blob::Temperature)[0] ||
+                        vectorAt(group, blob::EmissionR, i) != vectorAt(group, blob::EmissionR, 0);
+        sum.speed = std::max(sum.speed, glm::length(vectorAt(group, blob::VelocityX, i)));
+    }
+    divideMeans(sum);
+    return sum;
+}
+
+BlockContent BlockContents::sumOfBlocks(const SnapshotGroup& group) const
+{
+    BlockContent sum;
+    const BlockContent* first = nullptr;
+    for (uint32_t i = 0; i < group.count(); ++i) {
+        const BlockContent& inner = contents_[base::BlockGroups::variantIn(group, i)];
+        if (!inner.group || inner.balls == 0)
+            continue;
+        const float scale = group.start(base::block_column::Scale)[i];
+        addTo(sum, inner, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
+        sum.speed = std::max(sum.speed, scale * inner.speed);
+        first = first ? first : &inner;
+        sum.isColored = sum.isColored || inner.albedo != first->albedo || inner.light != first->light;
+    }
+    divideMeans(sum);
+    return sum;
+}
+
+uint64_t BlockContents::identityOf(const SnapshotGroup& group, uint32_t variant, const BlockContent& content)
+{
+    const base::GroupInfo& info = group.info();
+    if (content.speed > 0.0f)
+        return base::hashWord(base::hashWord(info.instance, info.solver), variant);
+    const auto same = std::ranges::find_if(known_, [&](const Known& known) {
+        return known.instance == info.instance && known.solver == info.solver && known.variant == variant &&
+               known.count == info.count;
+    });
+    if (same != known_.end())
+        return same->identity;
+    uint64_t hash = base::hashWord(1, uint64_t(groups_->isBlocks(group)));
+    const size_t columns =
+        groups_->isBlocks(group) ? size_t(base::block_column::Variant) : size_t(blob::Count);
+    for (size_t k = 0; k < columns; ++k)
+        hash = base::hashBytes(hash, group.start(k), group.count() * sizeof(float));
+    for (uint32_t i = 0; groups_->isBlocks(group) && i < group.count(); ++i)
+        hash = base::hashWord(hash, contents_[base::BlockGroups::variantIn(group, i)].identity);
+    if (known_.size() >= kMaxKnown)
+        known_.clear();
+    known_.push_back({info.instance, info.solver, variant, info.count, hash});
+    return hash;
+}
+
+void BlockContents::build(const base::BlockGroups& groups)
+{
+    groups_ = &groups;
+    contents_.assign(base::kMaxBlockVariants, BlockContent());
+    for (uint32_t variant = 0; variant < base::kMaxBlockVariants; ++variant) {
+        const SnapshotGroup* const group = groups.content(variant); // inner types have lower numbers
+        if (!group)
+            continue;
+        BlockContent& content = contents_[variant];
+        content = groups.isBlocks(*group) ? sumOfBlocks(*group) : sumOfBalls(*group);
+        content.group = group;
+        const base::Bounds& bounds = group->info().bounds;
+        content.radius = bounds.empty() ? 0.0f : bounds.max.x; // a ball about the origin
+        content.identity = identityOf(*group, variant, content);
+    }
+}
+
+void BlockContents::balls(uint32_t variant, std::pmr::vector<BlockBall>& out) const
+{
+    struct Level
+    {
+        base::BlockFrame frame;
+        const SnapshotGroup* group = nullptr;
+        uint32_t row = 0;
+    };
+    std::array<Level, base::kMaxBlockLevels + 1> stack;
+    size_t depth = 0;
+    if (contents_[variant].group)
+        stack[depth++].group = contents_[variant].group;
+    while (depth > 0) {
+        Level& top = stack[depth - 1];
+        if (groups_->isBlocks(*top.group)) {
+            if (top.row == top.group->count()) {
+                --depth;
+                continue;
+            }
+            const uint32_t row = top.row++;
+            if (const SnapshotGroup* const inner = groups_->contentOf(*top.group, row);
+                inner && depth < stack.size())
+                stack[depth++] = {top.frame.inside(*top.group, row), inner, 0};
+            continue;
+        }
+        const float section = top.frame.density * top.frame.scale * top.frame.scale;
+        for (uint32_t i = 0; i < top.group->count(); ++i) {
+            const glm::vec3 albedo = vectorAt(*top.group, blob::AlbedoR, i);
+            const glm::vec3 center =
+                top.frame.position + top.frame.turned(vectorAt(*top.group, blob::PositionX, i));
+            out.push_back({{center, top.frame.scale * top.group->start(blob::Radius)[i]},
+                           {albedo, section * top.group->start(blob::CrossSection)[i]},
+                           {lightOf(*top.group, i, albedo), 0.0f}});
+        }
+        --depth;
+    }
+}
+
+} // namespace fx::render

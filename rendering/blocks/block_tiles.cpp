@@ -1,0 +1,204 @@
+#include "rendering/blocks/block_tiles.h"
+
+#include "foundation/math/hash.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+constexpr uint32_t kSlotsOfPage = (kMaxTile / kMinTile) * (kMaxTile / kMinTile); ///< of the smallest size
+constexpr uint32_t kMaxPages = kTilePageColumns * kMaxTilePageRows;
+/// Balls times 8 x 8 texels that the jobs of a frame may have beyond the tiles that nothing can replace.
+constexpr uint64_t kWorkOfFrame = uint64_t(1) << 20;
+
+uint32_t slotsAlong(int size)
+{
+    return uint32_t(kMaxTile / size);
+}
+
+} // namespace
+
+size_t BlockTiles::KeyHash::operator()(const Key& key) const
+{
+    return size_t(base::hashWord(base::hashWord(key.identity, uint64_t(uint32_t(key.cell))),
+                                 uint64_t(key.cells) << 16 | key.size));
+}
+
+void BlockTiles::begin(const TileSettings& settings)
+{
+    settings_ = settings;
+    jobs_.clear();
+    ++frame_;
+    work_ = 0;
+    deferred_ = used_ = 0;
+}
+
+void BlockTiles::forget()
+{
+    found_.clear();
+    slots_.clear();
+    pages_.clear();
+    jobs_.clear();
+    classes_ = {};
+}
+
+int BlockTiles::pageRows() const
+{
+    const size_t rows = (pages_.size() + kTilePageColumns - 1) / kTilePageColumns;
+    return rows == 0 ? 0 : int(std::bit_ceil(rows));
+}
+
+std::optional<Tile> BlockTiles::find(const TileRequest& request)
+{
+    const BlockContent& content = *request.content;
+    if (content.balls == 0 || content.balls > kMaxTileBalls)
+        return std::nullopt;
+    const float radius = std::max(0.5f * request.pixels, 0.5f);
+    const int cells = cellsForAngle(request.along, settings_.parallax / radius);
+    const int size = std::clamp(
+        int(std::bit_ceil(uint32_t(std::ceil(settings_.resolution * request.pixels)))), kMinTile, kMaxTile);
+    const glm::ivec2 cell = directionCell(request.along, cells);
+    const Key key{content.identity, cell.y * cells + cell.x, uint16_t(cells), uint16_t(size)};
+    const auto same = found_.find(key);
+    if (same != found_.end() && isFresh(slots_[same->second], request))
+        return use(same->second);
+    if (settings_.isSpread && work_ > kWorkOfFrame)
+        if (const auto other = same != found_.end() ? same->second : neighbor(request, key, cell)) {
+            ++deferred_;
+            return use(*other);
+        }
+    const auto slot = same != found_.end() ? std::optional(same->second) : slotFor(key);
+    if (!slot)
+        return std::nullopt;
+    make(*slot, request);
+    return use(*slot);
+}
+
+/// True if the content has moved by no more than the settings allow since the tile was made.
+bool BlockTiles::isFresh(const Slot& slot, const TileRequest& request) const
+{
+    const BlockContent& content = *request.content;
+    if (!(content.speed > 0.0f) || slot.frame == frame_)
+        return true; // what several blocks show is drawn once a frame
+    const double moved = std::abs(request.seconds - slot.seconds) * double(content.speed); // [m]
+    const double pixels = 0.5 * double(request.pixels) / std::max(double(content.radius), 1e-12);
+    return moved * pixels <= double(settings_.parallax);
+}
+
+/// An existing tile of a direction nearby.
+std::optional<uint32_t> BlockTiles::neighbor(const TileRequest& request, const Key& key,
+                                             const glm::ivec2& cell) const
+{
+    const int cells = key.cells;
+    std::optional<uint32_t> best;
+    float least = 2.0f;
+    for (int i = 0; i < 9; ++i) {
+        const glm::ivec2 near = neighborCell(cell, {i % 3 - 1, i / 3 - 1}, cells);
+        Key other = key;
+        other.cell = near.y * cells + near.x;
+        const auto same = found_.find(other);
+        if (same == found_.end())
+            continue;
+        const glm::vec3 between = axesOfCell(near, cells).along - request.along;
+        const float away = between.x * between.x + between.y * between.y + between.z * between.z;
+        if (away < least) {
+            least = away;
+            best = same->second;
+        }
+    }
+    return best;
+}
+
+std::optional<uint32_t> BlockTiles::slotFor(const Key& key)
+{
+    const auto slot = freeSlot(key.size);
+    if (!slot)
+        return std::nullopt;
+    Slot& taken = slots_[*slot];
+    if (taken.isTaken)
+        found_.erase(taken.key);
+    taken = {key, 0.0, frame_, true};
+    found_[key] = *slot;
+    return slot;
+}
+
+BlockTiles::SizeClass& BlockTiles::classOf(int size)
+{
+    return classes_[size_t(std::countr_zero(uint32_t(size)) - std::countr_zero(uint32_t(kMinTile)))];
+}
+
+/// A slot that has no tile, or one that this frame does not use.
+std::optional<uint32_t> BlockTiles::freeSlot(int size)
+{
+    SizeClass& all = classOf(size);
+    if (all.taken < all.slots.size() || takePage(size))
+        return all.slots[all.taken++];
+    for (size_t i = 0; i < all.slots.size() && all.full != frame_; ++i) {
+        const uint32_t slot = all.slots[all.hand++ % all.slots.size()];
+        if (slots_[slot].frame < frame_)
+            return slot;
+    }
+    all.full = frame_;
+    return std::nullopt;
+}
+
+/// Adds a page to the tiles of a size: a new one, or the one of another size that was not used for longest.
+bool BlockTiles::takePage(int size)
+{
+    auto page = uint32_t(pages_.size());
+    if (page < kMaxPages) {
+        pages_.push_back({});
+        slots_.resize(pages_.size() * kSlotsOfPage);
+    } else {
+        const auto oldest = std::ranges::min_element(pages_, {}, &Page::frame);
+        if (oldest->frame >= frame_ || oldest->size == size)
+            return false;
+        page = uint32_t(oldest - pages_.begin());
+        clearPage(page);
+    }
+    pages_[page] = {size, frame_};
+    for (uint32_t i = 0; i < slotsAlong(size) * slotsAlong(size); ++i)
+        classOf(size).slots.push_back(page * kSlotsOfPage + i);
+    return true;
+}
+
+void BlockTiles::clearPage(uint32_t page)
+{
+    SizeClass& all = classOf(pages_[page].size);
+    for (const uint32_t slot : all.slots)
+        if (slot / kSlotsOfPage == page && slots_[slot].isTaken) {
+            found_.erase(slots_[slot].key);
+            --all.taken;
+        }
+    std::erase_if(all.slots, [&](uint32_t slot) { return slot / kSlotsOfPage == page; });
+    std::fill_n(slots_.begin() + ptrdiff_t(page * kSlotsOfPage), kSlotsOfPage, Slot());
+}
+
+Tile BlockTiles::use(uint32_t slot)
+{
+    Slot& used = slots_[slot];
+    const uint32_t page = slot / kSlotsOfPage, place = slot % kSlotsOfPage;
+    used.frame = pages_[page].frame = frame_;
+    ++used_;
+    const int size = used.key.size;
+    const uint32_t along = slotsAlong(size);
+    const glm::ivec2 corner = kMaxTile * glm::ivec2(page % kTilePageColumns, page / kTilePageColumns) +
+                              size * glm::ivec2(place % along, place / along);
+    const int cells = used.key.cells;
+    return {corner, size, axesOfCell({used.key.cell % cells, used.key.cell / cells}, cells)};
+}
+
+void BlockTiles::make(uint32_t slot, const TileRequest& request)
+{
+    const Tile tile = use(slot);
+    --used_; // counted by the caller's use
+    slots_[slot].seconds = request.seconds;
+    jobs_.push_back({request.variant, tile.corner, tile.size, tile.axes, request.content->radius});
+    work_ += uint64_t(request.content->balls) * uint64_t(tile.size / 8) * uint64_t(tile.size / 8);
+}
+
+} // namespace fx::render

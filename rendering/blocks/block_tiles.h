@@ -1,0 +1,139 @@
+/// @file block_tiles.h
+/// The cache of tiles: pictures of the optical depth of blocks, each from one direction, in an atlas.
+#pragma once
+
+#include "rendering/blocks/block_contents.h"
+#include "rendering/blocks/block_directions.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace fx::render {
+
+/// [texel] Sides of tiles are powers of 2 from kMinTile to kMaxTile.
+constexpr int kMinTile = 16;
+constexpr int kMaxTile = 128;
+constexpr size_t kTileSizes = 4;
+constexpr int kTilePageColumns = 16;      ///< pages of kMaxTile^2 texels side by side in the atlas
+constexpr int kMaxTilePageRows = 8;       ///< 2048 x 1024 texels
+constexpr uint32_t kMaxTileBalls = 65536; ///< content with more balls gets no tiles
+
+/// A tile that is to be drawn in this frame.
+struct TileJob
+{
+    uint32_t variant = 0;
+    glm::ivec2 corner{0}; ///< [texel] in the atlas
+    int size = 0;         ///< [texel]
+    TileAxes axes;
+    float radius = 0.0f; ///< [m] half the side of the tile, in units of the block
+};
+
+/// A tile as it is drawn.
+struct Tile
+{
+    glm::ivec2 corner{0};
+    int size = 0;
+    TileAxes axes;
+};
+
+/// What a tile has to show.
+struct TileRequest
+{
+    uint32_t variant = 0;
+    const BlockContent* content = nullptr;
+    glm::vec3 along{0.0f}; ///< unit vector from the eye to the block, in the space of the block
+    float pixels = 0.0f;   ///< [pixel] diameter of the block on the picture
+    double seconds = 0.0;  ///< local time of animated content
+};
+
+/// Limits of the error of a tile.
+struct TileSettings
+{
+    float parallax = 0.5f;   ///< [pixel] largest shift of the front against the back of a block
+    float resolution = 1.0f; ///< texels per pixel, at least
+    bool isSpread = true;    ///< false: all tiles are drawn at once when they are needed
+
+    bool operator==(const TileSettings&) const = default;
+};
+
+/// Tiles of one view. The memory of the atlas belongs to the caller.
+class BlockTiles
+{
+public:
+    explicit BlockTiles(std::pmr::memory_resource* memory) : slots_(memory), pages_(memory), jobs_(memory) {}
+
+    void begin(const TileSettings& settings);
+    /// The tile that shows the content best. Tiles that do not exist yet are made in this frame, see jobs();
+    /// if a tile of a neighboring direction exists and many tiles are to be made, that one is given instead.
+    /// @return no value if there is no room, or the content has too many balls
+    std::optional<Tile> find(const TileRequest& request);
+
+    std::span<const TileJob> jobs() const { return jobs_; }
+    uint32_t deferred() const { return deferred_; } ///< tiles that are replaced by others in this frame
+    uint32_t used() const { return used_; }         ///< number of find() that gave a tile
+    int pageRows() const;                           ///< rows of pages that tiles need, a power of 2; 0: none
+    void forget();                                  ///< discards all tiles
+
+private:
+    struct Key
+    {
+        uint64_t identity = 0;
+        int32_t cell = 0; ///< number of the cell
+        uint16_t cells = 0, size = 0;
+        bool operator==(const Key&) const = default;
+    };
+    struct KeyHash
+    {
+        size_t operator()(const Key& key) const;
+    };
+    struct Slot
+    {
+        Key key;
+        double seconds = 0.0; ///< local time of the content
+        uint64_t frame = 0;   ///< in which the slot was last used
+        bool isTaken = false;
+    };
+    /// A square of kMaxTile^2 texels with tiles of one size.
+    struct Page
+    {
+        int size = 0;       ///< 0: free
+        uint64_t frame = 0; ///< in which a slot was last used
+    };
+
+    /// Slots of all pages of one size. Slots that have no tile yet are the last ones.
+    struct SizeClass
+    {
+        std::vector<uint32_t> slots;
+        size_t taken = 0;  ///< number of slots with a tile
+        size_t hand = 0;   ///< where the search for a slot that can be replaced goes on
+        uint64_t full = 0; ///< frame in which no slot can be replaced any more
+    };
+
+    SizeClass& classOf(int size);
+    std::optional<uint32_t> slotFor(const Key& key);
+    std::optional<uint32_t> freeSlot(int size);
+    bool takePage(int size);
+    void clearPage(uint32_t page);
+    std::optional<uint32_t> neighbor(const TileRequest& request, const Key& key,
+                                     const glm::ivec2& cell) const;
+    bool isFresh(const Slot& slot, const TileRequest& request) const;
+    Tile use(uint32_t slot);
+    void make(uint32_t slot, const TileRequest& request);
+
+    TileSettings settings_;
+    std::unordered_map<Key, uint32_t, KeyHash> found_;
+    std::pmr::vector<Slot> slots_; ///< kSlotsOfPage for each page
+    std::pmr::vector<Page> pages_;
+    std::pmr::vector<TileJob> jobs_;
+    std::array<SizeClass, kTileSizes> classes_;
+    uint64_t frame_ = 0;
+    uint64_t work_ = 0; ///< of the jobs of this frame
+    uint32_t deferred_ = 0, used_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,255 @@
+#include "rendering/blocks/block_walk.h"
+
+#include "rendering/frame/ball_window.h"
+#include "shaders/formulas/formula.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+namespace blob = base::blob_column;
+namespace block = base::block_column;
+using base::BlockFrame;
+using base::SnapshotGroup;
+
+constexpr float kFadePixels =
+    0.8f; ///< [1] share of BlockWalkSettings::maxPixels from which the content fades in
+/// [1] Distance over the radius below which a block is its content, and from which it is an impostor alone.
+constexpr float kNearest = 1.5f, kFar = 2.0f;
+
+glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
+{
+    return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
+}
+
+bool isFinite(const glm::vec3& center, float radius, float crossSection)
+{
+    const float sum = glm::dot(center, center) + radius * radius + crossSection;
+    return std::isfinite(sum);
+}
+
+/// Reads the blocks of the effect at a moment between two snapshots.
+class RootReader
+{
+public:
+    RootReader(const SnapshotGroup& newer, const SnapshotGroup* older, float t, float stepSeconds)
+        : newer_(newer), older_(older), t_(t), stepSeconds_(stepSeconds)
+    {}
+
+    /// The block in row i; rows must be read in rising order.
+    /// @return false if it is not yet born at this moment
+    bool read(uint32_t i, const BlockFrame& outer, BlockFrame& out)
+    {
+        out = outer.inside(newer_, i);
+        if (!older_)
+            return true;
+        const uint64_t id = newer_.ids()[i];
+        while (j_ < older_->count() && older_->ids()[j_] < id)
+            ++j_;
+        if (j_ == older_->count() || older_->ids()[j_] != id) {
+            out.position -= (1.0f - t_) * stepSeconds_ * (out.velocity - outer.velocity);
+            return newer_.start(block::Age)[i] >= (1.0f - t_) * stepSeconds_;
+        }
+        const BlockFrame before = outer.inside(*older_, uint32_t(j_));
+        out.position = glm::mix(before.position, out.position, t_);
+        out.scale = glm::mix(before.scale, out.scale, t_);
+        out.density = glm::mix(before.density, out.density, t_);
+        return true;
+    }
+
+private:
+    const SnapshotGroup& newer_;
+    const SnapshotGroup* older_;
+    float t_, stepSeconds_;
+    size_t j_ = 0;
+};
+
+} // namespace
+
+BlockWalk::BlockWalk(const CameraGeometry& camera, int height, BlockTiles& tiles,
+                     std::pmr::vector<GatheredBlob>& balls, std::pmr::vector<MediumCaster>& casters,
+                     std::pmr::vector<BlockRecord>& records)
+    : camera_(camera), volume_(camera), pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)),
+      tiles_(tiles), balls_(balls), casters_(casters), records_(records)
+{}
+
+void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& contents,
+                    const SnapshotGroup* older, float t, float stepSeconds, double seconds,
+                    const base::Placement& place, const GatheredBlob& like, const BlockWalkSettings& settings)
+{
+    groups_ = &groups;
+    contents_ = &contents;
+    settings_ = &settings;
+    like_ = like;
+    instance_ = groups.root().info().instance;
+    seconds_ = seconds;
+    effectBalls_ = 0;
+    BlockFrame outer;
+    outer.position = glm::vec3(place.position);
+    outer.rotation = place.rotation;
+    outer.scale = place.scale;
+    const SnapshotGroup& root = groups.root();
+    uint64_t all = 0;
+    for (uint32_t i = 0; i < root.count(); ++i)
+        all += contents.of(base::BlockGroups::variantIn(root, i)).balls;
+    castsBalls_ = all <= settings.maxCasters;
+    RootReader reader(root, older, t, stepSeconds);
+    for (uint32_t i = 0; i < root.count(); ++i) {
+        BlockFrame frame;
+        if (!reader.read(i, outer, frame))
+            continue;
+        const uint32_t variant = base::BlockGroups::variantIn(root, i);
+        addCasters(frame, variant);
+        visit(frame, variant, 1.0f);
+    }
+}
+
+/// Share of a block that is drawn as an impostor; the rest is drawn as its content.
+float BlockWalk::impostorShare(const BlockFrame& frame, float radius, float& outPixels) const
+{
+    const float distance = camera_.orthographic ? 1.0f : glm::length(frame.position);
+    outPixels = 2.0f * radius * pixelsPerSlope_ / std::max(distance, 1e-6f);
+    const float most = std::max(settings_->maxPixels, 1e-3f);
+    float share = 1.0f - glm::smoothstep(kFadePixels * most, most, outPixels);
+    if (!camera_.orthographic)
+        share *= glm::smoothstep(kNearest * radius, kFar * radius, distance);
+    return share;
+}
+
+/// Blocks have at most kMaxBlockLevels levels, which bounds the recursion.
+void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
+{
+    const BlockContent& content = contents_->of(variant);
+    const float radius = frame.scale * content.radius;
+    if (!content.group || content.balls == 0 || !(weight * frame.density > 0.0f) || !(radius > 0.0f))
+        return;
+    if (!isFinite(frame.position, radius, content.crossSection)) {
+        ++counts_.refused;
+        return;
+    }
+    if (!volume_.touches(frame.position, radius)) {
+        ++counts_.culled;
+        return;
+    }
+    float pixels = 0.0f;
+    float share = impostorShare(frame, radius, pixels);
+    const bool isBalls = !groups_->isBlocks(*content.group);
+    if (isBalls && effectBalls_ + content.balls > settings_->maxBalls)
+        share = 1.0f;
+    if (share > 0.0f) {
+        const glm::vec3 towards = camera_.orthographic ? camera_.forward : glm::normalize(frame.position);
+        const auto tile =
+            tiles_.find({variant, &content, glm::conjugate(frame.rotation) * towards, pixels, seconds_});
+        if (tile)
+            addImpostor(frame, content, *tile, weight * share);
+        else
+            share = 0.0f;
+    }
+    if (share >= 1.0f)
+        return;
+    const float rest = weight * (1.0f - share);
+    if (isBalls) {
+        addBalls(frame, *content.group, rest);
+        return;
+    }
+    for (uint32_t i = 0; i < content.group->count(); ++i)
+        visit(frame.inside(*content.group, i), base::BlockGroups::variantIn(*content.group, i), rest);
+}
+
+void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content, const Tile& tile,
+                            float weight)
+{
+    const float section = frame.scale * frame.scale * content.crossSection;
+    GatheredBlob ball = like_;
+    ball.center = frame.position;
+    ball.radius = frame.scale * content.radius;
+    ball.crossSection = weight * frame.density * section;
+    if (!(ball.crossSection > 0.0f))
+        return;
+    ball.albedo = content.albedo;
+    ball.emission = content.light;
+    ball.temperature = 0.0f;
+    ball.fireShare = glm::clamp(content.fireShare, 0.0f, 1.0f);
+    ball.heat = content.heat;
+    ball.velocity = frame.velocity;
+    ball.seed = detailSeed(frame.id);
+    ball.rank = listRank(instance_, frame.id, 0);
+    const float brightest = std::max({content.brightest.x, content.brightest.y, content.brightest.z});
+    records_.push_back({{frame.rotation * tile.axes.right, 0.0f},
+                        {frame.rotation * tile.axes.up, 1.0f / section},
+                        {float(tile.size), float(tile.corner.x), float(tile.corner.y),
+                         content.isColored ? brightest * settings_->exposure : -1.0f}});
+    ball.tile = uint32_t(records_.size());
+    balls_.push_back(ball);
+    ++counts_.impostors;
+}
+
+void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, float weight)
+{
+    const float section = weight * frame.density * frame.scale * frame.scale;
+    for (uint32_t i = 0; i < group.count(); ++i) {
+        GatheredBlob ball = like_;
+        ball.center = frame.position + frame.turned(vectorAt(group, blob::PositionX, i));
+        ball.radius = frame.scale * group.start(blob::Radius)[i];
+        ball.crossSection = section * group.start(blob::CrossSection)[i];
+        if (!isFinite(ball.center, ball.radius, ball.crossSection)) {
+            ++counts_.refused;
+            continue;
+        }
+        if (!(ball.crossSection > 0.0f && ball.radius > 0.0f))
+            continue;
+        const float depth = camera_.orthographic ? 1.0f : glm::length(ball.center);
+        if (const float least = kMinPixels * depth / pixelsPerSlope_; ball.radius < least) {
+            ball.crossSection = formula::fxWidenedSection(ball.crossSection, ball.radius, least);
+            ball.radius = least;
+        }
+        if (!volume_.touches(ball.center, ball.radius)) {
+            ++counts_.culled;
+            continue;
+        }
+        ball.temperature = group.start(blob::Temperature)[i];
+        ball.albedo = vectorAt(group, blob::AlbedoR, i);
+        ball.emission = vectorAt(group, blob::EmissionR, i);
+        ball.fireShare = glm::clamp(group.start(blob::FireShare)[i], 0.0f, 1.0f);
+        ball.heat = group.start(blob::Heat)[i];
+        ball.velocity = frame.velocity + frame.turned(vectorAt(group, blob::VelocityX, i));
+        const uint64_t id = frame.id + group.ids()[i];
+        ball.seed = detailSeed(id);
+        ball.rank = listRank(instance_, id, 0);
+        balls_.push_back(ball);
+        ++counts_.balls;
+        ++effectBalls_;
+    }
+}
+
+/// Blocks cast shadows as balls of the kernel where an effect has very many balls.
+void BlockWalk::addCasters(const BlockFrame& frame, uint32_t variant)
+{
+    const BlockContent& content = contents_->of(variant);
+    if (!content.group || content.balls == 0)
+        return;
+    const SnapshotGroup& group = *content.group;
+    const float section = frame.density * frame.scale * frame.scale;
+    const auto add = [&](const glm::vec3& center, float radius, float crossSection) {
+        if (isFinite(center, radius, crossSection) && radius > 0.0f && crossSection > 0.0f)
+            casters_.push_back({center, radius, crossSection});
+    };
+    if (groups_->isBlocks(group)) {
+        for (uint32_t i = 0; i < group.count(); ++i)
+            addCasters(frame.inside(group, i), base::BlockGroups::variantIn(group, i));
+    } else if (castsBalls_) {
+        for (uint32_t i = 0; i < group.count(); ++i)
+            add(frame.position + frame.turned(vectorAt(group, blob::PositionX, i)),
+                frame.scale * group.start(blob::Radius)[i], section * group.start(blob::CrossSection)[i]);
+    } else {
+        add(frame.position, frame.scale * content.radius, section * content.crossSection);
+    }
+}
+
+} // namespace fx::render

@@ -1,0 +1,98 @@
+/// @file block_walk.h
+/// Decides which blocks are drawn as impostors and which ones as what they consist of.
+#pragma once
+
+#include "rendering/blocks/block_tiles.h"
+#include "rendering/frame/view_volume.h"
+#include "rendering/media/late_balls.h"
+
+#include <memory_resource>
+#include <vector>
+
+namespace fx::render {
+
+/// How a ball with a tile is drawn: axes of the tile and its place in the atlas. Layout of
+/// shaders/blocks/block_chord.glsl.
+struct BlockRecord
+{
+    glm::vec4 right; ///< xyz unit vector along world axes; w 0
+    glm::vec4 up;    ///< xyz likewise; w [1/m2] one over the cross section at density 1
+    /// x [texel] side of the tile; yz [texel] corner; w exposed light per unit of the tile, -1: the tile has
+    /// no colors of its own
+    glm::vec4 tile;
+};
+static_assert(sizeof(BlockRecord) == 48);
+
+/// Settings of BlockWalk.
+struct BlockWalkSettings
+{
+    /// [pixel] Diameter on the picture up to which a block is drawn as an impostor. From 0.8 of it on its
+    /// content fades in.
+    float maxPixels = 96.0f;
+    float exposure = 1.0f; ///< [m2/cd]
+    uint32_t maxBalls = 0; ///< of an effect: beyond, blocks are drawn as impostors however large they are
+    uint32_t maxCasters = 65536; ///< of an effect: beyond, blocks instead of balls cast shadows
+};
+
+/// Counters of the walks of a frame.
+struct BlockWalkCounts
+{
+    uint32_t impostors = 0, balls = 0, culled = 0, refused = 0;
+};
+
+/// Walks through the blocks of an effect.
+class BlockWalk
+{
+public:
+    /// @param height [pixel] of the picture
+    BlockWalk(const CameraGeometry& camera, int height, BlockTiles& tiles,
+              std::pmr::vector<GatheredBlob>& balls, std::pmr::vector<MediumCaster>& casters,
+              std::pmr::vector<BlockRecord>& records);
+
+    /// Appends all blocks of a solver to the lists.
+    /// @param older its blocks in the older snapshot; may be null  @param t interpolation, 1 is the newer one
+    /// @param place placement of the effect relative to the eye
+    /// @param like values that all balls of the effect have in common
+    void run(const base::BlockGroups& groups, const BlockContents& contents, const base::SnapshotGroup* older,
+             float t, float stepSeconds, double seconds, const base::Placement& place,
+             const GatheredBlob& like, const BlockWalkSettings& settings);
+
+    const BlockWalkCounts& counts() const { return counts_; }
+
+private:
+    struct Level
+    {
+        base::BlockFrame frame;
+        const base::SnapshotGroup* blocks = nullptr;
+        uint32_t row = 0;
+        float weight = 1.0f;
+    };
+
+    void visit(const base::BlockFrame& frame, uint32_t variant, float weight);
+    void addImpostor(const base::BlockFrame& frame, const BlockContent& content, const Tile& tile,
+                     float weight);
+    void addBalls(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight);
+    void addCasters(const base::BlockFrame& frame, uint32_t variant);
+    float impostorShare(const base::BlockFrame& frame, float radius, float& outPixels) const;
+
+    const CameraGeometry& camera_;
+    ViewVolume volume_;
+    float pixelsPerSlope_;
+    BlockTiles& tiles_;
+    std::pmr::vector<GatheredBlob>& balls_;
+    std::pmr::vector<MediumCaster>& casters_;
+    std::pmr::vector<BlockRecord>& records_;
+    BlockWalkCounts counts_;
+
+    // of the effect that is walked through
+    const base::BlockGroups* groups_ = nullptr;
+    const BlockContents* contents_ = nullptr;
+    const BlockWalkSettings* settings_ = nullptr;
+    GatheredBlob like_{};
+    uint64_t instance_ = 0;
+    double seconds_ = 0.0;
+    uint32_t effectBalls_ = 0;
+    bool castsBalls_ = true;
+};
+
+} // namespace fx::render
