@@ -146,7 +146,7 @@ class Small:
 
 
 FEW = {"--count": "1000", "--steps": "1"}
-HAVE_SMALL = ("paper-frame", "billboards", "composition", "detail", "layer-scale", "slices", "lit-frame", "network-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "network", "trace",
+HAVE_SMALL = ("paper-frame", "billboards", "blocks", "composition", "detail", "layer-scale", "slices", "lit-frame", "network-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "network", "trace",
               "reference", "parallel-loop", "work-units")  # an option for it
 # Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
