@@ -1,6 +1,7 @@
 // The functions of fx_context.h.
 #include "fxsdk/api/check.h"
 #include "fxsdk/api/context.h"
+#include "fxsdk/api/gl_loader.h"
 #include "fxsdk/api/guarded.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
@@ -35,6 +36,12 @@ Status checkDef(const FxContextDef& def)
 Status connectGl(FxContext& context)
 {
     const fx::render::GlLoader loader{context.def.gl.user, context.def.gl.getProcAddress};
+    if (loader.getProcAddress == &fxGetGlProcAddress && !fx::api::isGlContextCurrent())
+        return {
+            Code::GlUnsupported,
+            "no OpenGL context is current on this thread: make one current before (eglMakeCurrent, "
+            "glXMakeCurrent, SDL_GL_MakeCurrent, glfwMakeContextCurrent), or set def.gl.getProcAddress to "
+            "the function of your window library"};
     auto device = fx::render::GlDevice::create(loader, &context.memory);
     if (!device)
         return device.status();

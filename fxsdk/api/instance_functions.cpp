@@ -104,6 +104,18 @@ FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance)
                                  });
 }
 
+FxResult fxScene_DestroyAllInstances(FxScene* scene)
+{
+    return fx::api::insideScene("fxScene_DestroyAllInstances", scene, [&]() -> Status {
+        std::pmr::vector<fx::scene::LocalId> all(&scene->context->memory);
+        all.reserve(scene->scene.counters().instances); // nothing is removed if memory is missing
+        scene->scene.forEach([&](fx::scene::LocalId id) { all.push_back(id); });
+        for (const fx::scene::LocalId id : all)
+            scene->scene.remove(id);
+        return {};
+    });
+}
+
 uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance)
 {
     if (!scene || !scene->caller.thread.isCaller() || scene->caller.busy())

@@ -100,7 +100,6 @@ void checkSunShadow(fx::api::Checks& check, const FxFrameDef& given)
 {
     check.range(given.sunShadowConvention, 0u, uint32_t(FX_DEPTH_REVERSED), "frame.sunShadowConvention");
     check.range(given.sunShadowEdge, 0.0f, 100.0f, "frame.sunShadowEdge");
-    check.range(given.reserved, 0u, 0u, "frame.reserved");
     const float* m = given.sunShadowMatrix;
     check.that(fx::base::allFinite(m, 16), "frame.sunShadowMatrix is not finite");
     check.that(
@@ -121,6 +120,13 @@ void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
     check.flag(given.holdQuality, "frame.holdQuality");
     check.range(given.deltaTime, 0.0, 1e6, "frame.deltaTime");
     check.that(given.target != FX_TARGET_TEXTURE || given.colorTexture != 0, "frame.colorTexture is 0");
+    check.range(given.targetEncoding, 0u, uint32_t(FX_TARGET_DISPLAY_GAMMA), "frame.targetEncoding");
+    check.flag(given.depthFromFramebuffer, "frame.depthFromFramebuffer");
+    check.that(given.depthFromFramebuffer == 0 || given.depthTexture == 0,
+               "frame.depthFromFramebuffer is 1 and frame.depthTexture is given: give one of them");
+    check.range(given.viewportX, 0, kWidest, "frame.viewportX");
+    check.range(given.viewportY, 0, kWidest, "frame.viewportY");
+    check.flag(given.keepScissor, "frame.keepScissor");
 }
 
 } // namespace
@@ -214,6 +220,11 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
     targets.framebuffer = given.framebuffer;
     targets.width = given.width;
     targets.height = given.height;
+    targets.x = given.viewportX;
+    targets.y = given.viewportY;
+    targets.encoding = render::TargetEncoding(given.targetEncoding);
+    targets.depthFromFramebuffer = given.depthFromFramebuffer != 0;
+    targets.keepScissor = given.keepScissor != 0;
     outRequest.sunShadow = {given.sunShadowTexture, render::DepthConvention(given.sunShadowConvention),
                             glm::make_mat4(given.sunShadowMatrix), given.sunShadowEdge};
     outRequest.deltaTime = given.deltaTime;

@@ -259,6 +259,14 @@ struct HostShadowMap
     float edge = 0.1f; ///< [m] radius over which shadow edges are blurred
 };
 
+/// Meaning of the values in the host's color targets.
+enum class TargetEncoding : uint8_t
+{
+    Linear,      ///< exposed radiance
+    DisplaySrgb, ///< display light 0..1, encoded by the curve of sRGB
+    DisplayGamma ///< display light 0..1, encoded by a gamma of 2.2
+};
+
 /// GL names of the host's targets for one frame; 0 means absent.
 struct HostTargets
 {
@@ -271,6 +279,13 @@ struct HostTargets
     bool useFramebuffer = false; ///< true: draw into `framebuffer` (0 is the window) instead of `color`
     int width = 0;               ///< [pixel]
     int height = 0;              ///< [pixel]
+    int x = 0;                   ///< [pixel] left column of the frame in all targets
+    int y = 0;                   ///< [pixel] low row of the frame in all targets
+    TargetEncoding encoding = TargetEncoding::Linear;
+    bool depthFromFramebuffer = false; ///< true: depth is the depth attachment of `framebuffer`
+    bool keepScissor = false;          ///< true: the host's scissor test limits writes to the target
+
+    bool isDisplay() const { return encoding != TargetEncoding::Linear; }
 };
 
 /// Maps ids of instances in snapshots to the host's ids. Without a function, the ids are equal.

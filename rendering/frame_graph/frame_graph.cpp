@@ -52,14 +52,23 @@ ResourceId FrameGraph::importTexture(const TextureDesc& desc, uint32_t name)
                         .width = desc.width,
                         .height = desc.height,
                         .format = desc.format,
+                        .x = desc.x,
+                        .y = desc.y,
                         .importedName = name},
                        kNone);
+}
+
+ResourceId FrameGraph::importTarget(const TextureDesc& desc, uint32_t name)
+{
+    const ResourceId id = importTexture(desc, name);
+    resources_.back().isHostTarget = true;
+    return id;
 }
 
 ResourceId FrameGraph::importFramebuffer(const TextureDesc& desc, uint32_t framebuffer)
 {
     const ResourceId id = importTexture(desc, framebuffer);
-    resources_.back().isFramebuffer = true;
+    resources_.back().isFramebuffer = resources_.back().isHostTarget = true;
     return id;
 }
 

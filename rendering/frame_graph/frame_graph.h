@@ -29,6 +29,8 @@ struct TextureDesc
     int width = 0;         ///< [pixel] > 0
     int height = 0;        ///< [pixel] > 0
     Format format = Format::RGBA32F;
+    int x = 0; ///< [pixel] left column of the frame in an imported target
+    int y = 0; ///< [pixel] low row of the frame in an imported target
 };
 
 struct BufferDesc
@@ -78,6 +80,8 @@ public:
     /// Adds a framebuffer of the host as a color target. Passes can draw to the framebuffer, but cannot
     /// sample it.
     ResourceId importFramebuffer(const TextureDesc& desc, uint32_t framebuffer);
+    /// Adds a texture of the host as a color target, to which its scissor test may apply.
+    ResourceId importTarget(const TextureDesc& desc, uint32_t name);
     ResourceId importBuffer(const BufferDesc& desc, uint32_t name);
 
     /// Adds a pass. `setup(Builder&)` is called at once and declares the resources of the pass. `setup` may
@@ -117,6 +121,8 @@ public:
         bool isFramebuffer = false;
         int width = 0, height = 0;
         Format format = Format::RGBA32F;
+        int x = 0, y = 0;
+        bool isHostTarget = false; ///< the host's scissor test may limit draws to it
         size_t bytes = 0;
         uint32_t importedName = 0;
         uint32_t physical = ~0u; ///< index of the physical texture or buffer; ~0 if imported or never used

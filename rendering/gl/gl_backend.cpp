@@ -11,7 +11,7 @@ GlBackend::GlBackend(GlDevice& device, std::pmr::memory_resource* memory)
 
 // ---- the frame ----
 
-base::Status GlBackend::beginFrame(const FrameGraph& graph, SrgbTargets srgb)
+base::Status GlBackend::beginFrame(const FrameGraph& graph, SrgbTargets srgb, bool keepScissor)
 {
     graph_ = &graph;
     status_ = graph.status();
@@ -27,7 +27,7 @@ base::Status GlBackend::beginFrame(const FrameGraph& graph, SrgbTargets srgb)
     framebuffers_.beginFrame();
     status_ = pool_.realise(graph, framebuffers_);
     if (status_.ok())
-        state_.reset(srgb == SrgbTargets::Light);
+        state_.reset(srgb == SrgbTargets::Light, keepScissor);
     return status_;
 }
 
@@ -246,7 +246,9 @@ void GlBackend::draw(const DrawCall& call)
         return;
     const auto first = std::ranges::find_if(call.targets, [](ResourceId target) { return target.valid(); });
     const ResourceId sized = first == call.targets.end() ? call.depthTarget : *first;
-    state_.bindFramebuffer(framebuffer, width(sized), height(sized));
+    const FrameGraph::Resource& target = graph_->resource(sized);
+    state_.bindFramebuffer(framebuffer,
+                           {target.x, target.y, target.width, target.height, target.isHostTarget});
     state_.setBlend(call.blend);
     state_.setDepth(call.depthTarget.valid(), call.reversedDepth);
     if (call.indirect.valid()) {
@@ -300,6 +302,7 @@ void GlBackend::clear(ResourceId texture, const float (&rgba)[4])
     const std::span<const ResourceId> colors(&texture, isDepth ? 0 : 1);
     if (!usable() || !findFramebuffer(colors, isDepth ? texture : ResourceId(), framebuffer))
         return;
+    state_.openScissor();
     if (isDepth) {
         device_.gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, rgba);
         return;
@@ -339,6 +342,7 @@ void GlBackend::copyTexture(ResourceId source, ResourceId destination)
 {
     if (!usable())
         return;
+    state_.openScissor();
     const int w = width(source);
     const int h = height(source);
     const auto isFramebuffer = [this](ResourceId id) {

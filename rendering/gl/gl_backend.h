@@ -54,7 +54,9 @@ public:
     /// `graph` must be compiled and stay valid until endFrame(). A pending GL error of the host is discarded.
     /// @return the error of FrameGraph::status(), GlFailed (context lost), OutOfMemory, InvalidArgument
     ///     (size)
-    base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light);
+    /// @param keepScissor see GlDrawState::reset()
+    base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light,
+                            bool keepScissor = false);
     /// Ends the frame. @return status()
     base::Status endFrame();
 

@@ -43,9 +43,10 @@ GlDrawState::GlDrawState(GlDevice& device)
                                                          createSampler(device, Sampling::TrilinearRepeat)}
 {}
 
-void GlDrawState::reset(bool encodeSrgb)
+void GlDrawState::reset(bool encodeSrgb, bool keepScissor)
 {
     const GlFunctions& gl = device_.gl;
+    hasScissor_ = keepScissor && gl.IsEnabledi(GL_SCISSOR_TEST, 0) != GL_FALSE;
     for (const GLenum what : kOff)
         gl.Disable(what);
     encodeSrgb ? gl.Enable(GL_FRAMEBUFFER_SRGB) : gl.Disable(GL_FRAMEBUFFER_SRGB);
@@ -62,6 +63,7 @@ void GlDrawState::reset(bool encodeSrgb)
     gl.BindVertexArray(vertexArray_.name());
 
     program_ = framebuffer_ = kUnknown;
+    viewport_ = {};
     blend_ = Blend::None;
     onlyFirst_ = depthTested_ = depthReversed_ = false;
     units_.fill({kUnknown, kUnknown});
@@ -75,15 +77,26 @@ void GlDrawState::useProgram(uint32_t program)
     device_.gl.UseProgram(program);
 }
 
-void GlDrawState::bindFramebuffer(uint32_t framebuffer, int width, int height)
+void GlDrawState::bindFramebuffer(uint32_t framebuffer, const Viewport& viewport)
 {
+    const GlFunctions& gl = device_.gl;
     if (framebuffer_ != framebuffer)
-        device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    if (framebuffer_ == kUnknown || width_ != width || height_ != height)
-        device_.gl.ViewportIndexedf(0, 0.0f, 0.0f, static_cast<GLfloat>(width), static_cast<GLfloat>(height));
+        gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    if (framebuffer_ == kUnknown || viewport_ != viewport)
+        gl.ViewportIndexedf(0, static_cast<GLfloat>(viewport.x), static_cast<GLfloat>(viewport.y),
+                            static_cast<GLfloat>(viewport.width), static_cast<GLfloat>(viewport.height));
+    if (hasScissor_ && viewport_.isHosts != viewport.isHosts)
+        viewport.isHosts ? gl.Enablei(GL_SCISSOR_TEST, 0) : gl.Disablei(GL_SCISSOR_TEST, 0);
     framebuffer_ = framebuffer;
-    width_ = width;
-    height_ = height;
+    viewport_ = viewport;
+}
+
+void GlDrawState::openScissor()
+{
+    if (!hasScissor_ || !viewport_.isHosts)
+        return;
+    device_.gl.Disablei(GL_SCISSOR_TEST, 0);
+    viewport_.isHosts = false;
 }
 
 void GlDrawState::drawToFirst(bool only)

@@ -18,15 +18,28 @@ class GlDrawState
 public:
     static constexpr uint32_t kUnits = 13; ///< number of texture units, 0 to 12
 
+    /// [pixel] The part of a framebuffer that a draw covers.
+    struct Viewport
+    {
+        int x = 0, y = 0, width = 0, height = 0;
+        bool isHosts = false; ///< the framebuffer has a target of the host
+
+        bool operator==(const Viewport&) const = default;
+    };
+
     explicit GlDrawState(GlDevice& device);
 
     /// Sets every state that affects draws, independent of the host's state.
     /// @param encodeSrgb true: OpenGL encodes linear values that are written to targets of an sRGB format
-    void reset(bool encodeSrgb);
+    /// @param keepScissor true: the host's scissor test, if it is enabled, applies to draws to its targets
+    void reset(bool encodeSrgb, bool keepScissor = false);
 
     void useProgram(uint32_t program);
-    /// Sets the viewport to the whole framebuffer.
-    void bindFramebuffer(uint32_t framebuffer, int width, int height);
+    /// Binds a framebuffer and sets the viewport.
+    void bindFramebuffer(uint32_t framebuffer, const Viewport& viewport);
+    /// Disables the scissor test, which a draw to a target of the host may have enabled. To be called before
+    /// clears and copies.
+    void openScissor();
     /// If `only` is true, color writes are disabled for draw buffers other than the first.
     void drawToFirst(bool only);
     void setBlend(Blend blend);
@@ -49,8 +62,8 @@ private:
     std::array<GlSampler, 5> samplers_;
     uint32_t program_ = kUnknown;
     uint32_t framebuffer_ = kUnknown;
-    int width_ = 0;
-    int height_ = 0;
+    Viewport viewport_;
+    bool hasScissor_ = false; ///< the host's scissor test is enabled and applies to its targets
     Blend blend_ = Blend::None;
     bool onlyFirst_ = false;
     bool depthTested_ = false;

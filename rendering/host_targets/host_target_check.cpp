@@ -22,12 +22,16 @@ std::string sizeText(GLint width, GLint height)
 /// Whether the frame lies within what it is drawn to or read from.
 base::Status checkRoom(const HostTargets& targets, const char* member, GLint width, GLint height)
 {
-    const bool isWide = targets.width > width;
-    if (!isWide && targets.height <= height)
+    const bool isWide = targets.width > width - targets.x;
+    if (!isWide && targets.height <= height - targets.y)
         return {};
-    return refuse(std::string(isWide ? "frame.width" : "frame.height") + " is " +
-                  std::to_string(isWide ? targets.width : targets.height) + ", but " + member + " has " +
-                  sizeText(width, height) + " pixels: the frame must lie within it");
+    const int start = isWide ? targets.x : targets.y;
+    return refuse(
+        std::string(isWide ? "frame.width" : "frame.height") + " is " +
+        std::to_string(isWide ? targets.width : targets.height) +
+        (start > 0 ? std::string(" from ") + (isWide ? "viewportX " : "viewportY ") + std::to_string(start)
+                   : std::string()) +
+        ", but " + member + " has " + sizeText(width, height) + " pixels: the frame must lie within it");
 }
 
 const char* framebufferFault(GLenum status)
@@ -52,61 +56,150 @@ const char* framebufferFault(GLenum status)
     }
 }
 
+/// The sized format of a depth image. Hosts may have specified it by an unsized one.
+GLenum sizedDepthFormat(GLenum format, GLint bits, bool isFloat, bool hasStencil)
+{
+    switch (format) {
+    case GL_DEPTH_COMPONENT16:
+    case GL_DEPTH_COMPONENT24:
+    case GL_DEPTH_COMPONENT32:
+    case GL_DEPTH_COMPONENT32F:
+    case GL_DEPTH24_STENCIL8:
+    case GL_DEPTH32F_STENCIL8:
+        return format;
+    default:
+        break;
+    }
+    if (isFloat)
+        return hasStencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F;
+    if (hasStencil)
+        return GL_DEPTH24_STENCIL8;
+    return bits <= 16 ? GL_DEPTH_COMPONENT16 : bits <= 24 ? GL_DEPTH_COMPONENT24 : GL_DEPTH_COMPONENT32;
+}
+
 } // namespace
 
-base::Status HostTargetCheck::check(const FrameRequest& request)
+base::Status HostTargetCheck::check(const FrameRequest& request, HostTargetFacts& outFacts)
 {
     const HostTargets& targets = request.targets;
+    outFacts = {};
     Size drawn;
+    if (targets.useFramebuffer || targets.depthFromFramebuffer) {
+        if (base::Status status = checkName(targets.framebuffer); !status)
+            return status;
+    }
     if (targets.useFramebuffer) {
-        if (base::Status status = checkFramebuffer(targets, drawn); !status)
+        if (base::Status status = checkAttachment(targets, drawn, outFacts); !status)
             return status;
     }
     if (targets.color != 0) {
-        if (base::Status status = checkColor(targets, drawn); !status)
+        if (base::Status status = checkColor(targets, drawn, outFacts); !status)
             return status;
     }
     if (targets.depth != 0) {
-        if (base::Status status = checkDepth(targets, drawn); !status)
+        if (base::Status status = checkDepth(targets, targets.depth, drawn, outFacts); !status)
+            return status;
+    }
+    if (targets.depthFromFramebuffer) {
+        if (base::Status status = checkFramebufferDepth(targets, drawn, outFacts); !status)
             return status;
     }
     HostTexture map;
     if (request.sunShadow.texture != 0)
-        if (base::Status status =
-                textures_.check(request.sunShadow.texture, HostUse::ReadDepth, "frame.sunShadowTexture", map);
+        if (base::Status status = textures_.check(request.sunShadow.texture, HostUse::ReadShadow,
+                                                  "frame.sunShadowTexture", map);
             !status)
             return status;
     return checkContext(request.camera);
 }
 
-base::Status HostTargetCheck::checkColor(const HostTargets& targets, Size& outSize)
+base::Status HostTargetCheck::checkColor(const HostTargets& targets, Size& outSize, HostTargetFacts& outFacts)
 {
     const HostUse use = targets.useFramebuffer ? HostUse::ReadColor : HostUse::DrawColor;
     HostTexture color;
     if (base::Status status = textures_.check(targets.color, use, "frame.colorTexture", color); !status)
         return status;
     outSize = {color.width, color.height};
+    outFacts.colorHasSamples = color.hasSamples();
+    outFacts.colorIsSrgb = color.isSrgb();
+    if (color.isSrgb() && targets.encoding == TargetEncoding::DisplayGamma)
+        return refuse("frame.colorTexture has the format " + glFormatName(static_cast<GLenum>(color.format)) +
+                      ", whose codes are those of sRGB: set frame.targetEncoding to FX_TARGET_DISPLAY_SRGB");
     return checkRoom(targets, "frame.colorTexture", color.width, color.height);
 }
 
 /// Depth belongs to the pixels of the frame one by one. It may be larger, as textures are that a host
 /// allocates once for all its resolutions; depth of the same picture at another resolution is not meant.
-base::Status HostTargetCheck::checkDepth(const HostTargets& targets, Size drawn)
+base::Status HostTargetCheck::checkDepth(const HostTargets& targets, uint32_t texture, Size drawn,
+                                         HostTargetFacts& outFacts)
 {
     HostTexture depth;
-    if (base::Status status = textures_.check(targets.depth, HostUse::ReadDepth, "frame.depthTexture", depth);
+    if (base::Status status = textures_.check(texture, HostUse::ReadDepth, "frame.depthTexture", depth);
         !status)
         return status;
+    const bool isMoved = targets.x != 0 || targets.y != 0;
+    if (isMoved || depth.hasSamples()) {
+        outFacts.copiedDepth = texture;
+        outFacts.depthFormat = static_cast<GLenum>(depth.format);
+    } else {
+        outFacts.depth = texture;
+    }
     const int64_t w = targets.width, h = targets.height;
-    const bool isSmall = depth.width < w || depth.height < h;
+    const bool isSmall = depth.width < targets.x + w || depth.height < targets.y + h;
     const bool isThatOfTarget = depth.width == drawn.width && depth.height == drawn.height;
     const bool isScaled =
         4 * int64_t(depth.width) >= 5 * w && std::abs(depth.width * h - depth.height * w) < w + h;
-    if (!isSmall && (isThatOfTarget || !isScaled))
+    if (!isSmall && (isThatOfTarget || isMoved || !isScaled))
         return {};
     return refuse("frame.depthTexture has " + sizeText(depth.width, depth.height) +
                   " texels for a frame of " + sizeText(targets.width, targets.height) +
                   " pixels: give depth with one texel for each pixel of the frame");
+}
+
+/// A texture of one sample is read where it is; all others are copied, which needs an equal format.
+base::Status HostTargetCheck::checkFramebufferDepth(const HostTargets& targets, Size drawn,
+                                                    HostTargetFacts& outFacts)
+{
+    const GlFunctions& gl = device_.gl;
+    const uint32_t framebuffer = targets.framebuffer;
+    const auto ask = [&](GLenum attachment, GLenum what) {
+        GLint value = 0;
+        gl.GetNamedFramebufferAttachmentParameteriv(framebuffer, attachment, what, &value);
+        return value;
+    };
+    const GLenum depth = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
+    const GLint type = ask(depth, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
+    const GLint bits = type == GL_NONE ? 0 : ask(depth, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+    if (bits == 0)
+        return refuse("frame.depthFromFramebuffer is 1, but frame.framebuffer has no depth: attach a depth "
+                      "texture or renderbuffer, or set it to 0");
+    GLint format = GL_NONE;
+    bool hasStencil = false;
+    if (type == GL_TEXTURE || type == GL_RENDERBUFFER) {
+        const auto object = static_cast<GLuint>(ask(depth, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
+        GLint stencilBits = 0;
+        if (type == GL_TEXTURE) {
+            const GLint level = ask(depth, GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
+            GLint target = GL_NONE;
+            gl.GetTextureParameteriv(object, GL_TEXTURE_TARGET, &target);
+            const bool isPlain = target == GL_TEXTURE_2D && level == 0 && targets.x == 0 && targets.y == 0;
+            if (isPlain && checkDepth(targets, object, drawn, outFacts))
+                return {};
+            outFacts.depth = 0;
+            gl.GetTextureLevelParameteriv(object, level, GL_TEXTURE_INTERNAL_FORMAT, &format);
+            gl.GetTextureLevelParameteriv(object, level, GL_TEXTURE_STENCIL_SIZE, &stencilBits);
+        } else {
+            gl.GetNamedRenderbufferParameteriv(object, GL_RENDERBUFFER_INTERNAL_FORMAT, &format);
+            gl.GetNamedRenderbufferParameteriv(object, GL_RENDERBUFFER_STENCIL_SIZE, &stencilBits);
+        }
+        hasStencil = stencilBits > 0;
+    } else {
+        hasStencil = ask(GL_STENCIL, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE &&
+                     ask(GL_STENCIL, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) > 0;
+    }
+    const bool isFloat = ask(depth, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
+    outFacts.depthFormat = sizedDepthFormat(static_cast<GLenum>(format), bits, isFloat, hasStencil);
+    return {};
 }
 
 /// A framebuffer's own state, which OpenGL tells of the one that is bound. The host's is bound again.
@@ -125,9 +218,8 @@ GLint HostTargetCheck::drawBuffer(uint32_t framebuffer)
     return buffer;
 }
 
-base::Status HostTargetCheck::checkFramebuffer(const HostTargets& targets, Size& outSize)
+base::Status HostTargetCheck::checkName(uint32_t framebuffer)
 {
-    const uint32_t framebuffer = targets.framebuffer;
     if (framebuffer != 0 && !device_.gl.IsFramebuffer(framebuffer))
         return refuse("frame.framebuffer is " + std::to_string(framebuffer) +
                       ", which names no framebuffer of this context: give one that has been created or bound "
@@ -135,10 +227,11 @@ base::Status HostTargetCheck::checkFramebuffer(const HostTargets& targets, Size&
     if (const char* fault =
             framebufferFault(device_.gl.CheckNamedFramebufferStatus(framebuffer, GL_DRAW_FRAMEBUFFER)))
         return refuse(std::string("frame.framebuffer ") + fault);
-    return checkAttachment(targets, outSize);
+    return {};
 }
 
-base::Status HostTargetCheck::checkAttachment(const HostTargets& targets, Size& outSize)
+base::Status HostTargetCheck::checkAttachment(const HostTargets& targets, Size& outSize,
+                                              HostTargetFacts& outFacts)
 {
     const GlFunctions& gl = device_.gl;
     const uint32_t framebuffer = targets.framebuffer;
@@ -147,6 +240,7 @@ base::Status HostTargetCheck::checkAttachment(const HostTargets& targets, Size& 
         return refuse(
             "frame.framebuffer has GL_NONE as its draw buffer 0: name the color attachment to draw to "
             "(glNamedFramebufferDrawBuffer)");
+    outFacts.drawBuffer = static_cast<GLenum>(buffer);
     if (framebuffer == 0)
         return {};
     const auto ask = [&](GLenum what) {

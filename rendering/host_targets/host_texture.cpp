@@ -23,13 +23,16 @@ GLint levelParameter(const GlFunctions& gl, uint32_t texture, GLenum what)
     return value;
 }
 
-std::string targetFault(GLenum target)
+std::string targetFault(GLenum target, HostUse use)
 {
     const std::string is = "is a " + glTargetName(target);
     switch (target) {
     case GL_TEXTURE_2D:
         return {};
     case GL_TEXTURE_2D_MULTISAMPLE:
+        if (use != HostUse::ReadShadow)
+            return {};
+        [[fallthrough]];
     case GL_TEXTURE_2D_MULTISAMPLE_ARRAY:
         return is + ": resolve it into a GL_TEXTURE_2D (glBlitNamedFramebuffer) and give that";
     case GL_TEXTURE_2D_ARRAY:
@@ -48,7 +51,7 @@ std::string stateFault(const HostTexture& facts)
     if (facts.baseLevel != 0)
         return "has GL_TEXTURE_BASE_LEVEL " + std::to_string(facts.baseLevel) +
                ": set it to 0, or give a view of that level (glTextureView)";
-    if (facts.use != HostUse::ReadDepth) {
+    if (!isDepth(facts.use)) {
         constexpr std::array<GLint, 4> kPlain = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
         return facts.swizzle == kPlain ? std::string()
                                        : "has a GL_TEXTURE_SWIZZLE_RGBA: set it to red, green, blue, alpha";
@@ -75,11 +78,11 @@ HostTexture HostTextureCheck::factsOf(uint32_t name, HostUse use) const
     const bool isBuffer =
         facts.height == 1 && levelParameter(gl, name, GL_TEXTURE_BUFFER_DATA_STORE_BINDING) != 0;
     facts.target = isBuffer ? GL_TEXTURE_BUFFER : parameter(gl, name, GL_TEXTURE_TARGET);
-    if (facts.target != GL_TEXTURE_2D)
+    if (facts.target != GL_TEXTURE_2D && !facts.hasSamples())
         return facts;
     facts.baseLevel = parameter(gl, name, GL_TEXTURE_BASE_LEVEL);
     gl.GetTextureParameteriv(name, GL_TEXTURE_SWIZZLE_RGBA, facts.swizzle.data());
-    if (use == HostUse::ReadDepth)
+    if (isDepth(use))
         facts.stencilMode = parameter(gl, name, GL_DEPTH_STENCIL_TEXTURE_MODE);
     return facts;
 }
@@ -100,9 +103,11 @@ std::string HostTextureCheck::formatFault(const HostTexture& facts) const
     const std::string has = "has the format " + glFormatName(static_cast<GLenum>(facts.format)) + ", ";
     const GLint redType = ask(GL_TEXTURE_RED_TYPE);
     const bool hasGreenAndBlue = ask(GL_TEXTURE_GREEN_SIZE) > 0 && ask(GL_TEXTURE_BLUE_SIZE) > 0;
-    if (facts.use == HostUse::ReadDepth) {
+    if (isDepth(facts.use)) {
         const bool isCopy =
             redType == GL_FLOAT && ask(GL_TEXTURE_RED_SIZE) == 32 && ask(GL_TEXTURE_GREEN_SIZE) == 0;
+        if (isCopy && facts.hasSamples())
+            return has + "whose samples OpenGL would average: use a GL_DEPTH_ format";
         return hasDepth || isCopy ? std::string()
                                   : has + "which holds no depth: use GL_DEPTH_COMPONENT32F or another "
                                           "GL_DEPTH_ format, or GL_R32F with the same values";
@@ -121,7 +126,7 @@ std::string HostTextureCheck::formatFault(const HostTexture& facts) const
 
 std::string HostTextureCheck::faultOf(const HostTexture& facts) const
 {
-    if (std::string fault = targetFault(static_cast<GLenum>(facts.target)); !fault.empty())
+    if (std::string fault = targetFault(static_cast<GLenum>(facts.target), facts.use); !fault.empty())
         return fault;
     if (facts.width < 1 || facts.height < 1)
         return "has no image at level 0: allocate it (glTextureStorage2D)";

@@ -24,7 +24,14 @@ enum class HostUse : uint8_t
     ReadColor, ///< the opaque picture is read from this texture
     DrawColor, ///< the picture is read from this texture and drawn into it
     ReadDepth,
+    ReadShadow, ///< depth of a shadow map; one sample only
 };
+
+/// True if depth is read.
+constexpr bool isDepth(HostUse use)
+{
+    return use == HostUse::ReadDepth || use == HostUse::ReadShadow;
+}
 
 /// Properties of a texture that can be queried from OpenGL in a few calls. The result of the check depends
 /// only on these properties. So the result is still valid if the host has replaced the texture by a new
@@ -38,8 +45,12 @@ struct HostTexture
     GLint width = 0;  ///< [texel]
     GLint height = 0; ///< [texel]
     GLint baseLevel = 0;
-    GLint stencilMode = 0; ///< used only for ReadDepth
+    GLint stencilMode = 0; ///< used only for depth
     std::array<GLint, 4> swizzle{};
+
+    bool hasSamples() const { return target == GL_TEXTURE_2D_MULTISAMPLE; }
+    /// True if OpenGL decodes the codes of this texture when it is read.
+    bool isSrgb() const { return format == GL_SRGB8 || format == GL_SRGB8_ALPHA8; }
 
     bool operator==(const HostTexture&) const = default;
 };

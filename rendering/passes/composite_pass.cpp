@@ -14,9 +14,13 @@ CompositePass::Outputs CompositePass::addTo(FrameGraph& graph, const Inputs& in)
             out.color = builder.write(builder.create({"color", in.width, in.height, Format::RGBA32F}));
         }
         return [in, target = out.color](Backend& backend) {
+            const bool hasBlock = in.display.has_value();
             const TextureBinding textures[] = {{0, in.media}, {1, in.picture}};
             DrawCall call;
-            call.program = in.inPlace ? &kCompositeBlendProgram : &kCompositeProgram;
+            call.program = in.inPlace ? (hasBlock ? &kCompositeOffsetProgram : &kCompositeBlendProgram)
+                                      : (hasBlock ? &kCompositeDisplayProgram : &kCompositeProgram);
+            if (hasBlock)
+                call.uniforms = asUniforms(*in.display);
             call.targets = {&target, 1};
             call.textures = {textures, in.inPlace ? size_t(1) : size_t(2)};
             call.blend = in.inPlace ? Blend::Premultiplied : Blend::None;

@@ -2,13 +2,24 @@
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/display_block.h"
+
+#include <optional>
 
 namespace fx::render {
 
 inline constexpr ProgramDesc kCompositeBlendProgram{"composite (blend)", "shared/fullscreen.vert.glsl",
-                                                    "frame/composite.frag.glsl", nullptr, "FX_BLEND=1"};
+                                                    "frame/composite.frag.glsl", nullptr,
+                                                    "FX_BLEND=1 FX_DISPLAY=0 FX_OFFSET=0"};
+inline constexpr ProgramDesc kCompositeOffsetProgram{
+    "composite (blend, offset)", "shared/fullscreen.vert.glsl", "frame/composite.frag.glsl", nullptr,
+    "FX_BLEND=1 FX_DISPLAY=0 FX_OFFSET=1"};
 inline constexpr ProgramDesc kCompositeProgram{"composite", "shared/fullscreen.vert.glsl",
-                                               "frame/composite.frag.glsl", nullptr, "FX_BLEND=0"};
+                                               "frame/composite.frag.glsl", nullptr,
+                                               "FX_BLEND=0 FX_DISPLAY=0 FX_OFFSET=0"};
+inline constexpr ProgramDesc kCompositeDisplayProgram{"composite (display)", "shared/fullscreen.vert.glsl",
+                                                      "frame/composite.frag.glsl", nullptr,
+                                                      "FX_BLEND=0 FX_DISPLAY=1 FX_OFFSET=0"};
 
 /// Blends the media over the host's picture: result = media + (1 - media alpha) * picture.
 ///
@@ -25,6 +36,9 @@ public:
         ResourceId picture;
         int width, height;
         bool inPlace; ///< true: blend into `picture`; false: create a new texture
+        /// Uniforms for a picture that is not at (0, 0) of its target, and for a decoded one, in which the
+        /// formula film-crosstalk is applied to the media; empty: neither.
+        std::optional<DisplayBlock> display{};
     };
     struct Outputs
     {

@@ -1,10 +1,12 @@
 #include "rendering/passes/programs.h"
 
 #include "rendering/passes/composite_pass.h"
+#include "rendering/passes/display_decode_pass.h"
 #include "rendering/passes/layer_distance_pass.h"
 #include "rendering/passes/layer_sums_pass.h"
 #include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/overlay_pass.h"
+#include "rendering/passes/present_changes_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
 #include "rendering/passes/tone_map_pass.h"
@@ -14,9 +16,10 @@ namespace fx::render {
 namespace {
 
 constexpr const ProgramDesc* kPrograms[] = {
-    &kSceneDistanceProgram, &kLayerResolveProgram,  &kCompositeBlendProgram, &kCompositeProgram,
-    &kToneMapProgram,       &kToneMapDitherProgram, &kPresentProgram,        &kLayerDistanceProgram,
-    &kLayerUpsampleProgram, &kLayerSpreadProgram,   &kLayerOverProgram,      &kOverlayProgram,
+    &kSceneDistanceProgram, &kLayerResolveProgram,     &kCompositeBlendProgram, &kCompositeOffsetProgram,
+    &kCompositeProgram,     &kCompositeDisplayProgram, &kToneMapProgram,        &kToneMapDitherProgram,
+    &kPresentProgram,       &kPresentChangesProgram,   &kDisplayDecodeProgram,  &kLayerDistanceProgram,
+    &kLayerUpsampleProgram, &kLayerSpreadProgram,      &kLayerOverProgram,      &kOverlayProgram,
 };
 
 } // namespace

@@ -84,7 +84,8 @@ base::Status ViewRenderer::prepareLights(const base::SnapshotPair& snapshots, co
     const uint32_t compiledBefore = s.device->programsCompiled();
     FrameRequest contextOnly;
     contextOnly.camera = asked.camera;
-    if (base::Status status = s.targetCheck.check(contextOnly); !status)
+    HostTargetFacts unused;
+    if (base::Status status = s.targetCheck.check(contextOnly, unused); !status)
         return status;
     if (base::Status status = s.begin(snapshots, asked, settings_); !status)
         return status;

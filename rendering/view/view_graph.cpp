@@ -1,11 +1,13 @@
 #include "rendering/view/view_graph.h"
 
 #include "rendering/passes/composite_pass.h"
+#include "rendering/passes/display_decode_pass.h"
 #include "rendering/passes/layer_distance_pass.h"
 #include "rendering/passes/layer_sums_pass.h"
 #include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overlay_pass.h"
+#include "rendering/passes/present_changes_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
 #include "rendering/passes/solid_pass.h"
@@ -62,19 +64,19 @@ public:
             finish(target_);
             return out_;
         }
-        const bool more = alterPicture() || settings_.toneMap || separateTarget_;
+        const bool more =
+            alterPicture() || settings_.toneMap || separateTarget_ || request_.targets.isDisplay();
+        if (more)
+            readPicture();
         if (frame_.hasMedia)
-            addComposite(frame_.picture, !more);
+            addComposite(more ? frame_.picture : target_, !more);
         addStage(PassStage::Refract);
         addStage(PassStage::Sensor);
         if (settings_.toneMap)
             addToneMap();
-        if (more && out_.anyPass) {
-            target_ = PresentPass::addTo(graph_, {frame_.picture, target_}).target;
-            finish(target_);
-        } else {
-            finish(frame_.picture);
-        }
+        if (more && out_.anyPass)
+            addPresent();
+        finish(target_);
         return out_;
     }
 
@@ -96,17 +98,49 @@ private:
     void importTargets()
     {
         const HostTargets& host = request_.targets;
-        readable_ = host.color != 0;
-        separateTarget_ = host.useFramebuffer;
-        if (readable_)
-            frame_.picture = graph_.importTexture(
-                {"host color", frame_.width, frame_.height, Format::RGBA32F}, host.color);
-        target_ =
-            separateTarget_
-                ? graph_.importFramebuffer({"host framebuffer", frame_.width, frame_.height, Format::RGBA32F},
-                                           host.framebuffer)
-                : frame_.picture;
-        out_.anyPass = separateTarget_ && readable_; // then the picture has at least to be carried over
+        readable_ = host.color != 0 || host.isDisplay();
+        separateTarget_ = host.useFramebuffer && host.color != 0;
+        const auto desc = [&](const char* name) {
+            return TextureDesc{name, frame_.width, frame_.height, Format::RGBA32F, host.x, host.y};
+        };
+        target_ = host.useFramebuffer ? graph_.importFramebuffer(desc("host framebuffer"), host.framebuffer)
+                                      : graph_.importTarget(desc("host color"), host.color);
+        out_.anyPass = separateTarget_; // then the picture has at least to be carried over
+    }
+
+    bool isMoved() const { return request_.targets.x != 0 || request_.targets.y != 0; }
+    bool hasSamples() const { return in_.facts && in_.facts->colorHasSamples; }
+
+    /// The host's picture as light that passes can read: its color texture, or a copy of it; decoded from
+    /// codes.
+    void readPicture()
+    {
+        const HostTargets& host = request_.targets;
+        const bool isCopied = in_.copies && (host.color == 0 || isMoved() || hasSamples());
+        const bool isTarget = !isCopied && !host.useFramebuffer;
+        const TextureDesc desc{isCopied ? "host copy" : "host color", frame_.width, frame_.height,
+                               Format::RGBA32F};
+        original_ = isTarget   ? target_
+                    : isCopied ? graph_.importTexture(desc, in_.copies->color())
+                               : graph_.importTexture(desc, host.color);
+        keepsUnchanged_ = host.isDisplay() || (isCopied && !settings_.toneMap);
+        const bool sourceIsLight = !isCopied && in_.facts && in_.facts->colorIsSrgb;
+        display_ = makeDisplayBlock(host, settings_.dazzle.white, sourceIsLight, separateTarget_);
+        before_ =
+            host.isDisplay()
+                ? DisplayDecodePass::addTo(graph_, {original_, frame_.width, frame_.height, display_}).color
+                : original_;
+        frame_.picture = before_;
+    }
+
+    void addPresent()
+    {
+        if (keepsUnchanged_ || isMoved())
+            target_ =
+                PresentChangesPass::addTo(graph_, {frame_.picture, before_, original_, target_, display_})
+                    .target;
+        else
+            target_ = PresentPass::addTo(graph_, {frame_.picture, target_}).target;
     }
 
     void addMedia()
@@ -209,8 +243,12 @@ private:
 
     void addComposite(ResourceId behind, bool inPlace)
     {
+        std::optional<DisplayBlock> display;
+        if (inPlace ? isMoved() : request_.targets.isDisplay())
+            display = makeDisplayBlock(request_.targets, settings_.dazzle.white, false, false);
         const ResourceId color =
-            CompositePass::addTo(graph_, {media_, behind, frame_.width, frame_.height, inPlace}).color;
+            CompositePass::addTo(graph_, {media_, behind, frame_.width, frame_.height, inPlace, display})
+                .color;
         if (inPlace)
             target_ = color;
         frame_.picture = color;
@@ -240,8 +278,12 @@ private:
     PassFrame frame_{};
     bool isComposed_ = false; ///< the composition has media of its own
     bool readable_ = false;
-    bool separateTarget_ = false;
-    ResourceId target_; ///< where the result goes
+    bool separateTarget_ = false; ///< the picture is read from a texture and written to a framebuffer
+    bool keepsUnchanged_ = false; ///< pixels that no pass changes are not written
+    DisplayBlock display_{};
+    ResourceId target_;   ///< where the result goes
+    ResourceId original_; ///< the host's picture as passes can read it
+    ResourceId before_;   ///< the same as light
     ResourceId media_;
     ViewGraphOutputs out_;
 };

@@ -5,6 +5,7 @@
 #include "rendering/compositions/media_composition.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/host_targets/host_copies.h"
 #include "rendering/lights/slices/view_lights.h"
 #include "rendering/outputs/output_view.h"
 #include "rendering/techniques/draw_technique.h"
@@ -29,6 +30,10 @@ struct ViewGraphInputs
     int layerDivisor = 1;            ///< divisor of layers in this frame, >= ViewSettings::layerDivisor
     OutputView* outputs = nullptr;   ///< outputs of the view; null if the settings request none
     const PastFrame* past = nullptr; ///< previous frame, used for `outputs`
+    /// Facts about the targets, and their copies; begin() has been called. Null: the color texture has one
+    /// sample and no sRGB format, and the frame lies at its corner.
+    const HostTargetFacts* facts = nullptr;
+    HostCopies* copies = nullptr;
 };
 
 /// Resources that exist after the frame, besides the host's picture. Resources that were not requested are

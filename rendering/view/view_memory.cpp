@@ -25,7 +25,7 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* kinds, std::pm
       lightBackend(*d, memory), techniques(list), parts(memory),
       composing(findComposition(Composition::Sorted)), lod(memory), lights(d, memory), casters(memory),
       batcher(memory), streams(memory), solids(memory), revisions(memory), passNames(memory), targetCheck(*d),
-      timer(*d, passGroupsOf(list)), lightTimer(*d, timer.groups())
+      copies(*d), timer(*d, passGroupsOf(list)), lightTimer(*d, timer.groups())
 {
     const TechniqueSetup setup{d, schema, memory, list};
     for (size_t i = 0; i < list.size(); ++i) {
@@ -67,7 +67,7 @@ void ViewRenderer::Impl::compose(const ViewSettings& settings)
 
 uint64_t ViewRenderer::Impl::bytes() const
 {
-    uint64_t sum = backend.pooledBytes() + lightBackend.pooledBytes() + lights.bytes();
+    uint64_t sum = copies.bytes() + backend.pooledBytes() + lightBackend.pooledBytes() + lights.bytes();
     for (const auto& part : parts)
         sum += part->bytes();
     return sum;
@@ -86,8 +86,10 @@ FrameStatistics ViewRenderer::Impl::rest()
     for (GlBackend* one : {&backend, &lightBackend})
         if (idleFrames >= kIdleFrames && one->pooledBytes() > 0)
             one->releasePool();
-    if (idleFrames == kIdleFrames)
+    if (idleFrames == kIdleFrames) {
         lights.release();
+        copies.release();
+    }
     for (const auto& part : parts)
         part->rest();
     if (idleFrames == kIdleFrames)

@@ -54,6 +54,7 @@ struct ViewRenderer::Impl
     void namePasses(bool wasPrepared);
     void noteFilling(const GroupTimes& times);
     SnapshotRowRevisions rowsOf(const base::FrameSnapshot* snapshot) const;
+    base::Status findDepth(FrameRequest& io);
     base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
     void forget(); ///< invalidates the data of this frame
     void askWhetherParticlesAreComputed();
@@ -98,6 +99,8 @@ struct ViewRenderer::Impl
     FragmentCounts fragments{}; ///< estimated number of fragments of this frame
     LayerScaleControl layerScale;
     HostTargetCheck targetCheck;
+    HostTargetFacts targetFacts; ///< of the targets of this frame
+    HostCopies copies;
     GlPassTimer timer;
     GlPassTimer lightTimer; ///< timer of prepareLights()
     /// [ms] Time to fill light slices in the last timed frame that filled them.

@@ -62,7 +62,7 @@ base::Status ViewRenderer::Impl::checkTargets(const FrameRequest& request)
                                                           : nullptr;
     if (own)
         return invalid(std::string(own) + " is a texture of this view, which draws to it: give a copy");
-    return targetCheck.check(request);
+    return targetCheck.check(request, targetFacts);
 }
 
 /// Nothing is to be seen, and nothing else would change the host's picture.
@@ -228,20 +228,37 @@ base::Status ViewRenderer::check(const FrameRequest& request)
     return {};
 }
 
+/// The request with the texture from which depth can be read.
+base::Status ViewRenderer::Impl::findDepth(FrameRequest& io)
+{
+    io.targets.depth = targetFacts.depth != 0 ? targetFacts.depth : copies.depth();
+    return copies.status();
+}
+
 base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSettings& settings, int divisor)
 {
     graph.begin();
     outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, &lights, composition,
-                                     divisor, outputView, &history.past()});
+                                     divisor, outputView, &history.past(), &targetFacts, &copies});
+    if (!copies.status()) {
+        forget();
+        return copies.status();
+    }
     if (!outputs.anyPass)
         return {};
     graph.compile();
     passNames.reserve(lightGraph.executedPasses().size() + graph.executedPasses().size()); // see namePasses()
     GlStateGuard guard(*device, settings.saveState);
+    if (base::Status status = copies.copy(); !status) {
+        forget();
+        return status;
+    }
     timer.beginPasses();
-    // tone mapping writes the codes of sRGB itself
-    const bool isDisplayReferred = settings.toneMap && request.targets.color != 0;
-    if (backend.beginFrame(graph, isDisplayReferred ? SrgbTargets::Codes : SrgbTargets::Light))
+    // tone mapping and display encodings write codes themselves
+    const bool isDisplayReferred =
+        request.targets.isDisplay() || (settings.toneMap && request.targets.color != 0);
+    if (backend.beginFrame(graph, isDisplayReferred ? SrgbTargets::Codes : SrgbTargets::Light,
+                           request.targets.keepScissor))
         graph.execute(backend);
     for (const auto& part : parts)
         part->fence();
@@ -258,6 +275,9 @@ base::Status ViewRenderer::checkAll(const FrameRequest& request) const
     if (!findComposition(settings_.composition))
         return invalid("settings: this library has no composition " +
                        std::to_string(int(settings_.composition)));
+    if (settings_.toneMap && request.targets.isDisplay())
+        return invalid("frame.targetEncoding is a display encoding and settings.toneMap is 1, which would "
+                       "tone-map twice: set one of them to 0");
     if (settings_.slabs != 6 && settings_.slabs != 16)
         return invalid("settings: slabs are 6 or 16");
     if (settings_.outputs > view_output::kAll)
@@ -297,13 +317,17 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     const uint64_t callsBefore = s.device->callCount();
     if (base::Status status = s.checkTargets(asked); !status)
         return status;
+    s.copies.begin(asked.targets, s.targetFacts);
+    FrameRequest seen = asked;
+    if (base::Status status = s.findDepth(seen); !status)
+        return status;
     const uint32_t compiledBefore = s.device->programsCompiled();
     const bool wasPrepared = s.takePrepared(snapshots, asked, settings_);
     const uint64_t callsThen = wasPrepared ? s.prepared->glCalls : 0;
     const uint32_t compiledThen = wasPrepared ? s.prepared->programsCompiled : 0;
     s.prepared.reset();
     if (!wasPrepared)
-        if (base::Status status = s.begin(snapshots, asked, settings_); !status)
+        if (base::Status status = s.begin(snapshots, seen, settings_); !status)
             return status;
     s.lights.setSunShadow(asked.sunShadow, asked.camera.origin);
     s.timer.beginFrame(s.clock, s.tag);
@@ -312,7 +336,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
                                             asked.resetHistory);
     base::Status status;
     try {
-        status = s.draw(asked, settings_, divisor);
+        status = s.draw(seen, settings_, divisor);
     } catch (...) { // out of memory: the next frame uploads and fills everything again
         s.forget();
         s.key.reset();

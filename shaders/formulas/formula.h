@@ -41,6 +41,7 @@ FX_FORMULA_SPACE_BEGIN
 // clang-format off: the order is that of use
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
+#include "shaders/formulas/display_codes.fx.h"
 #include "shaders/formulas/field_detail.fx.h"
 #include "shaders/formulas/field_glow.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
@@ -74,6 +75,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/lump_noise.fx.h"
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
+#include "shaders/formulas/display_codes.fx.h"
 #include "shaders/formulas/field_detail.fx.h"
 #include "shaders/formulas/field_glow.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"

@@ -1,3 +1,10 @@
+#if FX_DISPLAY
+#include "formulas/tone_curve.fx.h"
+#endif
+#if FX_DISPLAY || FX_OFFSET
+#include "frame/display_block.glsl"
+#endif
+
 // Media over what lies behind them.
 layout(binding = 0) uniform sampler2D media; // premultiplied
 #if FX_BLEND == 0
@@ -8,7 +15,14 @@ layout(location = 0) out vec4 color;
 void main()
 {
     ivec2 p = ivec2(gl_FragCoord.xy);
+#if FX_OFFSET
+    p -= place.xy;
+#endif
     vec4 m = texelFetch(media, p, 0);
+#if FX_DISPLAY
+    // Of the effects alone: the picture behind them holds codes, which show all that it passed through.
+    m.rgb += fxFilmCrosstalk(max(max(m.r, m.g), m.b), display.x) * ((m.r + m.g + m.b) / 3.0 - m.rgb);
+#endif
 #if FX_BLEND
     if (m == vec4(0.0))
         discard; // blending could change the bits of what no medium touches

@@ -40,6 +40,7 @@ struct HostGl
     X(PFNGLCREATERENDERBUFFERSPROC, CreateRenderbuffers)                                                     \
     X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                     \
     X(PFNGLNAMEDRENDERBUFFERSTORAGEPROC, NamedRenderbufferStorage)                                           \
+    X(PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC, NamedRenderbufferStorageMultisample)                     \
     X(PFNGLNAMEDFRAMEBUFFERRENDERBUFFERPROC, NamedFramebufferRenderbuffer)                                   \
     X(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                                                       \
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                       \

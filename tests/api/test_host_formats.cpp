@@ -217,7 +217,9 @@ void HostFormats::addDepthTextures()
     const auto make = [this](GLenum target) {
         return textures_.make(target, GL_DEPTH_COMPONENT24, kSize, kSize);
     };
-    addDepth("GL_TEXTURE_2D_MULTISAMPLE", make(GL_TEXTURE_2D_MULTISAMPLE));
+    const GLuint samples = make(GL_TEXTURE_2D_MULTISAMPLE);
+    buildWall(samples, GL_DEPTH_ATTACHMENT);
+    addDepth("GL_TEXTURE_2D_MULTISAMPLE", samples);
     addDepth("GL_TEXTURE_2D_ARRAY", make(GL_TEXTURE_2D_ARRAY));
     addDepth("GL_TEXTURE_CUBE_MAP", make(GL_TEXTURE_CUBE_MAP));
     addDepth("GL_TEXTURE_RECTANGLE", make(GL_TEXTURE_RECTANGLE));

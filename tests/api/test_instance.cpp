@@ -74,6 +74,23 @@ TEST_F(InstanceApi, aDefinitionOutOfRangeIsRefusedAndTheMessageNamesTheMember)
     EXPECT_EQ(statistics().instances, 0u);
 }
 
+TEST_F(InstanceApi, allInstancesEndAtOnceAndTheSceneGoesOnAsAnEmptyOne)
+{
+    std::vector<FxInstanceId> ids;
+    for (int i = 0; i < 20; ++i)
+        ids.push_back(addFountain());
+    for (int i = 0; i < 30; ++i)
+        ASSERT_EQ(fxScene_Update(scene_, fx::test::kFrame), FX_OK);
+    ASSERT_EQ(fxScene_DestroyAllInstances(scene_), FX_OK) << fxGetLastErrorMessage();
+    for (const FxInstanceId id : ids)
+        EXPECT_EQ(fxScene_IsValid(scene_, id), 0u);
+    ASSERT_EQ(fxScene_Update(scene_, fx::test::kFrame), FX_OK);
+    EXPECT_EQ(statistics().instances, 0u);
+    EXPECT_EQ(statistics().particles, 0u);
+    EXPECT_EQ(fxScene_DestroyAllInstances(scene_), FX_OK); // nothing is left to do
+    EXPECT_EQ(fxScene_IsValid(scene_, addFountain()), 1u);
+}
+
 TEST_F(InstanceApi, nullAndStaleAndForeignIdsAreRefusedByEveryFunction)
 {
     const FxInstanceId live = addFountain();
@@ -103,6 +120,7 @@ TEST_F(InstanceApi, nullAndStaleAndForeignIdsAreRefusedByEveryFunction)
     EXPECT_EQ(fxScene_IsValid(scene_, live), 1u);
     EXPECT_EQ(fxDestroyScene(other), FX_OK);
 
+    EXPECT_EQ(fxScene_DestroyAllInstances(nullptr), FX_ERROR_INVALID_ARGUMENT);
     const FxInstanceDef def = instanceDef();
     FxInstanceId id;
     EXPECT_EQ(fxScene_CreateInstance(nullptr, &def, &id), FX_ERROR_INVALID_ARGUMENT);

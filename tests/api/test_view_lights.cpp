@@ -355,7 +355,11 @@ TEST_F(ViewLights, wrongArgumentsAreRefused)
     refuse("sunShadowMatrix", [](FxFrameDef& f) { f.sunShadowMatrix[0] = NAN; });
     refuse("sunShadowConvention", [](FxFrameDef& f) { f.sunShadowConvention = 2; });
     refuse("sunShadowEdge", [](FxFrameDef& f) { f.sunShadowEdge = -1.0f; });
-    refuse("reserved", [](FxFrameDef& f) { f.reserved = 1; });
+    refuse("targetEncoding", [](FxFrameDef& f) { f.targetEncoding = 3; });
+    refuse("depthFromFramebuffer", [](FxFrameDef& f) { f.depthFromFramebuffer = 2; });
+    refuse("viewportX", [](FxFrameDef& f) { f.viewportX = -1; });
+    refuse("viewportY", [](FxFrameDef& f) { f.viewportY = 16385; });
+    refuse("keepScissor", [](FxFrameDef& f) { f.keepScissor = 2; });
     FxFrameDef wrong = frame();
     wrong.sunShadowTexture = color_.name(); // no depth
     update(60);

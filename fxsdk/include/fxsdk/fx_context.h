@@ -67,7 +67,7 @@ typedef struct FxLog
 } FxLog;
 
 /// Loads OpenGL functions. If `getProcAddress` is null, the context has no GL: it supports simulation and
-/// snapshots only.
+/// snapshots only. fxGetGlProcAddress() suits most hosts.
 typedef struct FxGlLoader
 {
     /// Passed to the callbacks unchanged.
@@ -153,6 +153,13 @@ typedef struct FxMemoryStats
     uint64_t bytesInUse;      ///< [byte] memory that is allocated and not yet released
     uint64_t allocationCount; ///< number of allocations since the context was created
 } FxMemoryStats;
+
+/// Finds an OpenGL function by the window system whose context is current on this thread: EGL, GLX or SDL, as
+/// the process has loaded them. For FxGlLoader::getProcAddress of hosts without a loader of their own. [any]
+/// @param user not used
+/// @param name such as "glCreateTextures"
+/// @return the function's address; null if no context is current or the function does not exist
+FX_API void* fxGetGlProcAddress(void* user, const char* name);
 
 /// Creates a context. [any; with GL: on the thread where the OpenGL 4.5 context is current, which becomes
 /// the context's GL thread]

@@ -331,6 +331,12 @@ FX_API FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def,
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance);
 
+/// Removes all instances, as fxScene_DestroyInstance() removes one. The clock of the scene continues.
+/// [scene thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_OUT_OF_MEMORY (no instance was removed),
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_DestroyAllInstances(FxScene* scene);
+
 /// Tests whether an id names an instance of this scene. [scene thread]
 /// @return 1 if the id names an instance of this scene; 0 if it does not, if the scene is null, or if the
 ///         thread is wrong

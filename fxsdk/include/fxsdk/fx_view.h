@@ -14,32 +14,13 @@
 #define FXSDK_FX_VIEW_H
 
 #include "fxsdk/fx_base.h"
+#include "fxsdk/fx_view_frame.h"
 #include "fxsdk/fx_view_quality.h"
 #include "fxsdk/fx_view_statistics.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// Values of FxFrameDef::depthConvention.
-enum
-{
-    FX_DEPTH_STANDARD = 0, ///< near maps to the smaller value
-    FX_DEPTH_REVERSED = 1  ///< near maps to 1, the far plane or infinity to 0
-};
-
-/// Values of FxFrameDef::target.
-enum
-{
-    /// Draw over colorTexture.
-    FX_TARGET_TEXTURE = 0,
-    /// Write into draw buffer 0 of `framebuffer`: the first color attachment unless glDrawBuffer chose
-    /// another. Framebuffer 0 is the window. Other attachments do not change. With a colorTexture, the
-    /// picture is read from the texture and written completely. Without a colorTexture, the media are blended
-    /// over the framebuffer. A framebuffer cannot be read, so there is no heat shimmer, no glare and no tone
-    /// mapping.
-    FX_TARGET_FRAMEBUFFER = 1
-};
 
 /// Values of FxViewSettings::billboardForm.
 enum
@@ -149,7 +130,8 @@ typedef struct FxViewSettings
     /// 1 (default): procedural detail on particles; 0: bare kernels.
     uint32_t detail;
 
-    /// 1: write display-referred values; 0 (default): scene-linear.
+    /// 1: write display-referred values of the whole picture; 0 (default): scene-linear. Must be 0 with a
+    /// display encoding of FxFrameDef::targetEncoding.
     uint32_t toneMap;
 
     /// 1: provide fire, smoke, dust, depth and optical depth as textures; default 0.
@@ -275,99 +257,6 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.voxels = 96;
     settings.lightRefreshFrames = 1;
     return settings;
-}
-
-/// One frame. Fill with fxDefaultFrameDef(), then set camera and target.
-/// The picture fills the target from its lower left corner (0, 0); the host's depth range is 0 to 1.
-typedef struct FxFrameDef
-{
-    /// Set by fxDefaultFrameDef(); do not touch.
-    uint32_t structSize;
-
-    /// 1: camera cut; the adaptation of glare starts anew with this frame; default 0.
-    uint32_t resetHistory;
-
-    /// [m] world position that the matrices are relative to, each component within +-1e9; default 0. With an
-    /// origin near the camera, single precision suffices far from the origin of the world.
-    double origin[3];
-
-    /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid (columns
-    /// orthonormal within 1e-3); default identity.
-    float view[16];
-
-    /// Matrix from eye to clip coordinates, column-major, right-handed; perspective (elements 11 and 15 are
-    /// -1 and 0) or orthographic (0 and 1). An infinite far plane, off-center projections, jitter and
-    /// mirroring are allowed; depthConvention states to which value near maps. Required: the default,
-    /// identity, is refused.
-    float projection[16];
-
-    /// FX_DEPTH_...; default FX_DEPTH_STANDARD.
-    uint32_t depthConvention;
-
-    /// 1: clip space depth is [0, w] (glClipControl GL_ZERO_TO_ONE); 0 (default): [-w, w].
-    uint32_t zeroToOne;
-
-    /// 1: the host's glClipControl is GL_UPPER_LEFT during the call; 0 (default): GL_LOWER_LEFT.
-    uint32_t upperLeftOrigin;
-
-    /// FX_TARGET_...; default FX_TARGET_TEXTURE.
-    uint32_t target;
-
-    /// GL name of a GL_TEXTURE_2D holding the opaque picture [cd/m2 times exposure], red, green and blue as
-    /// floats or normalized; textures of sRGB formats hold sRGB-encoded values; 0 only with
-    /// FX_TARGET_FRAMEBUFFER.
-    uint32_t colorTexture;
-
-    /// GL name of a GL_TEXTURE_2D with the depth of the opaque picture, one texel for each pixel; 0
-    /// (default): no surface occludes the effects. Particles on the GPU collide with this depth if their
-    /// preset has an obstacle of the shape "depth".
-    uint32_t depthTexture;
-
-    /// GL name of the framebuffer, with FX_TARGET_FRAMEBUFFER; default 0.
-    uint32_t framebuffer;
-
-    /// [pixel] width of the frame, 1..16384 and within the target.
-    int32_t width;
-
-    /// [pixel] height of the frame, 1..16384 and within the target.
-    int32_t height;
-
-    /// 1: the frame is not typical, because the host loads, seeks or catches up; default 0. Quality does not
-    /// change, and the cost model ignores the time of the frame.
-    uint32_t holdQuality;
-
-    /// [s] 0..1e6, time since the last frame of this view, used only for adaptation; default 1/60.
-    double deltaTime;
-
-    /// GL name of a GL_TEXTURE_2D with depth: the host's shadow map of the sun. By this map, opaque surfaces
-    /// cast shadows on media. 0 (default): the sun reaches all media.
-    uint32_t sunShadowTexture;
-
-    /// FX_DEPTH_... of sunShadowTexture; default FX_DEPTH_STANDARD.
-    uint32_t sunShadowConvention;
-
-    /// Matrix from world coordinates minus `origin` to texture coordinates and stored depth of
-    /// sunShadowTexture, each 0..1, column-major, affine. The matrix includes the bias against
-    /// self-shadowing. Default identity.
-    float sunShadowMatrix[16];
-
-    /// [m] 0..100, radius of the soft edge of the sun's shadow on media; default 0.1.
-    float sunShadowEdge;
-
-    /// Reserved; 0.
-    uint32_t reserved;
-} FxFrameDef;
-
-/// A frame with its camera at the origin; the target has to be set.
-static inline FxFrameDef fxDefaultFrameDef(void)
-{
-    FxFrameDef def = FX_ZEROED;
-    def.structSize = sizeof(FxFrameDef);
-    for (int i = 0; i < 16; i += 5)
-        def.view[i] = def.projection[i] = def.sunShadowMatrix[i] = 1.0f;
-    def.deltaTime = 1.0 / 60.0;
-    def.sunShadowEdge = 0.1f;
-    return def;
 }
 
 /// Layer textures of the last frame: GL names, 0 when settings.layerOutputs was 0. Fill structSize with

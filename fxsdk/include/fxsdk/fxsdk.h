@@ -18,6 +18,7 @@
 #include "fxsdk/fx_snapshot.h"
 #include "fxsdk/fx_state.h"
 #include "fxsdk/fx_view.h"
+#include "fxsdk/fx_view_frame.h"
 #include "fxsdk/fx_view_lights.h"
 #include "fxsdk/fx_view_quality.h"
 

@@ -1,0 +1,48 @@
+// The code of docs/howto/effect-in-your-game.md, compiled as C and called as a game would.
+#include "tests/api/encoded_targets.h"
+
+extern "C" {
+struct Effects
+{
+    FxContext* context;
+    FxScene* scene;
+    FxView* view;
+    FxPresetId explosion;
+};
+int openEffects(Effects* effects, const FxViewSettings* settings);
+int explode(const Effects* effects, double x, double y, double z);
+int drawEffects(const Effects* effects, double seconds, const float view[16], const float projection[16],
+                FxFrameDef target);
+FxFrameDef windowTarget(int32_t width, int32_t height);
+FxFrameDef hdrTarget(uint32_t color, uint32_t depth, int32_t width, int32_t height);
+FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3], int isHdr);
+}
+
+using EffectInYourGame = fx::test::EncodedTargetTest;
+
+TEST_F(EffectInYourGame, theCodeOfThePageDrawsAnExplosionIntoBothKindsOfTargets)
+{
+    const float sky[3] = {0.3f, 0.4f, 0.6f};
+    for (const bool isHdr : {false, true}) {
+        const FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky, isHdr ? 1 : 0);
+        Effects effects{};
+        ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
+        ASSERT_EQ(explode(&effects, 0.0, 0.0, 0.0), 0) << fxGetLastErrorMessage();
+        const fx::test::EncodedTarget target = targetsOf(isHdr ? GL_RGBA16F : GL_RGBA8).front();
+        const fx::test::EncodedDepth depth = depthsOf(1)[5];
+        attach(target, depth);
+        store(target, std::vector<float>(size_t(kSize * kSize * 4), 0.25f));
+        const std::vector<float> before = stored(target);
+        FxFrameDef def =
+            isHdr ? hdrTarget(target.texture, depth_.name(), kSize, kSize) : windowTarget(kSize, kSize);
+        if (!isHdr)
+            def.framebuffer = target.framebuffer; // for want of a window
+        const FxFrameDef camera = frame();
+        def.origin[2] = 12.0;
+        for (int i = 0; i < 30; ++i)
+            ASSERT_EQ(drawEffects(&effects, 1.0 / 60.0, camera.view, camera.projection, def), 0)
+                << fxGetLastErrorMessage();
+        EXPECT_NE(stored(target), before);
+        EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
+    }
+}
