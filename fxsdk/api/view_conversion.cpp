@@ -127,6 +127,8 @@ void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
     check.range(given.viewportX, 0, kWidest, "frame.viewportX");
     check.range(given.viewportY, 0, kWidest, "frame.viewportY");
     check.flag(given.keepScissor, "frame.keepScissor");
+    check.range(given.displayWhite, 1.0f, 1e6f, "frame.displayWhite");
+    check.range(given.reserved, 0u, 0u, "frame.reserved");
 }
 
 } // namespace
@@ -225,6 +227,7 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
     targets.encoding = render::TargetEncoding(given.targetEncoding);
     targets.depthFromFramebuffer = given.depthFromFramebuffer != 0;
     targets.keepScissor = given.keepScissor != 0;
+    targets.displayWhite = given.displayWhite;
     outRequest.sunShadow = {given.sunShadowTexture, render::DepthConvention(given.sunShadowConvention),
                             glm::make_mat4(given.sunShadowMatrix), given.sunShadowEdge};
     outRequest.deltaTime = given.deltaTime;

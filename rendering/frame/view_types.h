@@ -282,6 +282,8 @@ struct HostTargets
     int x = 0;                   ///< [pixel] left column of the frame in all targets
     int y = 0;                   ///< [pixel] low row of the frame in all targets
     TargetEncoding encoding = TargetEncoding::Linear;
+    /// [1] exposed radiance, >= 1, that the host has drawn as 1, for display encodings
+    float displayWhite = 2.0f;
     bool depthFromFramebuffer = false; ///< true: depth is the depth attachment of `framebuffer`
     bool keepScissor = false;          ///< true: the host's scissor test limits writes to the target
 

@@ -1,5 +1,7 @@
 #include "rendering/gl/gl_backend.h"
 
+#include "rendering/gl/gl_state_guard.h"
+
 #include <algorithm>
 #include <string>
 
@@ -207,6 +209,8 @@ bool GlBackend::bindInputs(std::span<const TextureBinding> textures, std::span<c
                  {"'", graph_->resource(binding.buffer).name, "' is bound beyond its end"});
             return false;
         }
+        touchState(device_, binding.isUniform ? GlStateGroup::UniformBinding : GlStateGroup::StorageBinding,
+                   binding.binding);
         device_.gl.BindBufferRange(binding.isUniform ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER,
                                    binding.binding, name, static_cast<GLintptr>(binding.offset),
                                    static_cast<GLsizeiptr>(bytes));
@@ -249,6 +253,7 @@ void GlBackend::draw(const DrawCall& call)
     const FrameGraph::Resource& target = graph_->resource(sized);
     state_.bindFramebuffer(framebuffer,
                            {target.x, target.y, target.width, target.height, target.isHostTarget});
+    state_.useTargets(uint32_t(call.targets.size()));
     state_.setBlend(call.blend);
     state_.setDepth(call.depthTarget.valid(), call.reversedDepth);
     if (call.indirect.valid()) {
@@ -277,6 +282,7 @@ void GlBackend::dispatch(const DispatchCall& call)
         const uint32_t name = nameOrFail(binding.texture, true, "bound as image");
         if (!name || !inRange(binding.unit, kImageUnits, "image unit"))
             return;
+        touchState(device_, GlStateGroup::ImageUnit, binding.unit);
         // layered: all of a texture of three dimensions; others have one layer
         device_.gl.BindImageTexture(binding.unit, name, 0, GL_TRUE, 0, GL_READ_WRITE,
                                     glInternalFormat(graph_->resource(binding.texture).format));
@@ -334,6 +340,7 @@ void GlBackend::upload(ResourceId buffer, std::span<const std::byte> bytes)
             name); // the last frame may still read it: take fresh memory, do not wait
     // NVIDIA's driver (580) writes to a buffer that is bound nowhere without waiting for the draws and
     // dispatches that still use it, whatever barriers came before; to one that is bound, in order.
+    touchState(device_, GlStateGroup::StorageBinding, 0);
     device_.gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, name, 0, static_cast<GLsizeiptr>(bytes.size()));
     device_.gl.NamedBufferSubData(name, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }

@@ -37,6 +37,8 @@ struct GlLimits
     std::string versionText;
 };
 
+class GlStateGuard;
+
 class GlDevice
 {
 public:
@@ -55,6 +57,9 @@ public:
     GlDevice& operator=(const GlDevice&) = delete;
 
     GlFunctions gl;
+    /// Saves states of the host before they are first changed, during a frame; null: no frame, or the host
+    /// saves its states.
+    GlStateGuard* guard = nullptr;
 
     const GlLimits& limits() const { return limits_; }
     std::pmr::memory_resource* memory() const { return memory_; }

@@ -1,5 +1,7 @@
 #include "rendering/gl/gl_draw_state.h"
 
+#include "rendering/gl/gl_state_guard.h"
+
 namespace fx::render {
 
 namespace {
@@ -48,14 +50,10 @@ void GlDrawState::reset(bool encodeSrgb, bool keepScissor)
     const GlFunctions& gl = device_.gl;
     hasScissor_ = keepScissor && gl.IsEnabledi(GL_SCISSOR_TEST, 0) != GL_FALSE;
     for (const GLenum what : kOff)
-        gl.Disable(what);
+        if (!device_.guard || !device_.guard->isOff(what))
+            gl.Disable(what);
     encodeSrgb ? gl.Enable(GL_FRAMEBUFFER_SRGB) : gl.Disable(GL_FRAMEBUFFER_SRGB);
     gl.Disablei(GL_SCISSOR_TEST, 0);
-    for (uint32_t i = 0; i < kTargets; ++i) {
-        gl.Disablei(GL_BLEND, i);
-        gl.BlendEquationSeparatei(i, GL_FUNC_ADD, GL_FUNC_ADD);
-        gl.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    }
     gl.DepthMask(GL_TRUE); // without the test nothing is written
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     gl.ProvokingVertex(GL_LAST_VERTEX_CONVENTION); // whose flat outputs a triangle has
@@ -67,6 +65,19 @@ void GlDrawState::reset(bool encodeSrgb, bool keepScissor)
     blend_ = Blend::None;
     onlyFirst_ = depthTested_ = depthReversed_ = false;
     units_.fill({kUnknown, kUnknown});
+    targets_ = 0;
+    useTargets(1); // clears obey its mask
+}
+
+void GlDrawState::useTargets(uint32_t count)
+{
+    for (; targets_ < count; ++targets_) {
+        touchState(device_, GlStateGroup::DrawBuffer, targets_);
+        touchState(device_, GlStateGroup::ColorMask, targets_);
+        device_.gl.BlendEquationSeparatei(targets_, GL_FUNC_ADD, GL_FUNC_ADD);
+        device_.gl.ColorMaski(targets_, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        setBlendAt(targets_);
+    }
 }
 
 void GlDrawState::useProgram(uint32_t program)
@@ -105,8 +116,10 @@ void GlDrawState::drawToFirst(bool only)
         return;
     onlyFirst_ = only;
     const GLboolean mask = only ? GL_FALSE : GL_TRUE;
-    for (uint32_t i = 1; i < kTargets; ++i)
+    for (uint32_t i = 1; i < (only ? kTargets : targets_); ++i) {
+        touchState(device_, GlStateGroup::ColorMask, i);
         device_.gl.ColorMaski(i, mask, mask, mask, mask);
+    }
 }
 
 void GlDrawState::setBlend(Blend blend)
@@ -114,15 +127,20 @@ void GlDrawState::setBlend(Blend blend)
     if (blend_ == blend)
         return;
     blend_ = blend;
-    const GLenum destination = blend == Blend::Additive ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA;
-    for (uint32_t i = 0; i < kTargets; ++i) {
-        if (blend == Blend::None) {
-            device_.gl.Disablei(GL_BLEND, i);
-            continue;
-        }
-        device_.gl.Enablei(GL_BLEND, i);
-        device_.gl.BlendFuncSeparatei(i, GL_ONE, destination, GL_ONE, destination);
+    for (uint32_t i = 0; i < targets_; ++i)
+        setBlendAt(i);
+}
+
+void GlDrawState::setBlendAt(uint32_t target)
+{
+    const GlFunctions& gl = device_.gl;
+    if (blend_ == Blend::None) {
+        gl.Disablei(GL_BLEND, target);
+        return;
     }
+    const GLenum destination = blend_ == Blend::Additive ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA;
+    gl.Enablei(GL_BLEND, target);
+    gl.BlendFuncSeparatei(target, GL_ONE, destination, GL_ONE, destination);
 }
 
 void GlDrawState::setDepth(bool tested, bool reversed)
@@ -139,6 +157,8 @@ void GlDrawState::bindTexture(uint32_t unit, uint32_t texture, Sampling sampling
 {
     const uint32_t sampler = samplers_[static_cast<size_t>(sampling)].name();
     Unit& bound = units_[unit];
+    if (bound.texture == kUnknown)
+        touchState(device_, GlStateGroup::TextureUnit, unit);
     if (bound.texture != texture)
         device_.gl.BindTextureUnit(unit, texture);
     if (bound.sampler != sampler)

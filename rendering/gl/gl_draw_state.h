@@ -42,12 +42,16 @@ public:
     void openScissor();
     /// If `only` is true, color writes are disabled for draw buffers other than the first.
     void drawToFirst(bool only);
+    /// Sets the states of the first `count` draw buffers, which the next draw uses.
+    void useTargets(uint32_t count);
     void setBlend(Blend blend);
     /// If `tested` is true, both depth test and depth writes are enabled.
     void setDepth(bool tested, bool reversed);
     void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);
 
 private:
+    void setBlendAt(uint32_t target);
+
     static constexpr uint32_t kTargets = 8;
     static constexpr uint32_t kUnknown = ~0u; ///< marks an unknown GL name
 
@@ -64,6 +68,7 @@ private:
     uint32_t framebuffer_ = kUnknown;
     Viewport viewport_;
     bool hasScissor_ = false; ///< the host's scissor test is enabled and applies to its targets
+    uint32_t targets_ = 0;    ///< number of draw buffers whose states have been set
     Blend blend_ = Blend::None;
     bool onlyFirst_ = false;
     bool depthTested_ = false;

@@ -173,36 +173,29 @@ void restoreActiveTexture(const Gl& gl, GLenum, uint32_t, const Saved& saved)
     gl.ActiveTexture(asEnum(saved.integers[0]));
 }
 
-/// A binding of a texture unit.
-void saveUnit(const Gl& gl, GLenum what, uint32_t unit, Saved& out)
-{
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
-    out.integers[0] = integer(gl, what);
-}
-
-GLenum targetOf(GLenum binding)
-{
-    switch (binding) {
-    case GL_TEXTURE_BINDING_2D:
-        return GL_TEXTURE_2D;
-    case GL_TEXTURE_BINDING_3D:
-        return GL_TEXTURE_3D;
-    default:
-        return GL_TEXTURE_2D_ARRAY;
-    }
-}
-
 /// Only the unit's bindings of 2-D textures, arrays of them and 3-D textures are ours:
 /// glBindTextureUnit(unit, 0) would also drop the host's cube map.
-void restoreTexture(const Gl& gl, GLenum what, uint32_t unit, const Saved& saved)
+constexpr struct
+{
+    GLenum target, binding;
+} kUnitBindings[] = {{GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
+                     {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
+                     {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D}};
+
+void saveUnit(const Gl& gl, GLenum, uint32_t unit, Saved& out)
 {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
-    gl.BindTexture(targetOf(what), asName(saved.integers[0]));
+    for (size_t i = 0; i < std::size(kUnitBindings); ++i)
+        out.integers[i] = integer(gl, kUnitBindings[i].binding);
+    out.integers[3] = integer(gl, GL_SAMPLER_BINDING);
 }
 
-void restoreSampler(const Gl& gl, GLenum, uint32_t unit, const Saved& saved)
+void restoreUnit(const Gl& gl, GLenum, uint32_t unit, const Saved& saved)
 {
-    gl.BindSampler(unit, asName(saved.integers[0]));
+    gl.ActiveTexture(GL_TEXTURE0 + unit);
+    for (size_t i = 0; i < std::size(kUnitBindings); ++i)
+        gl.BindTexture(kUnitBindings[i].target, asName(saved.integers[i]));
+    gl.BindSampler(unit, asName(saved.integers[3]));
 }
 
 void saveImage(const Gl& gl, GLenum, uint32_t unit, Saved& out)
@@ -250,7 +243,8 @@ void restoreIndexedBuffer(const Gl& gl, GLenum target, uint32_t index, const Sav
 }
 
 constexpr GlTouchedState kTable[] = {
-    // First, because saving and restoring the entries below disturbs them.
+    // First, because saving and restoring the entries below disturbs them, and drawing disturbs the generic
+    // bindings.
     {"GL_ACTIVE_TEXTURE", GL_ACTIVE_TEXTURE, 1, saveInteger, restoreActiveTexture},
     {"GL_UNIFORM_BUFFER_BINDING", GL_UNIFORM_BUFFER_BINDING, 1, saveInteger, restoreGenericBuffer},
     {"GL_SHADER_STORAGE_BUFFER_BINDING", GL_SHADER_STORAGE_BUFFER_BINDING, 1, saveInteger,
@@ -258,31 +252,36 @@ constexpr GlTouchedState kTable[] = {
     {"GL_DRAW_INDIRECT_BUFFER_BINDING", GL_DRAW_INDIRECT_BUFFER_BINDING, 1, saveInteger,
      restoreGenericBuffer},
 
-    {"GL_CULL_FACE", GL_CULL_FACE, 1, saveSwitch, restoreSwitch},
+    {"GL_CULL_FACE", GL_CULL_FACE, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
     {"GL_DEPTH_TEST", GL_DEPTH_TEST, 1, saveSwitch, restoreSwitch},
-    {"GL_STENCIL_TEST", GL_STENCIL_TEST, 1, saveSwitch, restoreSwitch},
-    {"GL_DEPTH_CLAMP", GL_DEPTH_CLAMP, 1, saveSwitch, restoreSwitch},
+    {"GL_STENCIL_TEST", GL_STENCIL_TEST, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_DEPTH_CLAMP", GL_DEPTH_CLAMP, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
     {"GL_FRAMEBUFFER_SRGB", GL_FRAMEBUFFER_SRGB, 1, saveSwitch, restoreSwitch},
-    {"GL_RASTERIZER_DISCARD", GL_RASTERIZER_DISCARD, 1, saveSwitch, restoreSwitch},
-    {"GL_PRIMITIVE_RESTART", GL_PRIMITIVE_RESTART, 1, saveSwitch, restoreSwitch},
-    {"GL_PRIMITIVE_RESTART_FIXED_INDEX", GL_PRIMITIVE_RESTART_FIXED_INDEX, 1, saveSwitch, restoreSwitch},
-    {"GL_COLOR_LOGIC_OP", GL_COLOR_LOGIC_OP, 1, saveSwitch, restoreSwitch},
-    {"GL_DITHER", GL_DITHER, 1, saveSwitch, restoreSwitch},
-    {"GL_POLYGON_OFFSET_FILL", GL_POLYGON_OFFSET_FILL, 1, saveSwitch, restoreSwitch},
-    {"GL_POLYGON_SMOOTH", GL_POLYGON_SMOOTH, 1, saveSwitch, restoreSwitch},
-    {"GL_SAMPLE_MASK", GL_SAMPLE_MASK, 1, saveSwitch, restoreSwitch},
-    {"GL_SAMPLE_ALPHA_TO_COVERAGE", GL_SAMPLE_ALPHA_TO_COVERAGE, 1, saveSwitch, restoreSwitch},
-    {"GL_SAMPLE_ALPHA_TO_ONE", GL_SAMPLE_ALPHA_TO_ONE, 1, saveSwitch, restoreSwitch},
-    {"GL_SAMPLE_COVERAGE", GL_SAMPLE_COVERAGE, 1, saveSwitch, restoreSwitch},
-    {"GL_SAMPLE_SHADING", GL_SAMPLE_SHADING, 1, saveSwitch, restoreSwitch},
-    {"GL_CLIP_DISTANCE0 to 7", GL_CLIP_DISTANCE0, 8, saveSwitch, restoreSwitch},
-    {"GL_BLEND (draw buffers 0 to 7)", GL_BLEND, 8, saveIndexedSwitch, restoreIndexedSwitch},
+    {"GL_RASTERIZER_DISCARD", GL_RASTERIZER_DISCARD, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_PRIMITIVE_RESTART", GL_PRIMITIVE_RESTART, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_PRIMITIVE_RESTART_FIXED_INDEX", GL_PRIMITIVE_RESTART_FIXED_INDEX, 1, saveSwitch, restoreSwitch,
+     GlStateGroup::Off},
+    {"GL_COLOR_LOGIC_OP", GL_COLOR_LOGIC_OP, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_DITHER", GL_DITHER, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_POLYGON_OFFSET_FILL", GL_POLYGON_OFFSET_FILL, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_POLYGON_SMOOTH", GL_POLYGON_SMOOTH, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_SAMPLE_MASK", GL_SAMPLE_MASK, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_SAMPLE_ALPHA_TO_COVERAGE", GL_SAMPLE_ALPHA_TO_COVERAGE, 1, saveSwitch, restoreSwitch,
+     GlStateGroup::Off},
+    {"GL_SAMPLE_ALPHA_TO_ONE", GL_SAMPLE_ALPHA_TO_ONE, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_SAMPLE_COVERAGE", GL_SAMPLE_COVERAGE, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_SAMPLE_SHADING", GL_SAMPLE_SHADING, 1, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_CLIP_DISTANCE0 to 7", GL_CLIP_DISTANCE0, 8, saveSwitch, restoreSwitch, GlStateGroup::Off},
+    {"GL_BLEND (draw buffers 0 to 7)", GL_BLEND, 8, saveIndexedSwitch, restoreIndexedSwitch,
+     GlStateGroup::DrawBuffer},
     {"GL_SCISSOR_TEST (viewport 0)", GL_SCISSOR_TEST, 1, saveIndexedSwitch, restoreIndexedSwitch},
 
-    {"GL_BLEND_EQUATION_RGB, _ALPHA (draw buffers 0 to 7)", 0, 8, saveBlendEquation, restoreBlendEquation},
+    {"GL_BLEND_EQUATION_RGB, _ALPHA (draw buffers 0 to 7)", 0, 8, saveBlendEquation, restoreBlendEquation,
+     GlStateGroup::DrawBuffer},
     {"GL_BLEND_SRC_RGB, _DST_RGB, _SRC_ALPHA, _DST_ALPHA (draw buffers 0 to 7)", 0, 8, saveBlendFunction,
-     restoreBlendFunction},
-    {"GL_COLOR_WRITEMASK (draw buffers 0 to 7)", 0, 8, saveColorMask, restoreColorMask},
+     restoreBlendFunction, GlStateGroup::DrawBuffer},
+    {"GL_COLOR_WRITEMASK (draw buffers 0 to 7)", 0, 8, saveColorMask, restoreColorMask,
+     GlStateGroup::ColorMask},
     {"GL_DEPTH_FUNC", GL_DEPTH_FUNC, 1, saveInteger, restoreDepthFunction},
     {"GL_DEPTH_WRITEMASK", GL_DEPTH_WRITEMASK, 1, saveInteger, restoreDepthMask},
     {"GL_POLYGON_MODE", GL_POLYGON_MODE, 1, savePolygonMode, restorePolygonMode},
@@ -293,16 +292,13 @@ constexpr GlTouchedState kTable[] = {
     {"GL_CURRENT_PROGRAM", GL_CURRENT_PROGRAM, 1, saveInteger, restoreProgram},
     {"GL_VERTEX_ARRAY_BINDING", GL_VERTEX_ARRAY_BINDING, 1, saveInteger, restoreVertexArray},
     {"GL_DRAW_FRAMEBUFFER_BINDING", GL_DRAW_FRAMEBUFFER_BINDING, 1, saveInteger, restoreDrawFramebuffer},
-    {"GL_TEXTURE_BINDING_2D (units 0 to 12)", GL_TEXTURE_BINDING_2D, 13, saveUnit, restoreTexture},
-    {"GL_TEXTURE_BINDING_2D_ARRAY (units 0 to 12)", GL_TEXTURE_BINDING_2D_ARRAY, 13, saveUnit,
-     restoreTexture},
-    {"GL_TEXTURE_BINDING_3D (units 0 to 12)", GL_TEXTURE_BINDING_3D, 13, saveUnit, restoreTexture},
-    {"GL_SAMPLER_BINDING (units 0 to 12)", GL_SAMPLER_BINDING, 13, saveUnit, restoreSampler},
-    {"GL_IMAGE_BINDING_* (units 0 to 6)", 0, 7, saveImage, restoreImage},
+    {"GL_TEXTURE_BINDING_2D, _2D_ARRAY, _3D and GL_SAMPLER_BINDING (units 0 to 12)", 0, 13, saveUnit,
+     restoreUnit, GlStateGroup::TextureUnit},
+    {"GL_IMAGE_BINDING_* (units 0 to 6)", 0, 7, saveImage, restoreImage, GlStateGroup::ImageUnit},
     {"GL_UNIFORM_BUFFER_BINDING, _START, _SIZE (bindings 0 and 1)", GL_UNIFORM_BUFFER, 2, saveIndexedBuffer,
-     restoreIndexedBuffer},
+     restoreIndexedBuffer, GlStateGroup::UniformBinding},
     {"GL_SHADER_STORAGE_BUFFER_BINDING, _START, _SIZE (bindings 0 to 7)", GL_SHADER_STORAGE_BUFFER, 8,
-     saveIndexedBuffer, restoreIndexedBuffer},
+     saveIndexedBuffer, restoreIndexedBuffer, GlStateGroup::StorageBinding},
 };
 
 constexpr uint32_t sumOfCounts()

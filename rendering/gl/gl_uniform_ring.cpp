@@ -1,6 +1,7 @@
 #include "rendering/gl/gl_uniform_ring.h"
 
 #include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_state_guard.h"
 
 #include <string>
 
@@ -37,6 +38,7 @@ base::Status GlUniformRing::bind(std::span<const std::byte> bytes)
         offset = 0;
     }
     // Bound before it is written: see GlBackend::upload().
+    touchState(device_, GlStateGroup::UniformBinding, 0);
     device_.gl.BindBufferRange(GL_UNIFORM_BUFFER, 0, buffer_.name(), static_cast<GLintptr>(offset),
                                static_cast<GLsizeiptr>(size));
     device_.gl.NamedBufferSubData(buffer_.name(), static_cast<GLintptr>(offset),

@@ -4,6 +4,7 @@
 
 #include "rendering/frame/view_types.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace fx::render {
@@ -11,10 +12,10 @@ namespace fx::render {
 /// Layout of shaders/frame/display_block.glsl.
 struct DisplayBlock
 {
-    float white;     ///< [1] exposed radiance that is displayed as 1, >= 1
+    float white;     ///< [1] exposed radiance of effects that is displayed as 1, >= 1
     float target;    ///< TargetEncoding of the target
     float source;    ///< TargetEncoding of the texels that are read; Linear also for textures of sRGB formats
-    float unused;    ///< 0
+    float hostWhite; ///< [1] exposed radiance that the host has drawn as 1, from 1 to white
     int32_t x, y;    ///< [pixel] place of the frame in the target
     int32_t whole;   ///< 1: unchanged pixels are written as well
     int32_t unused2; ///< 0
@@ -29,7 +30,7 @@ inline DisplayBlock makeDisplayBlock(const HostTargets& targets, float white, bo
     return {white > 1.0f ? white : 1.0f,
             encoding,
             sourceIsLight ? 0.0f : encoding,
-            0.0f,
+            std::clamp(targets.displayWhite, 1.0f, std::max(white, 1.0f)),
             targets.x,
             targets.y,
             whole ? 1 : 0,

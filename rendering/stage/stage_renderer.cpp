@@ -400,6 +400,7 @@ base::Status StageRenderer::render(const CameraView& camera, const StageLighting
     s.graph.compile();
 
     GlStateGuard guard(*s.device);
+    guard.touchAll();
     if (s.backend.beginFrame(s.graph))
         s.graph.execute(s.backend);
     return s.backend.endFrame();

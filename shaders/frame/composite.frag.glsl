@@ -1,5 +1,6 @@
 #if FX_DISPLAY
 #include "formulas/tone_curve.fx.h"
+#include "formulas/display_codes.fx.h"
 #endif
 #if FX_DISPLAY || FX_OFFSET
 #include "frame/display_block.glsl"
@@ -20,7 +21,7 @@ void main()
 #endif
     vec4 m = texelFetch(media, p, 0);
 #if FX_DISPLAY
-    // Of the effects alone: the picture behind them holds codes, which show all that it passed through.
+    // of the effects alone: codes show already what the picture behind them went through
     m.rgb += fxFilmCrosstalk(max(max(m.r, m.g), m.b), display.x) * ((m.r + m.g + m.b) / 3.0 - m.rgb);
 #endif
 #if FX_BLEND
@@ -29,6 +30,17 @@ void main()
     color = m;   // fixed-function blending puts it over the target
 #else
     vec4 b = texelFetch(behind, p, 0);
+#if FX_DISPLAY
+    if (m == vec4(0.0)) {
+        color = b; // bit for bit
+        return;
+    }
+    float share = 1.0 - m.a;
+    for (int i = 0; i < 3; ++i)
+        color[i] = fxDisplayComposite(fxToneCurve(b[i], display.x), m[i], share, display.w, display.x);
+    color.a = m.a + share * b.a;
+#else
     color = vec4(m.rgb + (1.0 - m.a) * b.rgb, m.a + (1.0 - m.a) * b.a);
+#endif
 #endif
 }

@@ -108,6 +108,7 @@ FxFrameDef EncodedTargetTest::frameOf(const EncodedTarget& target, const Encoded
     def.depthTexture = depth.fromFramebuffer ? 0 : depth.texture;
     def.depthFromFramebuffer = depth.fromFramebuffer ? 1 : 0;
     def.targetEncoding = encoding;
+    def.displayWhite = 8.0f; // that of effects: codes are those of a linear picture
     return def;
 }
 

@@ -15,7 +15,7 @@ int drawEffects(const Effects* effects, double seconds, const float view[16], co
                 FxFrameDef target);
 FxFrameDef windowTarget(int32_t width, int32_t height);
 FxFrameDef hdrTarget(uint32_t color, uint32_t depth, int32_t width, int32_t height);
-FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3], int isHdr);
+FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3]);
 }
 
 using EffectInYourGame = fx::test::EncodedTargetTest;
@@ -24,7 +24,7 @@ TEST_F(EffectInYourGame, theCodeOfThePageDrawsAnExplosionIntoBothKindsOfTargets)
 {
     const float sky[3] = {0.3f, 0.4f, 0.6f};
     for (const bool isHdr : {false, true}) {
-        const FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky, isHdr ? 1 : 0);
+        const FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky);
         Effects effects{};
         ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
         ASSERT_EQ(explode(&effects, 0.0, 0.0, 0.0), 0) << fxGetLastErrorMessage();

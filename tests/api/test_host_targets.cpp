@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -257,6 +258,30 @@ TEST_F(HostTargets, checkingTargetsTakesFewCallsAndNoneWhileNothingIsDrawn)
     for (int i = 0; i < 4; ++i) {
         ASSERT_EQ(fxView_Render(view_, i % 2 == 0 ? &def : &other), FX_OK);
         EXPECT_EQ(statistics().glCalls, withDepth) << i;
+    }
+}
+
+TEST_F(HostTargets, savingStatesTakesFewerCallsThanDrawing)
+{
+    const auto calls = [&](bool save, bool inPlace) {
+        FxViewSettings settings = fxDefaultViewSettings();
+        settings.saveState = save ? 1 : 0;
+        if (inPlace) {
+            settings.dazzle = 0;
+            settings.shimmerStrength = 0;
+        }
+        EXPECT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+        for (int i = 0; i < 2; ++i)
+            EXPECT_EQ(render(frame()).result, FX_OK);
+        return statistics().glCalls;
+    };
+    for (const bool inPlace : {true, false}) {
+        const uint64_t saved = calls(true, inPlace);
+        const uint64_t unsaved = calls(false, inPlace);
+        std::printf("%s: %llu GL calls a frame, %llu with saveState 0\n",
+                    inPlace ? "media alone" : "all passes", static_cast<unsigned long long>(saved),
+                    static_cast<unsigned long long>(unsaved));
+        EXPECT_LT(saved - unsaved, unsaved);
     }
 }
 

@@ -192,7 +192,9 @@ TEST_F(TargetEncoding, shimmerBendsCodesAsItBendsLight)
     for (const EncodedTarget& target : targetsOf(GL_RGBA32F)) {
         const std::vector<float> wanted = reference(frameOf(target, {}, FX_TARGET_LINEAR), light);
         store(target, given);
-        const Outcome outcome = render(frameOf(target, {}, FX_TARGET_DISPLAY_SRGB));
+        FxFrameDef def = frameOf(target, {}, FX_TARGET_DISPLAY_SRGB);
+        def.displayWhite = 1e6f;
+        const Outcome outcome = render(def);
         ASSERT_EQ(outcome.result, FX_OK) << outcome.words;
         const std::vector<std::string> passes = fx::test::passNamesOf(view_);
         EXPECT_NE(std::find(passes.begin(), passes.end(), "heat shimmer"), passes.end()) << target.name;
@@ -203,6 +205,30 @@ TEST_F(TargetEncoding, shimmerBendsCodesAsItBendsLight)
                     << target.name << " value " << i;
             }
     }
+}
+
+TEST_F(TargetEncoding, smokeAttenuatesCodesOfClampedColorsWithoutAHaloInOneChannel)
+{
+    // blue has reached the end of its scale, and stands for more light only as far as displayWhite says
+    const EncodedTarget target = targetsOf(GL_RGBA32F).front();
+    const Media open = media();
+    const auto bluest = [&](float white) {
+        std::vector<float> codes;
+        for (int i = 0; i < kSize * kSize; ++i)
+            codes.insert(codes.end(), {0.7f, 0.8f, 1.0f, 1.0f});
+        store(target, codes);
+        FxFrameDef def = frameOf(target, {}, FX_TARGET_DISPLAY_SRGB);
+        def.displayWhite = white;
+        EXPECT_EQ(render(def).result, FX_OK) << fxGetLastErrorMessage();
+        const std::vector<float> shown = stored(target);
+        float most = 0.0f;
+        for (size_t i = 0; i < shown.size(); i += 4)
+            if (open.share[i] < 0.7f)
+                most = std::max(most, shown[i + 2] - shown[i + 1]);
+        return most;
+    };
+    EXPECT_LT(bluest(1.0f), 0.2f); // as in the codes themselves
+    EXPECT_LT(bluest(2.0f), bluest(8.0f));
 }
 
 TEST_F(TargetEncoding, glareReachesCodesBesideTheFireAsItReachesLight)

@@ -359,6 +359,8 @@ TEST_F(ViewLights, wrongArgumentsAreRefused)
     refuse("depthFromFramebuffer", [](FxFrameDef& f) { f.depthFromFramebuffer = 2; });
     refuse("viewportX", [](FxFrameDef& f) { f.viewportX = -1; });
     refuse("viewportY", [](FxFrameDef& f) { f.viewportY = 16385; });
+    refuse("displayWhite", [](FxFrameDef& f) { f.displayWhite = 0.5f; });
+    refuse("reserved", [](FxFrameDef& f) { f.reserved = 1; });
     refuse("keepScissor", [](FxFrameDef& f) { f.keepScissor = 2; });
     FxFrameDef wrong = frame();
     wrong.sunShadowTexture = color_.name(); // no depth

@@ -36,10 +36,9 @@ enum
 /// Values of FxFrameDef::targetEncoding: meaning of red, green and blue in the color targets.
 ///
 /// With a display encoding, the view decodes the picture to linear light, draws effects in light, and encodes
-/// the pixels that effects change. Pixels that no effect changes keep their bits. Decoding and encoding are
-/// exact inverses: 1 is displayed for the exposed value settings.dazzleWhite, with the shoulder of
-/// settings.toneMap below it. Therefore bright fire keeps its color, and the picture is not tone-mapped
-/// twice.
+/// the pixels that effects change. Effects are tone-mapped: settings.dazzleWhite is the exposed value that is
+/// displayed as 1, with the shoulder of settings.toneMap below it. The picture is not tone-mapped again.
+/// Pixels that no effect changes keep their bits.
 typedef enum FxTargetEncoding
 {
     FX_TARGET_LINEAR = 0,       ///< linear light, luminance [cd/m2] times exposure
@@ -142,6 +141,14 @@ typedef struct FxFrameDef
     /// 1: the host's scissor test of viewport 0, if it is enabled during the call, also limits what the view
     /// writes to its target; 0 (default): the view writes the whole frame.
     uint32_t keepScissor;
+
+    /// [1] 1..1e6, exposed value that the host has drawn as 1, with a display encoding: 1 for colors that are
+    /// clamped, more for pictures that are tone-mapped. It decides how effects attenuate bright backgrounds;
+    /// default 2.
+    float displayWhite;
+
+    /// Reserved; 0.
+    uint32_t reserved;
 } FxFrameDef;
 
 /// A frame with its camera at the origin; the target has to be set.
@@ -153,6 +160,7 @@ static inline FxFrameDef fxDefaultFrameDef(void)
         def.view[i] = def.projection[i] = def.sunShadowMatrix[i] = 1.0f;
     def.deltaTime = 1.0 / 60.0;
     def.sunShadowEdge = 0.1f;
+    def.displayWhite = 2.0f;
     return def;
 }
 

@@ -176,6 +176,7 @@ TEST_F(GlStateGuardTest, everyPublishedStateIsReallyTouched)
         return all;
     };
     device->gl.Disable(GL_FRAMEBUFFER_SRGB); // frames that write light enable it
+    device->gl.Disablei(GL_BLEND, 0);        // as the last draw blends
     const auto before = snapshot();
     drawEverything();
     GlAssetCache assets(*device, std::pmr::get_default_resource()); // frames of particles are texture arrays

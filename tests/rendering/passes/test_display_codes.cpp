@@ -64,6 +64,60 @@ TEST(ToneCurveInverse, isTheIdentityWhereWhiteIsOne)
         EXPECT_NEAR(formula64::fxToneCurveInverse(y, 1.0), y, 1e-15);
 }
 
+TEST(DisplayComposite, isTheSumOfLightWhereBothWhitesAreEqual)
+{
+    for (const double white : {1.0, 2.0, 8.0})
+        for (double y = 0.0; y <= 1.0; y += 0.05)
+            for (const double light : {0.0, 0.1, 1.0, 5.0, 20.0})
+                for (const double share : {0.0, 0.3, 1.0}) {
+                    const double sum = share * formula64::fxToneCurveInverse(y, white) + light;
+                    const double got = formula64::fxDisplayComposite(y, light, share, white, white);
+                    EXPECT_NEAR(formula64::fxToneCurve(got, white), formula64::fxToneCurve(sum, white), 2e-6);
+                    EXPECT_NEAR(std::max(got - white, 0.0), std::max(sum - white, 0.0), 1e-9);
+                }
+}
+
+TEST(DisplayComposite, keepsWhatNoEffectCoversAndShowsEffectsOverBlackByTheirOwnCurve)
+{
+    for (const double hostWhite : {1.0, 2.0, 8.0}) {
+        for (double y = 0.0; y <= 1.0; y += 0.01)
+            EXPECT_NEAR(
+                formula64::fxToneCurve(formula64::fxDisplayComposite(y, 0.0, 1.0, hostWhite, 8.0), 8.0), y,
+                1e-12);
+        for (const double light : {0.01, 0.5, 3.0, 7.9, 30.0})
+            EXPECT_NEAR(formula64::fxDisplayComposite(0.0, light, 0.5, hostWhite, 8.0), light, 1e-9);
+    }
+}
+
+TEST(DisplayComposite, risesWithTheLightAndMixesClampedColorsLinearly)
+{
+    for (double y = 0.0; y <= 1.0; y += 0.1) {
+        double before = -1.0;
+        for (double light = 0.0; light < 10.0; light += 0.01) {
+            const double x = formula64::fxDisplayComposite(y, light, 0.7, 2.0, 8.0);
+            ASSERT_GE(x, before);
+            ASSERT_LE(formula64::fxToneCurve(x, 8.0), 1.0);
+            before = x;
+        }
+        // smoke without light of its own over a host without a curve: a linear mix
+        const double dark = formula64::fxDisplayComposite(y, 0.0, 0.3, 1.0, 8.0);
+        EXPECT_NEAR(formula64::fxToneCurve(dark, 8.0), 0.3 * y, 1e-12);
+    }
+}
+
+TEST(DisplayComposite, floatAgreesWithDouble)
+{
+    for (float y = 0.0f; y <= 1.0f; y += 0.01f)
+        for (const float light : {0.0f, 0.01f, 1.0f, 7.0f})
+            for (const float share : {0.0f, 0.5f, 0.99f}) {
+                const float got = formula::fxDisplayComposite(y, light, share, 2.0f, 8.0f);
+                const double want =
+                    formula64::fxDisplayComposite(double(y), double(light), double(share), 2.0, 8.0);
+                EXPECT_NEAR(formula64::fxToneCurve(double(got), 8.0), formula64::fxToneCurve(want, 8.0),
+                            4e-6);
+            }
+}
+
 TEST(DisplayEncoding, decodingUndoesEncoding)
 {
     EXPECT_EQ(formula64::fxGammaEncode(0.0), 0.0);
