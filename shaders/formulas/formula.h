@@ -38,7 +38,8 @@
 #define FX_REAL float
 namespace fx::formula {
 FX_FORMULA_SPACE_BEGIN
-// clang-format off: the order is that of use
+// The order is that of use.
+// clang-format off
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
 #include "shaders/formulas/field_detail.fx.h"
