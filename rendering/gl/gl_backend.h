@@ -7,10 +7,11 @@
 ///     if (backend.beginFrame(graph)) { graph.execute(backend); }
 ///     const base::Status status = backend.endFrame();
 ///
-/// Each draw has exactly the state that it declares. beginFrame() sets all states. For each draw, only the
-/// states that differ from those of the previous draw are set. GlStateGuard lists the affected states. The
-/// clip control and multisampling of the host are not changed. A frame with the same resources as the last
-/// frame allocates nothing. No draw makes GL queries. Threads: [GL thread].
+/// Each draw has exactly the state that it declares. beginFrame() sets the states of all draws. For each
+/// draw, only the states that differ from those of the previous draw are set. GlStateGuard lists the affected
+/// states; it queries those of units, bindings and draw buffers before their first change. The clip control
+/// and multisampling of the host are not changed. A frame with the same resources as the last frame allocates
+/// nothing. Threads: [GL thread].
 #pragma once
 
 #include "foundation/result/status.h"

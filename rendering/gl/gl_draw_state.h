@@ -29,7 +29,8 @@ public:
 
     explicit GlDrawState(GlDevice& device);
 
-    /// Sets every state that affects draws, independent of the host's state.
+    /// Sets the states that affect all draws, independent of the host's state. Switches that GlStateGuard
+    /// knows to be off are not set.
     /// @param encodeSrgb true: OpenGL encodes linear values that are written to targets of an sRGB format
     /// @param keepScissor true: the host's scissor test, if it is enabled, applies to draws to its targets
     void reset(bool encodeSrgb, bool keepScissor = false);
