@@ -58,6 +58,12 @@ std::shared_ptr<const VoxelVolume> AssetTable::volume(AssetId id) const
     return found ? found->volume : nullptr;
 }
 
+std::shared_ptr<VolumeSequence> AssetTable::sequence(AssetId id) const
+{
+    const Entry* found = entry(id);
+    return found ? found->sequence : nullptr;
+}
+
 /// Id of the entry of that hash for which `same` holds; 0 for none. The caller holds the lock.
 template <class Same>
 AssetId AssetTable::find(uint64_t hash, const Same& same) const
@@ -140,6 +146,17 @@ Result<AssetId> AssetTable::addVolume(std::shared_ptr<const VoxelVolume> volume,
     entry.hash = hash;
     entry.volume = std::move(volume);
     return publish(std::move(entry), bytes);
+}
+
+Result<AssetId> AssetTable::addSequence(std::shared_ptr<VolumeSequence> sequence, uint64_t hash)
+{
+    const std::scoped_lock lock(adding_);
+    if (const AssetId known = find(hash, [](const Entry& e) { return e.sequence != nullptr; }))
+        return known;
+    Entry entry;
+    entry.hash = hash;
+    entry.sequence = std::move(sequence);
+    return publish(std::move(entry), 0);
 }
 
 } // namespace fx::base

@@ -54,6 +54,8 @@ struct MeshAsset
     float reach = 0.0f;                 ///< [1] distance of the farthest vertex from the origin
 };
 
+class VolumeSequence;
+
 class AssetTable
 {
 public:
@@ -73,12 +75,16 @@ public:
     /// Adds a volume. If the table already has a volume with this hash, its id is returned.
     /// @param hash hash of the content  @return the id; Capacity if the table is full
     Result<AssetId> addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash);
+    /// Adds a sequence of volumes, likewise. Its frames come and go, and are not part of bytes().
+    Result<AssetId> addSequence(std::shared_ptr<VolumeSequence> sequence, uint64_t hash);
 
     /// The image (or mesh, or volume) of `id`; null if this table has no image (or mesh, or volume) with this
     /// id.
     const ImageAsset* image(AssetId id) const;
     const MeshAsset* mesh(AssetId id) const;
     std::shared_ptr<const VoxelVolume> volume(AssetId id) const;
+    /// Null if this table has no sequence with this id.
+    std::shared_ptr<VolumeSequence> sequence(AssetId id) const;
 
     /// Number of assets; their ids are 1 to size().
     uint32_t size() const { return size_.load(std::memory_order_acquire); }
@@ -92,6 +98,7 @@ private:
         std::unique_ptr<ImageAsset> image;
         std::unique_ptr<MeshAsset> mesh;
         std::shared_ptr<const VoxelVolume> volume;
+        std::shared_ptr<VolumeSequence> sequence;
     };
 
     const Entry* entry(AssetId id) const;

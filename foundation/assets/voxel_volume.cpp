@@ -86,7 +86,7 @@ std::vector<glm::ivec3> bricksWithCells(const std::vector<glm::ivec3>& stored)
 size_t VoxelVolume::bytes() const
 {
     return bricks.size() * sizeof(glm::ivec3) + (extinction.size() + temperature.size()) * sizeof(float) +
-           (emission.size() + albedo.size()) * sizeof(glm::vec3);
+           (emission.size() + albedo.size() + velocity.size()) * sizeof(glm::vec3);
 }
 
 BrickIndex::BrickIndex(const std::vector<glm::ivec3>& bricks)

@@ -35,6 +35,8 @@ struct VoxelVolume
     std::vector<glm::vec3> emission; ///< [cd/m3] emitted besides the black body; 0 without extinction
     std::vector<glm::vec3> albedo;   ///< [1] 0..1; empty: `evenAlbedo` everywhere
     glm::vec3 evenAlbedo{0.8f};      ///< [1]
+    std::vector<glm::vec3>
+        velocity; ///< [m/s] of the medium; empty: unknown, and of no use without a sequence
 
     size_t bytes() const; ///< [byte] size of all arrays
     bool operator==(const VoxelVolume&) const = default;

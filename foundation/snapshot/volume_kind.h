@@ -6,7 +6,8 @@
 /// one ball for each brick whose cells contain medium: up to eight for a stored brick, see VolumeCells. The
 /// ball has the cross section of the cells, is concentric with the brick, and contains the brick. Readers
 /// that know this kind replace the balls by the voxels. Other readers, and compositions without voxels, use
-/// the balls.
+/// the balls. The balls of a sequence are those of all frames that are shown between the previous snapshot
+/// and this one; their cross sections are interpolated between the frames, and may be as good as 0.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -23,6 +24,11 @@ enum : size_t
     OriginZ,
     Side,    ///< [m] side of a voxel, along the axes of the local space
     Density, ///< [1] factor of the extinction and of the emission, per length of the local space
+    Frame,   ///< [1] of a sequence: frame that is shown, from 0; a fraction leads from one frame to the next
+    /// [1] The same at the previous snapshot, at most `Frame`. A negative number counts back from the end of
+    /// the sequence, which has begun again.
+    FrameBefore,
+    FrameSeconds, ///< [s] from a frame to the next; 0: the asset is a single volume
     Count
 };
 }
@@ -34,7 +40,8 @@ constexpr float kVolumeBallRadius = 8.0f;
 constexpr float kVolumeCasterRadius = 4.0f;
 
 inline constexpr ColumnDesc kVolumeConstants[volume_constant::Count] = {
-    {"asset", "1"}, {"originX", "m"}, {"originY", "m"}, {"originZ", "m"}, {"side", "m"}, {"density", "1"},
+    {"asset", "1"},   {"originX", "m"}, {"originY", "m"},     {"originZ", "m"},      {"side", "m"},
+    {"density", "1"}, {"frame", "1"},   {"frameBefore", "1"}, {"frameSeconds", "s"},
 };
 
 inline constexpr KindDesc kVolumeKind{"volume", {}, kVolumeConstants, false};

@@ -60,11 +60,16 @@ base::Result<base::AssetId> placeholderMesh(base::AssetTable& table)
     return table.addMesh(vertices, indices);
 }
 
-base::Result<std::string> AssetLoader::read(std::string_view name, uint64_t maxBytes)
+/// The name for the resolver.
+std::string AssetLoader::nameIn(std::string_view name) const
 {
     const bool isRelative = checkAssetName(name) && !name.starts_with("library:");
-    base::Result<std::string> bytes =
-        resolver_.read(isRelative ? folder_ + std::string(name) : name, maxBytes);
+    return (isRelative ? folder_ : std::string()) + std::string(name);
+}
+
+base::Result<std::string> AssetLoader::read(std::string_view name, uint64_t maxBytes)
+{
+    base::Result<std::string> bytes = resolver_.read(nameIn(name), maxBytes);
     if (bytes)
         contentHash_ = base::hashWord(contentHash_, base::hashBytes(0, bytes->data(), bytes->size()));
     return bytes;
@@ -133,6 +138,22 @@ base::Result<base::AssetId> AssetLoader::volume(std::string_view name)
     if (id)
         volumes_.emplace(name, *id);
     return id;
+}
+
+base::Result<base::AssetId> AssetLoader::sequence(const SequenceFiles& files)
+{
+    ReadBytes later;
+    if (resolver_.isLasting())
+        later = [resolver = resolver_, folder = folder_](std::string_view name) {
+            return resolver.read(folder + std::string(name), kMaxVolumeFileBytes);
+        };
+    uint64_t hash = 0;
+    const auto sequence = readSequence(
+        files, [this](std::string_view name) { return read(name, kMaxVolumeFileBytes); }, std::move(later),
+        hash);
+    if (!sequence)
+        return sequence.status();
+    return table_.addSequence(*sequence, hash);
 }
 
 } // namespace fx::asset

@@ -5,6 +5,7 @@
 
 #include "foundation/assets/asset_table.h"
 #include "fxsdk/assets/asset_resolver.h"
+#include "fxsdk/assets/sequence_reader.h"
 
 #include <functional>
 #include <map>
@@ -59,8 +60,12 @@ public:
     /// Loads a volume (volume_file.h). A volume that the document names again is not read again. A missing or
     /// damaged volume is always an error, because no other medium could stand in.
     base::Result<base::AssetId> volume(std::string_view name);
+    /// Loads a sequence of volumes (sequence_reader.h), whose files are read again while it is played, unless
+    /// they come through the hook of a host: then all voxels are held.
+    base::Result<base::AssetId> sequence(const SequenceFiles& files);
 
 private:
+    std::string nameIn(std::string_view name) const;
     base::Result<base::AssetId> readImage(std::string_view name, ImageUse use, int columns, int rows);
     base::Result<base::AssetId> readMesh(std::string_view name);
 

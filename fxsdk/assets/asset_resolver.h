@@ -50,6 +50,9 @@ public:
     std::string fileOf(std::string_view name) const;
 
     const std::string& folder() const { return folder_; }
+    /// True if a copy of the resolver can read for as long as the process runs; false with a hook, which is
+    /// the host's.
+    bool isLasting() const { return !hook_.read; }
 
 private:
     base::Result<std::string> readLibrary(std::string_view name, uint64_t maxBytes) const;

@@ -1,7 +1,7 @@
 #include "fxsdk/assets/volume_file.h"
 
-#include "foundation/math/half.h"
 #include "foundation/math/hash.h"
+#include "foundation/math/signed_half.h"
 
 #include <algorithm>
 #include <array>
@@ -28,17 +28,20 @@ struct Channel
     std::string_view name;
     float most; ///< largest value that a file may state
     size_t components;
+    bool isSigned = false;
 };
-constexpr std::array<Channel, 4> kChannels{{{"extinction", 1e12f, 1},
+constexpr std::array<Channel, 5> kChannels{{{"extinction", 1e12f, 1},
                                             {"temperature", 1e5f, 1},
                                             {"emission", base::kMostVolumeLight, 3},
-                                            {"albedos", 1.0f, 3}}};
+                                            {"albedos", 1.0f, 3},
+                                            {"velocities", 1e9f, 3, true}}};
 enum : size_t
 {
     Extinction,
     Temperature,
     Emission,
-    Albedo
+    Albedo,
+    Velocity
 };
 
 std::span<const float> asFloats(const std::vector<glm::vec3>& v)
@@ -190,10 +193,10 @@ Status readValues(std::string_view data, const Channel& channel, float largest, 
 {
     for (size_t i = 0; i < out.size(); ++i) {
         const uint32_t half = wordAt(data, i);
-        if (half > kHalfOne)
+        if ((channel.isSigned ? half & ~base::kHalfSign : half) > kHalfOne)
             return {Code::InvalidArgument,
                     std::string(channel.name) + ": value " + std::to_string(i) + " is out of range"};
-        out[i] = largest * base::fromHalf(half);
+        out[i] = largest * base::fromSignedHalf(half);
     }
     return {};
 }
@@ -213,7 +216,7 @@ std::string shortest(float number)
 
 std::array<std::span<const float>, kChannels.size()> channelsOf(const base::VoxelVolume& v)
 {
-    return {v.extinction, v.temperature, asFloats(v.emission), asFloats(v.albedo)};
+    return {v.extinction, v.temperature, asFloats(v.emission), asFloats(v.albedo), asFloats(v.velocity)};
 }
 
 Status checkShape(const base::VoxelVolume& v)
@@ -226,7 +229,7 @@ Status checkShape(const base::VoxelVolume& v)
         !isIn(v.origin.y, -kFarthest, kFarthest) || !isIn(v.origin.z, -kFarthest, kFarthest))
         return {Code::InvalidArgument, "side or place of the voxels is out of range; change --length-scale"};
     const size_t voxels = v.bricks.size() * kVoxels;
-    for (const size_t size : {v.temperature.size(), v.emission.size(), v.albedo.size()})
+    for (const size_t size : {v.temperature.size(), v.emission.size(), v.albedo.size(), v.velocity.size()})
         if (v.extinction.size() != voxels || (size != 0 && size != voxels))
             return {Code::InvalidArgument, "the arrays do not have 512 values for each brick"};
     for (int a = 0; a < 3; ++a)
@@ -297,9 +300,11 @@ base::Result<base::VoxelVolume> parseVolume(std::string_view bytes)
             numbers.resize(voxels);
             values = numbers;
         } else {
-            std::vector<glm::vec3>& colors = c == Emission ? v.emission : v.albedo;
-            colors.resize(voxels);
-            values = asFloats(colors);
+            std::vector<glm::vec3>& vectors = c == Emission ? v.emission
+                                              : c == Albedo ? v.albedo
+                                                            : v.velocity;
+            vectors.resize(voxels);
+            values = asFloats(vectors);
         }
         if (Status status = readValues(data, kChannels[c], contents.largest[c], values); !status)
             return status;
@@ -327,18 +332,21 @@ base::Result<std::string> writeVolume(const base::VoxelVolume& volume)
     for (size_t c = 0; c < kChannels.size(); ++c) {
         float largest = 0.0f;
         for (const float value : channels[c]) {
-            if (!isIn(value, 0.0f, kChannels[c].most))
+            if (!isIn(value, kChannels[c].isSigned ? -kChannels[c].most : 0.0f, kChannels[c].most))
                 return Status(Code::InvalidArgument, std::string(kChannels[c].name) +
                                                          ": a value is out of range; change its --...-scale");
-            largest = std::max(largest, value);
+            largest = std::max(largest, std::abs(value));
         }
         if (c == Albedo && !channels[c].empty() && !(largest > 0.0f))
             evenAlbedo = glm::vec3(0.0f);
+        if (!(largest > 0.0f) && c == Velocity && !channels[c].empty())
+            largest = kThinnest; // at rest, which is not the same as unknown
         if (!(largest > 0.0f))
             continue;
         lines += std::string(kChannels[c].name) + " " + shortest(largest) + "\n";
         for (size_t i = 0; i < channels[c].size(); ++i)
-            appendWord(data, c == Emission && isEmpty(i / 3) ? 0 : base::toHalf(channels[c][i] / largest));
+            appendWord(data,
+                       c == Emission && isEmpty(i / 3) ? 0 : base::toSignedHalf(channels[c][i] / largest));
     }
     if (!lines.starts_with(kChannels[Extinction].name))
         return Status(Code::InvalidArgument, "the volume has no medium");

@@ -8,17 +8,18 @@
 /// - `side S`: [m] of a voxel, 1e-6 to 1e6
 /// - `origin X Y Z`: [m] center of the voxel (0, 0, 0), within 1e6
 /// - `albedo R G B`: of the medium if it has no channel of this name, 0..1
-/// - `extinction M`: [1/m] largest value of the channel, as in the next three lines; at most 1e12
-/// - `temperature M`: [K] at most 1e5; this line and the next two may be absent
+/// - `extinction M`: [1/m] largest value of the channel, as in the next four lines; at most 1e12
+/// - `temperature M`: [K] at most 1e5; this line and the next three may be absent
 /// - `emission M`: [cd/m3] at most 1e12
 /// - `albedos M`: [1] at most 1
+/// - `velocities M`: [m/s] largest absolute value of a component, at most 1e9; values have a sign
 /// - `hash H`: up to 16 hexadecimal digits, of the lines above and of the bytes behind the header
 /// - `data`
 ///
 /// Behind the header are 3 * N 16-bit integers, the coordinates x y z of the bricks in the order of
 /// VoxelVolume. Then come 512 half floats for each brick and component, for each channel of the header in
 /// its order: values over the largest. The components of a color follow each other. A voxel without
-/// extinction emits nothing.
+/// extinction emits nothing; its velocity is that of the medium around it.
 ///
 /// The lines of the header have this order. Each ends with a line feed; single spaces separate their words.
 #pragma once
@@ -32,9 +33,9 @@
 
 namespace fx::asset {
 
-/// [byte] maximum size of a file: eight components of all bricks, their coordinates, and the header
+/// [byte] maximum size of a file: eleven components of all bricks, their coordinates, and the header
 constexpr uint64_t kMaxVolumeFileBytes =
-    uint64_t(base::kMaxVolumeBricks) * (8 * base::kVolumeBrickVoxels * 2 + 6) + 1024;
+    uint64_t(base::kMaxVolumeBricks) * (11 * base::kVolumeBrickVoxels * 2 + 6) + 1024;
 
 /// Reads a file. Sizes are compared with the number of bytes before memory is allocated.
 /// @return Parse with the line or the place, Version, TooLarge, InvalidArgument for numbers out of range

@@ -40,7 +40,7 @@ int networkCellsOf(const ViewSettings& settings)
 FieldMedia::FieldMedia(const TechniqueSetup& setup, Use use)
     : device_(*setup.device), plan_(setup.memory), texelList_(setup.memory), details_(setup.memory),
       voxels_(*setup.device, setup.memory), effects_(setup.memory), groupVolumes_(setup.memory),
-      fieldVolumes_(setup.memory), use_(use)
+      shownVoxels_(setup.memory), fieldVolumes_(setup.memory), use_(use)
 {}
 
 bool FieldMedia::asksForNetworks(const ViewSettings& settings)
@@ -69,25 +69,27 @@ void FieldMedia::build(const GatherInputs& in, const GatheredFrame& from)
     texelList_.build(plan_, details_, {from.blobs, materials_});
 }
 
-/// Effects whose volume is not in the asset table are drawn as their balls.
+/// Effects whose volume is not in the asset table, or not yet in memory, are drawn as their balls.
 void FieldMedia::gatherVolumes(const GatherInputs& in, const GatheredFrame& from)
 {
     voxels_.beginFrame();
     exposure_ = exposureFromEv100(in.settings->exposureEv100);
     effects_.assign(from.effects.begin(), from.effects.end());
     groupVolumes_.clear();
+    shownVoxels_.clear();
     fieldVolumes_.clear();
     for (BlobEffect& effect : effects_) {
         if (effect.volume < 0)
             continue;
         const GroupVolume& volume = from.volumes[size_t(effect.volume)];
-        const MediumVolume* const medium = voxels_.find(in.assets, volume.asset);
-        effect.volume = medium ? int(groupVolumes_.size()) : -1;
-        if (!medium)
+        const std::optional<ShownVoxels> shown = voxels_.find(in.assets, volume);
+        effect.volume = shown ? int(groupVolumes_.size()) : -1;
+        if (!shown)
             continue;
         groupVolumes_.push_back(volume);
-        fieldVolumes_.push_back({volume.origin(), volume.side, volume.isAligned,
-                                 float(double(medium->largest()) * volume.density)});
+        shownVoxels_.push_back(*shown);
+        fieldVolumes_.push_back(
+            {volume.origin(), volume.side, volume.isAligned, float(double(shown->largest) * volume.density)});
     }
 }
 
@@ -116,7 +118,7 @@ base::Status FieldMedia::makeRoom()
     base::Status status;
     for (const PlacedVolume& placed : plan_.volumes())
         if (status)
-            status = voxels_.makeRoom(groupVolumes_[placed.volume].asset, placed.level);
+            status = voxels_.makeRoom(shownVoxels_[placed.volume], placed.level);
     for (size_t i = 0; status && i < textures_.size(); ++i)
         if (isUsed(i))
             status = makeTexture(i);
@@ -239,19 +241,19 @@ void FieldMedia::fillVolumes(FrameGraph& graph, ResourceId blobs)
         in.brickBalls = ids_[Balls];
         in.textures = texturesIds_;
         in.brickCount = placed.brickCount;
-        in.block.low.w = int(placed.firstBrick);
+        in.block.first.x = int(placed.firstBrick);
         const double perLevel = std::ldexp(1.0, -placed.level);
         for (int row = 0; row < 3; ++row) {
             for (int column = 0; column < 3; ++column)
                 in.block.rows[row][column] = float(volume.toVoxels[column][row] * perLevel);
             in.block.rows[row].w = float(volume.first[row] * perLevel);
         }
-        const double light = double(voxels_.brightest(volume.asset, placed.level)) * double(exposure_);
         const bool isFire = volume.layer == 0, isDust = volume.layer == 2;
         const float fire = isFire ? 1.0f : volume.fireShare;
-        in.block.factors = {float(volume.density), float(volume.density * light), volume.anisotropy, 0.0f};
+        in.block.factors = {float(volume.density), float(volume.density * double(exposure_)),
+                            volume.anisotropy, 0.0f};
         in.block.share = {fire, isDust ? 1.0f - fire : 0.0f, isFire ? 1.0f : 0.0f, isDust ? 1.0f : 0.0f};
-        voxels_.import(graph, volume.asset, placed.level, in);
+        voxels_.import(graph, shownVoxels_[placed.volume], placed.level, in);
         texturesIds_ = FieldVolumePass::addTo(graph, in).textures;
     }
 }

@@ -113,6 +113,7 @@ private:
     VolumeVoxels voxels_;
     std::pmr::vector<BlobEffect> effects_;       ///< effects of this frame
     std::pmr::vector<GroupVolume> groupVolumes_; ///< volumes of this frame, by BlobEffect::volume
+    std::pmr::vector<ShownVoxels> shownVoxels_;  ///< the same with their voxels
     std::pmr::vector<FieldVolume> fieldVolumes_; ///< the same for FieldPlan
     float exposure_ = 1.0f;                      ///< [m2/cd] exposed value per luminance
     std::span<const std::byte> stacks_;

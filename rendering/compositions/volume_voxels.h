@@ -6,10 +6,12 @@
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/volumes/medium_volume.h"
+#include "rendering/volumes/volume_place.h"
 
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
 namespace fx::base {
@@ -18,7 +20,25 @@ class AssetTable;
 
 namespace fx::render {
 
+/// Voxels of a volume, or of a frame of a sequence.
+struct VoxelsName
+{
+    uint32_t asset = 0; ///< id in the asset table
+    uint32_t frame = 0; ///< of a sequence
+
+    bool operator==(const VoxelsName&) const = default;
+};
+
+/// What a volume shows at a moment: a frame, or a moment between two.
+struct ShownVoxels
+{
+    VoxelsName first, second;    ///< equal unless the moment is between two frames
+    MediumVolume::Moment moment; ///< between both
+    float largest = 0.0f;        ///< [1/m] upper bound of the extinction
+};
+
 /// Keeps the volumes that frames show, and their coarser levels, each made when a frame first needs it.
+/// Frames of sequences are forgotten soon after they were shown.
 /// Threads: [GL thread].
 class VolumeVoxels
 {
@@ -30,15 +50,14 @@ public:
     /// Forgets volumes that no frame has asked for since 300 frames. Called once per frame, before
     /// find().
     void beginFrame();
-    /// The medium of an asset; null if the table has no volume with this id, or if the driver cannot read its
-    /// voxels from one buffer.
-    const MediumVolume* find(const base::AssetTable* assets, uint32_t asset);
-    /// Uploads a level of a volume that find() has returned. @return OutOfMemory, TooLarge
-    base::Status makeRoom(uint32_t asset, int level);
+    /// The voxels of a volume at its moment. Nothing if the table has neither a volume nor a sequence with
+    /// its id, if a frame of the sequence has not been read yet, or if the driver cannot read the voxels from
+    /// one buffer. Frames that will be shown next are read in advance.
+    std::optional<ShownVoxels> find(const base::AssetTable* assets, const GroupVolume& volume);
+    /// Uploads a level of voxels that find() has returned. @return OutOfMemory, TooLarge
+    base::Status makeRoom(const ShownVoxels& voxels, int level);
     /// Sets index, voxels and their numbers of a level for which makeRoom() has been called.
-    void import(FrameGraph& graph, uint32_t asset, int level, FieldVolumePass::Inputs& io) const;
-    /// [cd/m3] Light of voxels of a level that is stored as 1.
-    float brightest(uint32_t asset, int level) const;
+    void import(FrameGraph& graph, const ShownVoxels& voxels, int level, FieldVolumePass::Inputs& io) const;
 
     void release(); ///< deletes everything; volumes are made again when they are needed
     uint64_t bytes() const;
@@ -51,12 +70,16 @@ private:
     };
     struct Volume
     {
-        uint32_t asset = 0;
+        VoxelsName name;
+        bool isFrame = false;
         uint32_t unused = 0; ///< number of frames since the last find()
         std::vector<Level> levels = {};
     };
-    const Level& levelOf(uint32_t asset, int level) const;
-    size_t mostBricks() const;
+    const MediumVolume* find(VoxelsName name, const base::AssetTable& assets);
+    Volume* known(VoxelsName name);
+    base::Status makeRoom(VoxelsName name, int level);
+    const Level& levelOf(VoxelsName name, int level) const;
+    size_t mostBytes() const;
 
     GlDevice& device_;
     std::pmr::vector<Volume> volumes_;

@@ -13,13 +13,21 @@ namespace fx::render {
 /// Numbers of one volume; shaders/field/field_volume.comp.glsl reads this layout.
 struct FieldVolumeBlock
 {
+    /// A volume, or a frame of a sequence.
+    struct Frame
+    {
+        glm::ivec4 low;  ///< xyz [brick] lower corner of the box of the index; w number of bricks
+        glm::ivec4 size; ///< xyz [brick] size of the box of the index
+        glm::vec4 light; ///< x [cd/m3] light that is stored as 1
+    };
     glm::vec4 rows[3]; ///< from a place [m] relative to the eye to voxels: dot(xyz, p) + w
-    glm::ivec4 low;    ///< xyz [brick] lower corner of the box of the index; w first brick of the field
-    glm::ivec4 size;   ///< xyz [brick] size of the box of the index
+    Frame frames[2];
     glm::vec4 factors; ///< x of the extinction; y of emitted light, with the exposure; z mean cosine
     glm::vec4 share;   ///< as in BlobInstance::layer, spread: fire, dust, 1 if of fire, 1 if of dust
+    glm::vec4 moment;  ///< x share of the second frame; y, z [s] since the first and until the second frame
+    glm::ivec4 first;  ///< x first brick of the field
 };
-static_assert(sizeof(FieldVolumeBlock) == 112);
+static_assert(sizeof(FieldVolumeBlock) == 208);
 
 /// Writes extinction, emitted light, albedo and phase function of the volume at the samples of the bricks.
 ///
@@ -28,7 +36,8 @@ static_assert(sizeof(FieldVolumeBlock) == 112);
 ///         bricks       buffer of FieldBrickBlock
 ///         brickBalls   buffer of indices of balls
 ///         index        buffer of base::BrickIndex::table()
-///         voxels       buffer of MediumVolume::packed()
+///         voxels       buffer of MediumVolume::packedWithVelocities()
+///         index[1], voxels[1]  those of the second frame; invalid unless the moment is between two frames
 /// writes  textures     of FieldFillPass, which must have run before: medium, scatter, shares, table, and
 ///                      change: the extinction less that of the balls that stand for the volume in light
 ///                      slices. Formula for the balls: kernel-optical-depth (1).
@@ -38,7 +47,7 @@ public:
     struct Inputs
     {
         ResourceId balls, fieldTexels, bricks, brickBalls;
-        ResourceId index, voxels;
+        ResourceId index[2], voxels[2];
         FieldTextures textures;
         FieldVolumeBlock block;
         uint32_t brickCount; ///< > 0
@@ -50,7 +59,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// Returns the variant of the program with or without layers.
-const ProgramDesc& fieldVolumeProgram(bool layers);
+/// Returns the variant of the program with or without layers, for one frame or for a moment between two.
+const ProgramDesc& fieldVolumeProgram(bool layers, bool between);
 
 } // namespace fx::render

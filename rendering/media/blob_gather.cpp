@@ -422,8 +422,8 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
             outFields->details.push_back(made);
         }
         if (volume) {
-            outFields->volumes.push_back(
-                groupVolume(group, *volume, placementAt(group, older, t, camera.eye)));
+            outFields->volumes.push_back(groupVolume(group, *volume, placementAt(group, older, t, camera.eye),
+                                                     older ? double(t) : 1.0));
             outFields->volumes.back().density *= double(plan.blobShare); // the rest is in a picture
         }
         addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,

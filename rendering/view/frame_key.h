@@ -3,6 +3,7 @@
 /// uploaded data of the last frame are reused.
 #pragma once
 
+#include "foundation/assets/volume_sequence.h"
 #include "rendering/frame/snapshot_revisions.h"
 #include "rendering/frame/view_types.h"
 
@@ -31,6 +32,7 @@ struct FrameKey
     int voxels = 0;
     bool layerOutputs = false;
     uint32_t outputs = 0;
+    uint64_t volumeReads = 0; ///< base::VolumeSequence::readsOfAll(): frames that were late may have come
     const base::AssetTable* assets =
         nullptr; ///< only the address is compared; the pointer is never dereferenced
 
@@ -57,6 +59,7 @@ inline FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& requ
     key.voxels = settings.voxels;
     key.layerOutputs = settings.layerOutputs;
     key.outputs = settings.outputs;
+    key.volumeReads = base::VolumeSequence::readsOfAll();
     key.assets = assets;
     return key;
 }

@@ -2,7 +2,9 @@
 
 #include "foundation/math/half.h"
 #include "foundation/math/hash.h"
+#include "foundation/math/signed_half.h"
 #include "rendering/optics/black_body.h"
+#include "shaders/formulas/formula.h"
 
 #include <glm/common.hpp>
 
@@ -26,6 +28,20 @@ glm::ivec3 voxelInBrick(size_t v)
 bool isBefore(const glm::ivec3& a, const glm::ivec3& b)
 {
     return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+}
+
+glm::dvec3 velocityOr(const glm::dvec3& momentum, double weight, const glm::dvec3& other)
+{
+    glm::dvec3 velocity;
+    for (int a = 0; a < 3; ++a)
+        velocity[a] = formula64::fxFlowVelocity(momentum[a], weight, other[a]);
+    return velocity;
+}
+
+/// Factor of the density after a time [s]. @param growth weight times divergence
+double densityOf(double seconds, double growth, double weight)
+{
+    return formula64::fxFlowDensity(seconds, formula64::fxFlowVelocity(growth, weight, 0.0));
 }
 
 template <class T>
@@ -53,7 +69,11 @@ MediumVolume::MediumVolume(const base::VoxelVolume& volume)
             light += extinction_[v] * (1.0f - albedo) * blackBodyLuminance(volume.temperature[v]);
         emitted_.push_back(light);
     }
-    hash_ = hashOf(hashOf(hashOf(hashOf(3, bricks_), extinction_), scattered_), emitted_);
+    velocity_.reserve(volume.velocity.size());
+    for (const glm::vec3& velocity : volume.velocity)
+        velocity_.push_back(velocity / volume.side);
+    findDivergence();
+    hash_ = hashOf(hashOf(hashOf(hashOf(hashOf(3, bricks_), extinction_), scattered_), emitted_), velocity_);
     findLargest();
 }
 
@@ -69,6 +89,24 @@ void MediumVolume::findLargest()
     for (const glm::vec3& light : emitted_)
         most = std::max({most, light.x, light.y, light.z});
     brightest_ = most > 0.0f ? most : 1.0f;
+}
+
+/// From the neighbors along each axis that are stored.
+void MediumVolume::findDivergence()
+{
+    divergence_.assign(velocity_.size(), 0.0f);
+    for (size_t v = 0; v < velocity_.size(); ++v) {
+        const glm::ivec3 voxel = bricks_[v / kVoxels] * kSide + voxelInBrick(v % kVoxels);
+        for (int a = 0; a < 3; ++a) {
+            glm::ivec3 step(0);
+            step[a] = 1;
+            const size_t behind = voxelAt(voxel - step), ahead = voxelAt(voxel + step);
+            const size_t low = behind == kNone ? v : behind, high = ahead == kNone ? v : ahead;
+            const float distance = float((low == v ? 0 : 1) + (high == v ? 0 : 1));
+            if (distance > 0.0f)
+                divergence_[v] += (velocity_[high][a] - velocity_[low][a]) / distance;
+        }
+    }
 }
 
 size_t MediumVolume::voxelAt(const glm::ivec3& voxel) const
@@ -109,6 +147,7 @@ MediumVolume MediumVolume::halved() const
     half.extinction_.assign(voxels, 0.0f);
     half.scattered_.assign(voxels, glm::vec3(0.0f));
     half.emitted_.assign(emitted_.empty() ? 0 : voxels, glm::vec3(0.0f));
+    half.velocity_.assign(velocity_.empty() ? 0 : voxels, glm::vec3(0.0f));
     for (size_t v = 0; v < extinction_.size(); ++v) {
         if (isEmpty(v))
             continue;
@@ -130,20 +169,27 @@ MediumVolume MediumVolume::halved() const
                 half.emitted_[at] += weight * emitted_[v];
         }
     }
+    for (size_t v = 0; v < half.velocity_.size(); ++v) { // from the finer voxel at the same place
+        const glm::ivec3 at = half.bricks_[v / kVoxels] * kSide + voxelInBrick(v % kVoxels);
+        const Flow flow = flowAt(2.0 * glm::dvec3(at));
+        half.velocity_[v] = 0.5f * glm::vec3(velocityOr(flow.momentum, flow.weight, glm::dvec3(0.0)));
+    }
+    half.findDivergence();
     half.findLargest();
     return half;
 }
 
-MediumVolume::Sample MediumVolume::at(const glm::dvec3& place) const
+/// Calls `add` with the index and the weight of each stored voxel around a place.
+template <class Add>
+void MediumVolume::addCorners(const glm::dvec3& place, const Add& add) const
 {
-    Sample sample;
     const glm::dvec3 low = glm::floor(place);
     const glm::dvec3 part = place - low;
     const glm::dvec3 first = glm::dvec3(index_.low() * kSide - 1);
     const glm::dvec3 last = glm::dvec3((index_.low() + index_.size()) * kSide);
     for (int a = 0; a < 3; ++a)
         if (!(low[a] >= first[a] && low[a] <= last[a]))
-            return sample;
+            return;
     for (int k = 0; k < 8; ++k) {
         const glm::ivec3 corner(k & 1, k >> 1 & 1, k >> 2);
         double weight = 1.0;
@@ -152,12 +198,79 @@ MediumVolume::Sample MediumVolume::at(const glm::dvec3& place) const
         const size_t v = voxelAt(glm::ivec3(low) + corner);
         if (v == kNone || weight == 0.0)
             continue;
+        add(v, weight);
+    }
+}
+
+MediumVolume::Sample MediumVolume::at(const glm::dvec3& place) const
+{
+    Sample sample;
+    addCorners(place, [&](size_t v, double weight) {
         sample.extinction += weight * double(extinction_[v]);
         sample.scattered += weight * glm::dvec3(scattered_[v]);
         if (!emitted_.empty())
             sample.emitted += weight * glm::dvec3(emitted_[v]);
-    }
+    });
     return sample;
+}
+
+MediumVolume::Flow MediumVolume::flowAt(const glm::dvec3& place) const
+{
+    Flow flow;
+    addCorners(place, [&](size_t v, double weight) {
+        const double own = weight * formula64::fxFlowWeight(double(extinction_[v]));
+        flow.weight += own;
+        flow.momentum += own * glm::dvec3(velocity_[v]);
+        flow.growth += own * double(divergence_[v]);
+    });
+    return flow;
+}
+
+MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume& second,
+                                   const Moment& moment)
+{
+    std::vector<glm::ivec3> bricks = first.bricks_;
+    bricks.insert(bricks.end(), second.bricks_.begin(), second.bricks_.end());
+    std::ranges::sort(bricks, isBefore);
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    uint64_t hash = base::hashWord(first.hash_, second.hash_);
+    for (const double number : {moment.part, moment.seconds})
+        hash = base::hashWord(hash, std::bit_cast<uint64_t>(number));
+    MediumVolume out(std::move(bricks), hash);
+    const size_t voxels = out.bricks_.size() * kVoxels;
+    const bool emits = !first.emitted_.empty() || !second.emitted_.empty();
+    const bool moves = moment.seconds > 0.0 && first.hasVelocities() && second.hasVelocities();
+    out.extinction_.resize(voxels);
+    out.scattered_.resize(voxels);
+    out.emitted_.resize(emits ? voxels : 0);
+    const double since = moment.part * moment.seconds, until = (1.0 - moment.part) * moment.seconds;
+    for (size_t v = 0; v < voxels; ++v) {
+        const glm::dvec3 here(out.bricks_[v / kVoxels] * kSide + voxelInBrick(v % kVoxels));
+        glm::dvec3 before = here, after = here;
+        double left = 1.0, arrived = 1.0; // factors of the density
+        if (moves) {
+            const auto mix = [&](const auto& a, const auto& b) {
+                return (1.0 - moment.part) * a + moment.part * b;
+            };
+            const Flow a = first.flowAt(here), b = second.flowAt(here);
+            const glm::dvec3 mixed =
+                velocityOr(mix(a.momentum, b.momentum), mix(a.weight, b.weight), glm::dvec3(0.0));
+            const Flow from = first.flowAt(here - since * mixed);
+            const Flow to = second.flowAt(here + until * mixed);
+            before -= since * velocityOr(from.momentum, from.weight, mixed); // (2)
+            after += until * velocityOr(to.momentum, to.weight, mixed);      // (3)
+            left = densityOf(since, from.growth, from.weight);
+            arrived = densityOf(-until, to.growth, to.weight);
+        }
+        const Sample a = first.at(before), b = second.at(after);
+        const double p = moment.part;
+        out.extinction_[v] = float((1.0 - p) * left * a.extinction + p * arrived * b.extinction); // (5)
+        out.scattered_[v] = glm::vec3((1.0 - p) * left * a.scattered + p * arrived * b.scattered);
+        if (emits)
+            out.emitted_[v] = glm::vec3((1.0 - p) * left * a.emitted + p * arrived * b.emitted);
+    }
+    out.findLargest();
+    return out;
 }
 
 float MediumVolume::largestIn(const glm::ivec3& brick) const
@@ -184,6 +297,20 @@ std::vector<MediumVolume::Packed> MediumVolume::packed() const
                      base::toHalf(light.x) | base::toHalf(light.y) << 16, base::toHalf(light.z), bits};
     }
     return voxels;
+}
+
+std::vector<MediumVolume::Packed> MediumVolume::packedWithVelocities() const
+{
+    std::vector<Packed> words = packed();
+    const size_t voxels = words.size();
+    words.resize(voxels + (velocity_.empty() ? 0 : voxels / 2));
+    for (size_t v = 0; v < velocity_.size(); ++v) {
+        const glm::vec3& u = velocity_[v];
+        uint32_t* const pair = &words[voxels + v / 2][2 * (v % 2)];
+        pair[0] = base::toSignedHalf(u.x) | base::toSignedHalf(u.y) << 16;
+        pair[1] = base::toSignedHalf(u.z) | base::toSignedHalf(divergence_[v]) << 16;
+    }
+    return words;
 }
 
 } // namespace fx::render

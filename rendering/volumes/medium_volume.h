@@ -31,6 +31,8 @@ public:
     /// extinction (1 - albedo) B(T) + emission.
     explicit MediumVolume(const base::VoxelVolume& volume);
 
+    bool hasVelocities() const { return !velocity_.empty(); }
+
     /// The same medium with voxels of twice the side. Each value is the mean of 3 x 3 x 3 values with weights
     /// 1/4, 1/2, 1/4 along each axis, so that integrals over space keep their values. Voxel (i, j, k) of the
     /// result has the center of voxel (2i, 2j, 2k).
@@ -49,12 +51,36 @@ public:
     using Packed = std::array<uint32_t, 4>;
     /// The voxels of all bricks in the order of the bricks, x fastest.
     std::vector<Packed> packed() const;
+    /// As packed(), with the velocities of all voxels behind it, two voxels an element: half floats of x and
+    /// y [voxel/s], then of z and of the divergence [1/s].
+    std::vector<Packed> packedWithVelocities() const;
     float brightest() const { return brightest_; } ///< [cd/m3] largest component of emitted light, or 1
 
+    /// A moment between two volumes on the same lattice.
+    struct Moment
+    {
+        double part = 0.0;    ///< [1] 0: the first volume, 1: the second
+        double seconds = 0.0; ///< [s] between the volumes; 0: the medium does not move, so that it is faded
+    };
+    /// The medium at a moment between `first` and `second`, by formula volume-advection. At the centers of
+    /// voxels it has the values of the GPU.
+    static MediumVolume between(const MediumVolume& first, const MediumVolume& second, const Moment& moment);
+
 private:
+    /// Velocity [voxel/s] at a place and its weight [1/m], see formula volume-advection.
+    struct Flow
+    {
+        double weight = 0.0;
+        glm::dvec3 momentum{0.0}; ///< weight times velocity
+        double growth = 0.0;      ///< weight times divergence [1/s]
+    };
+    Flow flowAt(const glm::dvec3& place) const;
+    template <class Add>
+    void addCorners(const glm::dvec3& place, const Add& add) const;
     MediumVolume(std::vector<glm::ivec3> bricks, uint64_t hash);
     size_t voxelAt(const glm::ivec3& voxel) const; ///< index in the arrays, or kNone
     void findLargest();
+    void findDivergence();
 
     static constexpr size_t kNone = ~size_t(0);
     std::vector<glm::ivec3> bricks_;
@@ -62,6 +88,8 @@ private:
     std::vector<float> extinction_;
     std::vector<glm::vec3> emitted_;   ///< empty: no light
     std::vector<glm::vec3> scattered_; ///< [1/m] extinction times albedo
+    std::vector<glm::vec3> velocity_;  ///< [voxel/s] empty: the medium does not move
+    std::vector<float> divergence_;    ///< [1/s] of the velocity
     float largest_ = 0.0f, brightest_ = 1.0f;
     uint64_t hash_ = 0;
 };

@@ -35,13 +35,15 @@ const base::SnapshotGroup* volumeGroup(const base::FrameSnapshot& snapshot, size
 }
 
 GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGroup& volume,
-                        const base::Placement& place)
+                        const base::Placement& place, double t)
 {
     namespace c = base::volume_constant;
     const auto constants = volume.constants();
     const double scale = double(place.scale), own = double(constants[c::Side]);
     GroupVolume out;
     out.asset = uint32_t(constants[c::Asset]);
+    out.frame = glm::mix(double(constants[c::FrameBefore]), double(constants[c::Frame]), t);
+    out.frameSeconds = double(constants[c::FrameSeconds]);
     out.side = own * scale;
     out.density = double(constants[c::Density]) / scale;
     const glm::dquat rotation(place.rotation);
@@ -55,6 +57,16 @@ GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGr
     out.anisotropy = blobs.constants()[base::blob_constant::Anisotropy];
     out.layer = uint32_t(blobs.constants()[base::blob_constant::Layer]);
     return out;
+}
+
+FramePair framePair(const GroupVolume& volume, uint32_t count)
+{
+    const double frame = volume.frame < 0.0 ? volume.frame + double(count) : volume.frame;
+    FramePair pair;
+    pair.first = uint32_t(std::clamp(frame, 0.0, double(count) - 1.0));
+    pair.part = std::clamp(frame - double(pair.first), 0.0, 1.0);
+    pair.second = pair.part > 0.0 ? (pair.first + 1) % count : pair.first;
+    return pair;
 }
 
 } // namespace fx::render

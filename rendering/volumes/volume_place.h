@@ -16,6 +16,10 @@ namespace fx::render {
 struct GroupVolume
 {
     uint32_t asset = 0; ///< id in the asset table
+    /// [1] Frame that is shown, if the asset is a sequence: 0 to below the number of frames. A fraction leads
+    /// to the next frame; after the last one follows the first one.
+    double frame = 0.0;
+    double frameSeconds = 0.0; ///< [s] from a frame to the next; 0: the asset is a single volume
     /// From a place p [m] in the axes of the world to voxels: toVoxels p + first. p is relative to the origin
     /// of the placement's position.
     glm::dmat3 toVoxels{1.0};
@@ -36,7 +40,17 @@ struct GroupVolume
 const base::SnapshotGroup* volumeGroup(const base::FrameSnapshot& snapshot, size_t group);
 
 /// @param blobs group of blobs to which `volume` belongs
+/// @param place, t placement, and the moment between the older (0) and the newer (1) snapshot
 GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGroup& volume,
-                        const base::Placement& place);
+                        const base::Placement& place, double t);
+
+/// The frames between which a moment of a sequence is.
+struct FramePair
+{
+    uint32_t first = 0, second = 0;
+    double part = 0.0; ///< [1] 0: the first frame, 1: the second
+};
+/// @param count number of frames of the sequence, > 0
+FramePair framePair(const GroupVolume& volume, uint32_t count);
 
 } // namespace fx::render

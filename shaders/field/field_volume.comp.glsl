@@ -1,4 +1,5 @@
 #include "formulas/kernel_optical_depth.fx.h"
+#include "formulas/volume_advection.fx.h"
 #include "formulas/voxel_kernel.fx.h"
 #include "shared/blob_instance.glsl"
 #include "field/field_blocks.glsl"
@@ -9,51 +10,82 @@
 layout(local_size_x = 81) in;
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(std430, binding = 3) readonly buffer BrickBalls { uint brickBalls[]; };
-layout(std430, binding = 4) readonly buffer VolumeIndex { uint volumeIndex[]; };    // of the brick at each place of the box; kNoBrick
-layout(std430, binding = 5) readonly buffer VolumeVoxels { uvec4 volumeVoxels[]; }; // MediumVolume::Packed
+// Brick at each place of the box, or kNoBrick; MediumVolume::packedWithVelocities()
+layout(std430, binding = 4) readonly buffer VolumeIndex { uint volumeIndex[]; };
+layout(std430, binding = 5) readonly buffer VolumeVoxels { uvec4 volumeVoxels[]; };
+#if FX_BETWEEN
+layout(std430, binding = 6) readonly buffer SecondIndex { uint secondIndex[]; };
+layout(std430, binding = 7) readonly buffer SecondVoxels { uvec4 secondVoxels[]; };
+#endif
 layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted light [exposed/m]; a extinction [1/m]
 layout(rgba16f, binding = 1) uniform writeonly image3D scatter; // rgb mean albedo; a mean cosine of the phase function
 #if FX_LAYERS
 layout(rgba16f, binding = 2) uniform writeonly image3D shares; // see field_sample.glsl
 #endif
 layout(r32f, binding = 6) uniform writeonly image3D change; // extinction less that of casters, over the field's largest
+struct VolumeFrame
+{
+    ivec4 low;  // xyz [brick] lower corner of the box; w number of bricks
+    ivec4 size; // xyz [brick] of the box
+    vec4 light; // x of light that is stored as 1
+};
 layout(std140, binding = 0) uniform FieldVolumeBlock
 {
-    vec4 rows[3];  // from a place [m] relative to the eye to voxels: dot(xyz, p) + w
-    ivec4 low;     // xyz [brick] lower corner of the box; w first brick of the field
-    ivec4 size;    // xyz [brick] of the box
-    vec4 factors;  // x of extinction; y of emitted light; z mean cosine
-    vec4 share;    // of extinction: as fire, as dust; of balls of fire, of dust
+    vec4 rows[3];          // from a place [m] relative to the eye to voxels: dot(xyz, p) + w
+    VolumeFrame frames[2];
+    vec4 factors;          // x of extinction; y of emitted light; z mean cosine
+    vec4 share;            // of extinction: as fire, as dust; of balls of fire, of dust
+    vec4 moment;           // x share of the second frame; y, z [s] since the first and until the second
+    ivec4 firstBrick;      // x of the field
 };
 
 const uint kNoBrick = 0xFFFFFFFFu;
 
 struct VolumeSample
 {
-    vec4 medium; // rgb emitted light over the brightest; a extinction, both without their factors
+    vec4 medium; // rgb emitted light; a extinction, both without their factors
     vec3 scattered;
 };
 
-void addVoxel(ivec3 voxel, float weight, inout VolumeSample io)
+// Element of the list of voxels, or kNoBrick where no brick is.
+uint voxelOf(int frame, ivec3 voxel)
 {
-    ivec3 place = (voxel >> 3) - low.xyz;
-    bool isInside = weight > 0.0 && all(greaterThanEqual(place, ivec3(0))) && all(lessThan(place, size.xyz));
-    uint brick = isInside ? volumeIndex[place.x + size.x * (place.y + size.y * place.z)] : kNoBrick;
-    if (brick != kNoBrick) {
-        ivec3 inBrick = voxel & 7;
-        uvec4 bits = volumeVoxels[512u * brick + uint(inBrick.x + 8 * inBrick.y + 64 * inBrick.z)];
-        float extinction = uintBitsToFloat(bits.x);
-        vec3 light = vec3(unpackHalf2x16(bits.y), unpackHalf2x16(bits.z).x);
-        vec3 albedo = vec3(bits.w & 1023u, bits.w >> 10 & 1023u, bits.w >> 20 & 1023u) / 1023.0;
-        io.medium += weight * vec4(light, extinction);
-        io.scattered += weight * extinction * albedo;
-    }
+    ivec3 size = frames[frame].size.xyz;
+    ivec3 place = (voxel >> 3) - frames[frame].low.xyz;
+    if (any(lessThan(place, ivec3(0))) || any(greaterThanEqual(place, size)))
+        return kNoBrick;
+    uint at = uint(place.x + size.x * (place.y + size.y * place.z));
+#if FX_BETWEEN
+    uint brick = frame == 0 ? volumeIndex[at] : secondIndex[at];
+#else
+    uint brick = volumeIndex[at];
+#endif
+    ivec3 inBrick = voxel & 7;
+    return brick == kNoBrick ? kNoBrick : 512u * brick + uint(inBrick.x + 8 * inBrick.y + 64 * inBrick.z);
 }
 
-VolumeSample volumeAt(vec3 p)
+uvec4 wordsOf(int frame, uint at)
+{
+#if FX_BETWEEN
+    if (frame == 1)
+        return secondVoxels[at];
+#endif
+    return volumeVoxels[at];
+}
+
+void addVoxel(int frame, uint at, float weight, inout VolumeSample io)
+{
+    uvec4 bits = wordsOf(frame, at);
+    float extinction = uintBitsToFloat(bits.x);
+    vec3 light = vec3(unpackHalf2x16(bits.y), unpackHalf2x16(bits.z).x);
+    vec3 albedo = vec3(bits.w & 1023u, bits.w >> 10 & 1023u, bits.w >> 20 & 1023u) / 1023.0;
+    io.medium += weight * vec4(frames[frame].light.x * light, extinction);
+    io.scattered += weight * extinction * albedo;
+}
+
+VolumeSample mediumAt(int frame, vec3 place)
 {
     const float kOnVoxel = 1e-3; // [voxel] what places are rounded by
-    vec3 place = vec3(dot(rows[0].xyz, p) + rows[0].w, dot(rows[1].xyz, p) + rows[1].w, dot(rows[2].xyz, p) + rows[2].w);
     vec3 nearest = floor(place + 0.5);
     place = mix(place, nearest, lessThan(abs(place - nearest), vec3(kOnVoxel)));
     vec3 first = floor(place);
@@ -61,10 +93,82 @@ VolumeSample volumeAt(vec3 p)
     VolumeSample found = VolumeSample(vec4(0.0), vec3(0.0));
     for (int k = 0; k < 8; ++k) {
         ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2);
-        vec3 weight = mix(1.0 - part, part, vec3(corner));
-        addVoxel(ivec3(first) + corner, weight.x * weight.y * weight.z, found);
+        vec3 weights = mix(1.0 - part, part, vec3(corner));
+        float weight = weights.x * weights.y * weights.z;
+        uint at = weight > 0.0 ? voxelOf(frame, ivec3(first) + corner) : kNoBrick;
+        if (at != kNoBrick)
+            addVoxel(frame, at, weight, found);
     }
     return found;
+}
+
+#if FX_BETWEEN
+struct Flow
+{
+    vec4 momentum; // xyz weight times velocity [voxel/s]; w weight
+    float growth;  // weight times divergence [1/s]
+};
+
+Flow flowAt(int frame, vec3 place)
+{
+    vec3 first = floor(place);
+    vec3 part = place - first;
+    uint velocities = 512u * uint(frames[frame].low.w); // behind the voxels
+    Flow flow = Flow(vec4(0.0), 0.0);
+    for (int k = 0; k < 8; ++k) {
+        ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2);
+        vec3 weights = mix(1.0 - part, part, vec3(corner));
+        float weight = weights.x * weights.y * weights.z;
+        uint at = weight > 0.0 ? voxelOf(frame, ivec3(first) + corner) : kNoBrick;
+        if (at != kNoBrick) {
+            uvec4 pair = wordsOf(frame, velocities + at / 2u);
+            uvec2 own = (at & 1u) == 0u ? pair.xy : pair.zw;
+            weight *= fxFlowWeight(uintBitsToFloat(wordsOf(frame, at).x));
+            vec2 z = unpackHalf2x16(own.y);
+            flow.momentum += weight * vec4(unpackHalf2x16(own.x), z.x, 1.0);
+            flow.growth += weight * z.y;
+        }
+    }
+    return flow;
+}
+
+vec3 velocityOr(vec4 momentum, vec3 other)
+{
+    return vec3(fxFlowVelocity(momentum.x, momentum.w, other.x), fxFlowVelocity(momentum.y, momentum.w, other.y),
+                fxFlowVelocity(momentum.z, momentum.w, other.z));
+}
+
+float densityOf(float seconds, Flow flow)
+{
+    return fxFlowDensity(seconds, fxFlowVelocity(flow.growth, flow.momentum.w, 0.0));
+}
+
+// The moment between two frames, by formula volume-advection.
+VolumeSample volumeAt(vec3 place)
+{
+    vec3 before = place, after = place;
+    vec2 share = vec2(1.0 - moment.x, moment.x);
+    if (moment.y + moment.z > 0.0) {
+        vec3 mixed = velocityOr(mix(flowAt(0, place).momentum, flowAt(1, place).momentum, moment.x), vec3(0.0)); // (1)
+        Flow from = flowAt(0, place - moment.y * mixed);
+        Flow to = flowAt(1, place + moment.z * mixed);
+        before -= moment.y * velocityOr(from.momentum, mixed); // (2)
+        after += moment.z * velocityOr(to.momentum, mixed);    // (3)
+        share *= vec2(densityOf(moment.y, from), densityOf(-moment.z, to));
+    }
+    VolumeSample a = mediumAt(0, before), b = mediumAt(1, after);
+    return VolumeSample(share.x * a.medium + share.y * b.medium, share.x * a.scattered + share.y * b.scattered); // (5)
+}
+#else
+VolumeSample volumeAt(vec3 place)
+{
+    return mediumAt(0, place);
+}
+#endif
+
+vec3 voxelAt(vec3 p)
+{
+    return vec3(dot(rows[0].xyz, p) + rows[0].w, dot(rows[1].xyz, p) + rows[1].w, dot(rows[2].xyz, p) + rows[2].w);
 }
 
 // [1/m] extinction of the balls that stand for the volume in the light slices
@@ -82,7 +186,7 @@ float castersAt(VoxelField field, FieldBrick brick, vec3 p)
 
 void main()
 {
-    int number = low.w + int(gl_WorkGroupID.x);
+    int number = firstBrick.x + int(gl_WorkGroupID.x);
     FieldBrick brick = bricks[number];
     VoxelField field = fieldOf(int(brick.field));
     ivec3 first = sampleOfBrick(int(gl_LocalInvocationIndex));
@@ -92,7 +196,7 @@ void main()
     vec2 largest = vec2(0.0);
     for (int z = 0; z < kBrickSamples; ++z) {
         vec3 p = placeOfSample(field, brick, first + ivec3(0, 0, z));
-        VolumeSample found = volumeAt(p);
+        VolumeSample found = volumeAt(voxelAt(p));
         float extinction = factors.x * found.medium.a;
         vec3 albedo = found.scattered / max(found.medium.a, 1e-20);
         largest = max(largest, extinction * vec2(z <= kBrickCells / 2, z >= kBrickCells / 2));

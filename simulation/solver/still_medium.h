@@ -42,7 +42,6 @@ public:
     base::Ticks restsUntil(base::Ticks tick) const final;
     base::Ticks quietUntil(base::Ticks tick) const final { return restsUntil(tick); }
 
-protected:
     /// Writes the constants of a group of balls, and the columns that are equal for all of them.
     static void writeShared(const StillMediumDef& def, BlobWriter& writer);
 };

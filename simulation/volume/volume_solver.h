@@ -21,10 +21,6 @@ struct VolumeDef final : StillMediumDef
     uint32_t capacity() const override { return uint32_t(cells.size()); }
     bool publishes(const base::KindDesc& kind) const override;
     float reach(float gravity, float wind, float seconds) const override;
-
-    /// [m] Center of the cells of a brick, in the space of the effect.
-    glm::vec3 centerOf(const base::VolumeCells& brick) const;
-    float voxelSide() const { return scale * (voxels ? voxels->side : 1.0f); } ///< [m]
 };
 
 } // namespace fx::sim

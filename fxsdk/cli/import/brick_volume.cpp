@@ -1,7 +1,12 @@
 #include "fxsdk/cli/import/brick_volume.h"
 
+#include "fxsdk/assets/asset_resolver.h"
+#include "fxsdk/assets/frame_name.h"
 #include "fxsdk/assets/volume_file.h"
 #include "fxsdk/cli/import/preset_files.h"
+#include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/cli/support/interrupt.h"
+#include "fxsdk/presets/preset_loader.h"
 #include "rendering/voxelization/block_table.h"
 
 #include <glm/common.hpp>
@@ -46,7 +51,7 @@ bool isStraight(const render::MediumGrid& grid)
 struct Voxel
 {
     double density = 0.0, heat = 0.0, flame = 0.0; // heat: density times temperature
-    glm::dvec3 albedo{0.0};                        // times density
+    glm::dvec3 albedo{0.0}, velocity{0.0};         // times density
 };
 
 class GridSampler
@@ -70,6 +75,8 @@ public:
             out.flame = weight * double(grid_.flame[at]);
         if (!grid_.albedo.empty())
             out.albedo = out.density * glm::dvec3(grid_.albedo[at]);
+        if (!grid_.velocity.empty())
+            out.velocity = out.density * glm::dvec3(grid_.velocity[at]);
         return out;
     }
 
@@ -88,6 +95,7 @@ public:
             sum.heat += own.heat;
             sum.flame += own.flame;
             sum.albedo += own.albedo;
+            sum.velocity += own.velocity;
         }
         return sum;
     }
@@ -143,8 +151,9 @@ base::Result<std::vector<glm::ivec3>> bricksOf(const render::MediumGrid& grid, c
     return bricks;
 }
 
-void append(const Voxel& voxel, bool hasFlame, base::VoxelVolume& io, const render::MediumGrid& grid)
+void append(const Voxel& voxel, bool keepsVelocity, base::VoxelVolume& io, const render::MediumGrid& grid)
 {
+    const bool hasFlame = !grid.flame.empty();
     const bool isThere = voxel.density > 0.0;
     const double per = isThere ? 1.0 / voxel.density : 0.0;
     const double temperature = std::min(voxel.heat * per, kMostTemperature);
@@ -155,6 +164,52 @@ void append(const Voxel& voxel, bool hasFlame, base::VoxelVolume& io, const rend
         io.temperature.push_back(float(temperature));
     if (!grid.albedo.empty())
         io.albedo.push_back(glm::clamp(glm::vec3(voxel.albedo * per), glm::vec3(0.0f), glm::vec3(1.0f)));
+    if (keepsVelocity && !grid.velocity.empty())
+        io.velocity.push_back(glm::vec3(voxel.velocity * per));
+}
+
+/// Gives voxels without medium the mean velocity of their neighbors that have one, again and again, until all
+/// have: medium moves through them between two frames.
+void spreadVelocities(base::VoxelVolume& io)
+{
+    if (io.velocity.empty())
+        return;
+    const base::BrickIndex index(io.bricks);
+    std::vector<char> isKnown(io.extinction.size());
+    std::vector<size_t> open;
+    for (size_t v = 0; v < isKnown.size(); ++v) {
+        isKnown[v] = io.extinction[v] > 0.0f ? 1 : 0;
+        if (isKnown[v] == 0)
+            open.push_back(v);
+    }
+    std::vector<std::pair<size_t, glm::vec3>> found;
+    do {
+        found.clear();
+        for (const size_t v : open) {
+            const glm::ivec3 voxel =
+                io.bricks[v / kVoxels] * 8 + glm::ivec3(int(v % 8), int(v / 8 % 8), int(v / 64 % 8));
+            glm::vec3 sum(0.0f);
+            int count = 0;
+            for (int k = 0; k < 6; ++k) {
+                glm::ivec3 other = voxel;
+                other[k / 2] += k % 2 == 0 ? 1 : -1;
+                const uint32_t brick = index.find({other.x >> 3, other.y >> 3, other.z >> 3});
+                if (brick == base::BrickIndex::kNone)
+                    continue;
+                const size_t at =
+                    brick * kVoxels + size_t((other.x & 7) + 8 * (other.y & 7) + 64 * (other.z & 7));
+                sum += isKnown[at] != 0 ? io.velocity[at] : glm::vec3(0.0f);
+                count += isKnown[at];
+            }
+            if (count > 0)
+                found.emplace_back(v, sum / float(count));
+        }
+        for (const auto& [v, velocity] : found) {
+            io.velocity[v] = velocity;
+            isKnown[v] = 1;
+        }
+        std::erase_if(open, [&](size_t v) { return isKnown[v] != 0; });
+    } while (!found.empty());
 }
 
 double massOf(const base::VoxelVolume& volume)
@@ -167,7 +222,8 @@ double massOf(const base::VoxelVolume& volume)
 
 } // namespace
 
-base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo)
+base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo,
+                                              bool keepsVelocity)
 {
     const bool isCopied = isStraight(grid);
     Lattice lattice;
@@ -202,7 +258,7 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
                             " bricks of 8 x 8 x 8 voxels");
         volume.bricks.push_back(brick);
         for (const Voxel& voxel : voxels)
-            append(voxel, !grid.flame.empty(), volume, grid);
+            append(voxel, keepsVelocity, volume, grid);
     }
     if (volume.bricks.empty())
         return base::Status(base::Code::InvalidArgument, "the volume has no medium");
@@ -219,6 +275,7 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
     for (glm::ivec3& brick : volume.bricks)
         brick += 1 - low;
     volume.origin = glm::vec3(lattice.origin + lattice.side * 8.0 * glm::dvec3(low - 1));
+    spreadVelocities(volume);
     if (!isCopied)
         for (const double factor = mass / massOf(volume); float& extinction : volume.extinction)
             extinction = float(double(extinction) * factor);
@@ -252,6 +309,80 @@ base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, doub
                                       {"composition", "volume"},
                                       {"volumes", {{{"name", *stem}, {"file", *stem + ".fxvolume"}}}}};
     if (base::Status status = writePresetFiles(preset, text, report.file, *bytes); !status)
+        return status;
+    return report;
+}
+
+namespace {
+
+/// Whether the files make a sequence: lattices, range and memory.
+base::Status checkWritten(const std::string& text, const std::filesystem::path& path)
+{
+    const std::string folder = path.parent_path().string();
+    const asset::AssetResolver resolver(folder.empty() ? "." : folder, {});
+    const auto loaded = preset::loadPresetText(text, path.string(), nullptr, &resolver);
+    return loaded ? base::Status() : loaded.status();
+}
+
+} // namespace
+
+base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const SequencePlay& play,
+                                                 double albedo, const std::filesystem::path& preset)
+{
+    const base::Result<std::string> stem = presetStem(preset);
+    if (!stem)
+        return stem.status();
+    if (stem->find('%') != std::string::npos)
+        return base::Status(base::Code::InvalidArgument,
+                            preset.string() + ": the name of the preset of a sequence has no '%'");
+    const std::string pattern = *stem + ".%04d.fxvolume";
+    SequenceReport report;
+    report.files = preset.parent_path() / pattern;
+    for (uint32_t i = 0; i < play.count; ++i) {
+        const uint32_t number = play.first + i;
+        if (interruptRequested())
+            return interruptedStatus();
+        const base::Result<render::MediumGrid> grid = gridOf(number);
+        if (!grid)
+            return grid.status();
+        const auto inFrame = [&](const base::Status& status) {
+            return base::Status(status.code(), "frame " + std::to_string(number) + ": " + status.message());
+        };
+        const base::Result<base::VoxelVolume> volume = voxelVolumeOf(*grid, albedo, true);
+        if (!volume)
+            return inFrame(volume.status());
+        const base::Result<std::string> bytes = asset::writeVolume(*volume);
+        if (!bytes)
+            return inFrame(bytes.status());
+        const base::Result<base::VoxelVolume> readBack = asset::parseVolume(*bytes);
+        if (!readBack)
+            return inFrame(readBack.status());
+        const double mass = render::sumsOf(*grid).crossSection;
+        report.massError = std::max(report.massError, std::abs(massOf(*readBack) - mass) / mass);
+        report.mostBricks = std::max(report.mostBricks, volume->bricks.size());
+        report.bytes += bytes->size();
+        report.side = double(volume->side);
+        report.hasVelocities = report.hasVelocities && !volume->velocity.empty();
+        report.isResampled = report.isResampled || !isStraight(*grid);
+        const std::filesystem::path file = preset.parent_path() / *asset::frameName(pattern, number);
+        if (base::Status status = writeFileAtomically(file, *bytes); !status)
+            return status;
+    }
+    const nlohmann::ordered_json text{{"version", 1},
+                                      {"name", *stem},
+                                      {"composition", "volume"},
+                                      {"volumes",
+                                       {{{"name", *stem},
+                                         {"file", pattern},
+                                         {"frames", play.count},
+                                         {"firstFrame", play.first},
+                                         {"framesPerSecond", play.framesPerSecond},
+                                         {"end", play.end},
+                                         {"memory", play.memory}}}}};
+    const std::string written = text.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    if (base::Status status = checkWritten(written, preset); !status)
+        return status;
+    if (base::Status status = writeFileAtomically(preset, written); !status)
         return status;
     return report;
 }

@@ -6,7 +6,10 @@
 #include "foundation/tasks/task_runner.h"
 #include "rendering/voxelization/medium_grid.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
 
 namespace fx::cli {
 
@@ -24,9 +27,40 @@ struct BrickReport
 /// grid, and the extinction is multiplied by a factor that keeps its integral. A grid of flames gives emitted
 /// light in the color of a black body of the temperature; without flames, the medium glows as its temperature
 /// does.
+/// @param keepsVelocity whether the velocities of the grid are taken
 /// @param albedo [1] of grids that have no colors
 /// @return TooLarge with the remedy, InvalidArgument for a grid without medium
-base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo);
+base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo,
+                                              bool keepsVelocity = false);
+
+/// How a sequence is played.
+struct SequencePlay
+{
+    uint32_t first = 0; ///< number of the first frame
+    uint32_t count = 1;
+    double framesPerSecond = 24.0;
+    std::string end = "hold"; ///< as in the preset
+    uint32_t memory = 512;    ///< [MiB]
+};
+
+struct SequenceReport
+{
+    size_t mostBricks = 0;       ///< of a frame
+    uint64_t bytes = 0;          ///< [byte] of all files
+    double side = 0.0;           ///< [m] of a voxel
+    double massError = 0.0;      ///< [1] largest of a frame
+    bool hasVelocities = true;   ///< of all frames
+    bool isResampled = false;    ///< of a frame
+    std::filesystem::path files; ///< name with the placeholder of the number
+};
+
+/// The grid of a frame. @return an error that names the file
+using FrameGrid = std::function<base::Result<render::MediumGrid>(uint32_t number)>;
+
+/// Writes the voxels of all frames, NAME.%04d.fxvolume, and then `preset`, NAME.fx.json, which plays them.
+/// @return errors of voxelVolumeOf() and writeVolume(), and of presets that name the files; Io
+base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const SequencePlay& play,
+                                                 double albedo, const std::filesystem::path& preset);
 
 /// Writes `preset` (*.fx.json) and, beside it, the voxels (*.fxvolume) that it names.
 /// @return errors of voxelVolumeOf() and writeVolume(); Io

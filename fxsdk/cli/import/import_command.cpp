@@ -4,10 +4,13 @@
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/import/brick_volume.h"
 #include "fxsdk/cli/import/cloud_preset.h"
+#include "fxsdk/cli/import/frame_files.h"
 #include "fxsdk/cli/import/volume_import.h"
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
+#include "fxsdk/cli/support/named_choice.h"
+#include "fxsdk/cli/support/progress.h"
 
 #include <CLI/CLI.hpp>
 
@@ -31,13 +34,16 @@ struct ImportArguments
     bool bricks = false;
     render::FitOptions fit;
     double albedo = 0.8;
+    std::string frames; ///< FIRST:LAST; empty: those that are there
+    SequencePlay play;
     bool json = false;
 };
 
 void addImportOptions(CLI::App& command, ImportArguments& a)
 {
     const auto scale = CLI::Range(kLeastScale, kMostScale);
-    command.add_option("FILE", a.input, "A volume (*.vdb)")->required();
+    command.add_option("FILE", a.input, "A volume (*.vdb), or a sequence of volumes (NAME.%04d.vdb)")
+        ->required();
     command.add_option(
         "--density", a.read.density,
         "Grid of extinction: a fog volume, or a level set, which is filled (default: density)");
@@ -80,6 +86,22 @@ void addImportOptions(CLI::App& command, ImportArguments& a)
         ->check(CLI::Range(0u, 1000u))
         ->needs(output)
         ->excludes(bricks)
+        ->capture_default_str();
+    command
+        .add_option("--frames", a.frames,
+                    "Frames of a sequence, FIRST:LAST, both included (default: all that are there)")
+        ->needs(output);
+    command.add_option("--fps", a.play.framesPerSecond, "Frames a second of a sequence")
+        ->check(CLI::Range(0.01, 240.0))
+        ->needs(output)
+        ->capture_default_str();
+    command.add_option("--end", a.play.end, "What follows the last frame of a sequence: hold or loop")
+        ->check(oneOf({"hold", "loop"}))
+        ->needs(output)
+        ->capture_default_str();
+    command.add_option("--memory", a.play.memory, "[MiB] For the voxels of a sequence while it is played")
+        ->check(CLI::Range(1u, 65536u))
+        ->needs(output)
         ->capture_default_str();
     command.add_option("--albedo", a.albedo, "Of volumes without a grid of colors")
         ->check(CLI::Range(0.0, 1.0))
@@ -170,16 +192,76 @@ int failed(const base::Status& status)
     return exitCodeOf(status);
 }
 
+ChildLimits limitsOf(ImportArguments& io)
+{
+    ChildLimits limits;
+    limits.memory = io.memory * kMebibyte;
+    limits.seconds = io.seconds;
+    limits.output = io.read.maxBytes = limits.memory / 4; // the tree, its copy, and that as bytes
+    limits.output += kMebibyte;                           // warnings
+    return limits;
+}
+
+int importSequence(ImportArguments& arguments, const NumberedFile& input)
+{
+    if (arguments.output.empty()) {
+        std::fprintf(stderr, "fx import: a sequence needs -o NAME.fx.json\n");
+        return kUsage;
+    }
+    const auto frames = chooseFrames(input, arguments.frames);
+    if (!frames)
+        return failed(frames.status());
+    arguments.play.first = frames->first;
+    arguments.play.count = frames->count;
+    const ChildLimits limits = limitsOf(arguments);
+    Progress progress("frame", arguments.play.count, !arguments.json);
+    uint64_t done = 0;
+    const FrameGrid gridOf = [&](uint32_t number) {
+        progress.update(done++);
+        const std::string file = input.frame(number).string();
+        auto grid = importVolume(file, arguments.read, limits);
+        if (grid)
+            for (const std::string& warning : grid->warnings)
+                std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), warning.c_str());
+        return grid;
+    };
+    const auto written = writeSequencePreset(gridOf, arguments.play, arguments.albedo, arguments.output);
+    if (!written)
+        return failed(written.status());
+    progress.update(done);
+    if (!written->hasVelocities)
+        std::fprintf(stderr, "warning: %s: a frame has no velocities; all are cross-faded\n",
+                     arguments.input.c_str());
+    if (arguments.json)
+        printJsonLine(withMachine({{"file", arguments.input},
+                                   {"frames", arguments.play.count},
+                                   {"first_frame", arguments.play.first},
+                                   {"bricks", written->mostBricks},
+                                   {"bytes", written->bytes},
+                                   {"voxel_side", written->side},
+                                   {"velocities", written->hasVelocities},
+                                   {"resampled", written->isResampled},
+                                   {"mass_error", written->massError}},
+                                  readMachine()));
+    else
+        std::printf("%s: %u frames from %u, at most %zu bricks of voxels of %.4g m in %s, %.1f MiB together, "
+                    "mass within %.2g %%\n",
+                    arguments.output.c_str(), arguments.play.count, arguments.play.first, written->mostBricks,
+                    written->side, written->files.string().c_str(),
+                    double(written->bytes) / double(kMebibyte), 100.0 * written->massError);
+    return kSuccess;
+}
+
 int runImport(ImportArguments arguments)
 {
     if (!arguments.output.empty())
         if (base::Status status = checkTarget(arguments.output); !status)
             return failed(status);
-    ChildLimits limits;
-    limits.memory = arguments.memory * kMebibyte;
-    limits.seconds = arguments.seconds;
-    limits.output = arguments.read.maxBytes = limits.memory / 4; // the tree, its copy, and that as bytes
-    limits.output += kMebibyte;                                  // warnings
+    if (arguments.input.find('%') != std::string::npos) {
+        const auto input = parseNumberedFile(arguments.input);
+        return input ? importSequence(arguments, *input) : failed(input.status());
+    }
+    const ChildLimits limits = limitsOf(arguments);
     ChildReport child;
     const auto grid = importVolume(arguments.input, arguments.read, limits, &child);
     if (!grid)

@@ -145,6 +145,8 @@ base::Status FrameRenderer::render(base::Ticks tick)
         return status;
     if (base::Status status = effects_->showMoment(tick); !status)
         return status;
+    if (base::Status status = effects_->waitForFrames(); !status)
+        return status;
     counters_.millisecondsSimulate = millisecondsSince(start);
 
     start = Clock::now();
@@ -268,6 +270,7 @@ base::Status FrameRenderer::count()
             return status;
         counters_.passes.emplace_back(name);
     }
+    counters_.volumes = effects_->volumeCounts();
     return {};
 }
 

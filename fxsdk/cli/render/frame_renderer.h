@@ -54,6 +54,7 @@ struct FrameCounters
     FxSceneStatistics scene;
     FxViewStatistics view;
     std::vector<std::string> passes;
+    base::VolumeSequence::Counts volumes; ///< of all sequences together
     double millisecondsSimulate = 0;
     double millisecondsRender = 0; ///< [ms] time of drawing stage and effects, until the GPU has finished
 };

@@ -1,8 +1,9 @@
 #include "fxsdk/cli/render/reference_scene.h"
 
+#include "foundation/assets/asset_table.h"
+#include "foundation/assets/volume_sequence.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "rendering/techniques/draw_techniques.h"
-#include "simulation/volume/volume_solver.h"
 
 #include <cmath>
 #include <numbers>
@@ -66,21 +67,44 @@ ReferenceSceneSource::create(const scene_file::SceneFile& file, const EffectScen
     return source;
 }
 
-std::shared_ptr<const render::MediumVolume> ReferenceSceneSource::volumeOf(const base::GroupInfo& group)
+std::shared_ptr<const render::MediumVolume> ReferenceSceneSource::keep(uint32_t asset, uint32_t frame,
+                                                                       const base::VoxelVolume& voxels)
 {
-    const uint32_t number = effects_->numberOf(group.instance);
-    if (number == 0)
-        return nullptr;
-    const auto& solvers = file_.presets[file_.instances[number - 1].preset].effect->solvers;
-    const auto* const def = group.solver < solvers.size()
-                                ? dynamic_cast<const sim::VolumeDef*>(solvers[group.solver].get())
-                                : nullptr;
-    if (!def || !def->voxels)
-        return nullptr;
-    std::shared_ptr<const render::MediumVolume>& held = volumes_[def->voxels.get()];
+    std::shared_ptr<const render::MediumVolume>& held = volumes_[{asset, frame}];
     if (!held)
-        held = std::make_shared<const render::MediumVolume>(*def->voxels);
+        held = std::make_shared<const render::MediumVolume>(voxels);
     return held;
+}
+
+std::shared_ptr<const render::MediumVolume> ReferenceSceneSource::volumeOf(const render::GroupVolume& volume,
+                                                                           base::Status& ioStatus)
+{
+    const base::AssetTable& assets = effects_->assets();
+    const auto sequence = assets.sequence(volume.asset);
+    if (!sequence) {
+        const auto voxels = assets.volume(volume.asset);
+        return voxels ? keep(volume.asset, 0, *voxels) : nullptr;
+    }
+    const render::FramePair pair = render::framePair(volume, sequence->count());
+    std::erase_if(volumes_, [&](const auto& known) {
+        return known.first.first == volume.asset && known.first.second != pair.first &&
+               known.first.second != pair.second;
+    });
+    std::shared_ptr<const render::MediumVolume> ends[2];
+    for (const int k : {0, 1}) {
+        const uint32_t frame = k == 0 ? pair.first : pair.second;
+        const auto voxels = sequence->wait(frame);
+        if (!voxels) {
+            ioStatus = voxels.status();
+            return nullptr;
+        }
+        ends[k] = keep(volume.asset, frame, **voxels);
+    }
+    if (pair.first == pair.second)
+        return ends[0];
+    const double seconds = sequence->hasVelocities() ? volume.frameSeconds : 0.0;
+    return std::make_shared<const render::MediumVolume>(
+        render::MediumVolume::between(*ends[0], *ends[1], {pair.part, seconds}));
 }
 
 base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
@@ -91,9 +115,12 @@ base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
     if (!moment.ok())
         return moment.status();
     ReferenceFrame frame;
+    base::Status read;
     render::MediumList medium =
         render::mediumOf(moment->snapshots, moment->interpolation,
-                         [this](const base::GroupInfo& group) { return volumeOf(group); });
+                         [&](const render::GroupVolume& volume) { return volumeOf(volume, read); });
+    if (!read)
+        return read;
     frame.scene.blobs = std::move(medium.blobs);
     frame.scene.details = std::move(medium.details);
     for (render::MediumBlob& blob : frame.scene.blobs)

@@ -33,12 +33,18 @@ public:
 private:
     explicit ReferenceSceneSource(const scene_file::SceneFile& file) : file_(file) {}
 
-    /// Voxels of the solver that published a group; null if it has none.
-    std::shared_ptr<const render::MediumVolume> volumeOf(const base::GroupInfo& group);
+    /// The medium of a volume of the effects at its moment; null if its voxels are not known.
+    /// @param ioStatus receives the error of a frame of a sequence that cannot be read
+    std::shared_ptr<const render::MediumVolume> volumeOf(const render::GroupVolume& volume,
+                                                         base::Status& ioStatus);
+    /// The voxels of an asset, or of a frame of a sequence.
+    std::shared_ptr<const render::MediumVolume> keep(uint32_t asset, uint32_t frame,
+                                                     const base::VoxelVolume& voxels);
 
     const scene_file::SceneFile& file_;
     std::unique_ptr<EffectScene> effects_;
-    std::map<const base::VoxelVolume*, std::shared_ptr<const render::MediumVolume>> volumes_;
+    /// by asset and frame; of a sequence only the frames of the last moment
+    std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<const render::MediumVolume>> volumes_;
 };
 
 /// The camera of a path at a time [s], in double precision.

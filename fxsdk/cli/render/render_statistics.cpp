@@ -62,6 +62,10 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"lod_groups", {view.lodGroups[0], view.lodGroups[1], view.lodGroups[2], view.lodGroups[3]}},
         {"composition", render::nameOf(render::Composition(view.composition))},
         {"composition_size", view.compositionSize},
+        {"volume_reads", counters.volumes.reads},
+        {"volume_late", counters.volumes.late},
+        {"volume_bytes", counters.volumes.bytes},
+        {"volume_bytes_peak", counters.volumes.peakBytes},
         {"overflow", {view.overflow[0], view.overflow[1], view.overflow[2]}},
     };
     if (withOverdraw) {

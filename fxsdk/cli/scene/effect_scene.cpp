@@ -1,5 +1,6 @@
 #include "fxsdk/cli/scene/effect_scene.h"
 
+#include "foundation/assets/volume_sequence.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/particle_kind.h"
@@ -9,6 +10,7 @@
 #include "fxsdk/cli/scene/field_cache.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/techniques.h"
+#include "rendering/volumes/volume_place.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -194,6 +196,8 @@ base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const 
             return id.status();
         presets.push_back(*id);
     }
+    for (base::AssetId id = 1; id <= assets().size(); ++id)
+        hasSequences_ = hasSequences_ || assets().sequence(id) != nullptr;
     uint64_t index = 0;
     for (const scene_file::SceneInstance& instance : file.instances) {
         FxInstanceDef def = definitionOf(instance, presets[instance.preset]);
@@ -260,6 +264,51 @@ base::Result<SceneMoment> EffectScene::moment()
     if (!released)
         return released;
     return SceneMoment{{copy_.get(), hasOlder ? older_.get() : nullptr}, info.interpolation};
+}
+
+const base::AssetTable& EffectScene::assets() const
+{
+    return context_->assets;
+}
+
+base::VolumeSequence::Counts EffectScene::volumeCounts() const
+{
+    base::VolumeSequence::Counts sum;
+    for (base::AssetId id = 1; hasSequences_ && id <= assets().size(); ++id)
+        if (const auto sequence = assets().sequence(id)) {
+            const base::VolumeSequence::Counts own = sequence->counts();
+            sum.reads += own.reads;
+            sum.late += own.late;
+            sum.failures += own.failures;
+            sum.bytes += own.bytes;
+            sum.peakBytes += own.peakBytes;
+        }
+    return sum;
+}
+
+base::Status EffectScene::waitForFrames()
+{
+    if (!hasSequences_)
+        return {};
+    const auto shown = moment();
+    if (!shown)
+        return shown.status();
+    const base::FrameSnapshot& newer = *shown->snapshots.newer;
+    for (size_t g = 0; g < newer.groupCount(); ++g) {
+        const base::SnapshotGroup* const group = render::volumeGroup(newer, g);
+        if (!group)
+            continue;
+        const render::GroupVolume volume = render::groupVolume(
+            newer.group(g), *group, {}, shown->snapshots.older ? shown->interpolation : 1.0);
+        const auto sequence = assets().sequence(volume.asset);
+        if (!sequence)
+            continue;
+        const render::FramePair pair = render::framePair(volume, sequence->count());
+        for (const uint32_t frame : {pair.first, pair.second})
+            if (const auto read = sequence->wait(frame); !read)
+                return read.status();
+    }
+    return {};
 }
 
 base::Result<std::vector<glm::vec4>> EffectScene::places()

@@ -4,6 +4,8 @@
 /// Threads: only the thread that created the object.
 #pragma once
 
+#include "foundation/assets/asset_table.h"
+#include "foundation/assets/volume_sequence.h"
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "foundation/time/ticks.h"
@@ -68,6 +70,11 @@ public:
 
     base::Result<FxSceneStatistics> statistics() const;
     FxContext* context() const { return context_; }
+    const base::AssetTable& assets() const; ///< of the context, to which snapshots refer
+    /// Waits until the frames of all sequences that the present moment shows are in memory, so that pictures
+    /// do not depend on the disk. @return an error that names the file
+    base::Status waitForFrames();
+    base::VolumeSequence::Counts volumeCounts() const; ///< of all sequences together
     FxScene* scene() const { return scene_; }
 
     /// Length of a step.
@@ -84,6 +91,7 @@ private:
     FxScene* scene_ = nullptr;
     InstanceDirector director_;
     std::vector<uint64_t> instances_; ///< FxInstanceId::bits of the instances, in the order of the file
+    bool hasSequences_ = false;       ///< whether presets have volumes that are played
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
     base::SnapshotSchema schema_;

@@ -47,7 +47,8 @@ std::span<const ProgramDesc* const> programs()
                                              &blobLightProgram(true),
                                              &fieldFillProgram(false, false),
                                              &fieldFillProgram(false, true),
-                                             &fieldVolumeProgram(false)};
+                                             &fieldVolumeProgram(false, false),
+                                             &fieldVolumeProgram(false, true)};
         for (size_t i = 0; i < kSlabPrograms; ++i)
             list.push_back(&slabProgramAt(i));
         for (size_t i = 0; i < size_t(BatchShape::Count); ++i)

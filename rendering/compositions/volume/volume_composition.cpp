@@ -31,7 +31,8 @@ std::span<const ProgramDesc* const> programs()
                 for (const bool network : {false, true})
                     list.push_back(&fieldLightProgram(layers, detail, network));
         }
-        list.push_back(&fieldVolumeProgram(true));
+        list.push_back(&fieldVolumeProgram(true, false));
+        list.push_back(&fieldVolumeProgram(true, true));
         for (size_t i = 0; i < kFieldMarchPrograms; ++i)
             list.push_back(&fieldMarchProgramAt(i));
         return list;

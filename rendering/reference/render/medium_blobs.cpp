@@ -29,27 +29,29 @@ public:
     /// @param detail of the group  @param volume for which the elements stand; null: none
     GroupMoment(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, double t,
                 double stepSeconds, const BlobDetail& detail, const base::SnapshotGroup* volumeGroup,
-                std::shared_ptr<const MediumVolume> volume)
-        : newer_(newer), older_(older), t_(older ? t : 1.0), stepSeconds_(stepSeconds), detail_(detail),
-          volumeGroup_(volumeGroup), volume_(std::move(volume))
+                const VolumeLookup& volumes)
+        : newer_(newer), older_(older), t_(older ? t : 1.0), stepSeconds_(stepSeconds), detail_(detail)
     {
         place_ = newer.info().placement;
-        if (!older)
+        if (older) {
+            const base::Placement& before = older->info().placement;
+            place_.position = glm::mix(before.position, place_.position, t);
+            place_.rotation = glm::slerp(before.rotation, place_.rotation, float(t));
+            place_.scale = glm::mix(before.scale, place_.scale, float(t));
+        }
+        if (!volumeGroup)
             return;
-        const base::Placement& before = older->info().placement;
-        place_.position = glm::mix(before.position, place_.position, t);
-        place_.rotation = glm::slerp(before.rotation, place_.rotation, float(t));
-        place_.scale = glm::mix(before.scale, place_.scale, float(t));
+        base::Placement here = place_;
+        here.position = glm::dvec3(0.0);
+        groupVolume_ = groupVolume(newer_, *volumeGroup, here, t_);
+        volume_ = volumes(groupVolume_);
     }
 
     void appendTo(MediumList& out)
     {
         if (volume_) {
-            base::Placement here = place_;
-            here.position = glm::dvec3(0.0);
             group_ = int32_t(out.details.groups.size());
-            out.details.groups.push_back(
-                {{}, place_.position, volume_, groupVolume(newer_, *volumeGroup_, here)});
+            out.details.groups.push_back({{}, place_.position, volume_, groupVolume_});
         }
         if (detail_.isGiven()) {
             base::Placement here = place_; // relative to its own origin, from where floats are exact enough
@@ -189,8 +191,8 @@ private:
     double t_;
     double stepSeconds_;
     const BlobDetail& detail_;
-    const base::SnapshotGroup* volumeGroup_;
-    std::shared_ptr<const MediumVolume> volume_;
+    GroupVolume groupVolume_;
+    std::shared_ptr<const MediumVolume> volume_; ///< null: the blobs are the medium
     GroupDetail groupDetail_;
     int32_t group_ = -1; ///< number of the detail
     std::vector<DetailedCaster> casters_;
@@ -225,7 +227,7 @@ MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation, c
         const BlobDetail detail(snapshots, g, float(glm::clamp(interpolation, 0.0, 1.0)));
         const base::SnapshotGroup* const volume = volumes ? volumeGroup(newer, g) : nullptr;
         GroupMoment(group, sameGroup(snapshots.older, group.info()), glm::clamp(interpolation, 0.0, 1.0),
-                    stepSeconds, detail, volume, volume ? volumes(group.info()) : nullptr)
+                    stepSeconds, detail, volume, volumes)
             .appendTo(list);
     }
     if (!list.details.isGiven())

@@ -33,8 +33,8 @@ struct MediumBlob
     uint64_t id = 0;                                  ///< id of the ball in its group of the snapshot
 };
 
-/// Returns the volume of the solver that published a group; null if it has none.
-using VolumeLookup = std::function<std::shared_ptr<const MediumVolume>(const base::GroupInfo&)>;
+/// Returns the medium of a volume of a snapshot at its moment; null if it is not known.
+using VolumeLookup = std::function<std::shared_ptr<const MediumVolume>(const GroupVolume&)>;
 
 /// Blobs of all groups, and the number of blobs that were omitted because a value was not finite.
 struct MediumList

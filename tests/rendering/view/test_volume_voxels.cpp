@@ -5,6 +5,7 @@
 #include "foundation/snapshot/volume_kind.h"
 #include "rendering/frame/exposure.h"
 #include "rendering/volumes/medium_volume.h"
+#include "simulation/volume/sequence_solver.h"
 #include "simulation/volume/volume_solver.h"
 
 #include <glm/geometric.hpp>
@@ -13,7 +14,10 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <mutex>
+#include <thread>
 
 using namespace fx;
 using namespace fx::test;
@@ -22,6 +26,7 @@ namespace {
 
 constexpr int kSize = 48;
 constexpr float kFieldOfView = 0.5f;
+constexpr double kFrameSeconds = 0.05;
 constexpr float kExposure = 8.0f; ///< [EV100]: voxels hold half floats of exposed light
 
 class VolumeVoxelsTest : public ViewTest
@@ -84,6 +89,42 @@ protected:
         return snapshot;
     }
 
+    /// A sequence at a time. @param memory for how many frames, of which the first ones are held
+    base::FrameSnapshot publishBetween(const std::vector<base::VoxelVolume>& frames, uint32_t memory,
+                                       base::Ticks tick)
+    {
+        base::VolumeSequence::Def def;
+        def.side = frames[0].side;
+        def.origin = frames[0].origin;
+        def.memory = memory * frames[0].bytes();
+        for (const base::VoxelVolume& frame : frames) {
+            def.frames.push_back({base::volumeCells(frame), frame.bytes()});
+            if (def.held.size() < memory)
+                def.held.push_back(std::make_shared<const base::VoxelVolume>(frame));
+            def.hasVelocities = def.hasVelocities && !frame.velocity.empty();
+        }
+        def.read = [=, this](uint32_t frame) -> base::Result<base::VolumeSequence::Volume> {
+            const std::scoped_lock lock(disk_);
+            return std::make_shared<const base::VoxelVolume>(frames[frame]);
+        };
+        played_.setSequence(std::make_shared<base::VolumeSequence>(std::move(def)));
+        played_.asset = *assets_.addSequence(played_.sequence, 6 + frames.size());
+        played_.framesPerSecond = float(1.0 / kFrameSeconds);
+        base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
+        snapshot.begin(tick, ++sequence_);
+        const auto solver = played_.create(schema_, {}, std::pmr::get_default_resource());
+        solver->seekable()->seek({}, tick);
+        solver->publish({}, snapshot);
+        return snapshot;
+    }
+
+    /// Before a black background.
+    Picture renderAlone(const base::FrameSnapshot& snapshot)
+    {
+        setPicture(std::vector<float>(size_t(kSize) * kSize * 4, 0.0f));
+        return render(snapshot, camera(5.0));
+    }
+
     render::CameraView camera(double distance) const
     {
         return render::perspectiveView({{0.0, 0.0, distance}, {0.0, 0.0, 0.0}, {0.0f, 1.0f, 0.0f}},
@@ -94,7 +135,11 @@ protected:
     static std::vector<double> integrals(const base::VoxelVolume& voxels, const glm::quat& turned,
                                          double density, double distance)
     {
-        const render::MediumVolume volume(voxels);
+        return integrals(render::MediumVolume(voxels), voxels, turned, density, distance);
+    }
+    static std::vector<double> integrals(const render::MediumVolume& volume, const base::VoxelVolume& voxels,
+                                         const glm::quat& turned, double density, double distance)
+    {
         const glm::dmat3 back = glm::transpose(glm::dmat3(glm::mat3_cast(turned)));
         const double slope = std::tan(0.5 * double(kFieldOfView)), step = 0.02 * double(voxels.side);
         const auto exposure = double(render::exposureFromEv100(kExposure));
@@ -134,8 +179,28 @@ protected:
         }
     }
 
+    /// The lumps, and the same two voxels farther along y and thinner, with the velocity of that.
+    static std::vector<base::VoxelVolume> movingLumps()
+    {
+        base::VoxelVolume first = lumps(), second = first;
+        const glm::vec3 velocity(0.0f, 2.0f * first.side / float(kFrameSeconds), 0.0f);
+        first.velocity.assign(first.extinction.size(), velocity);
+        second.velocity = first.velocity;
+        for (size_t v = 0; v < second.extinction.size(); ++v) {
+            const bool isThere = v % 512 / 8 % 8 >= 2;
+            const size_t from = isThere ? v - 16 : v;
+            second.extinction[v] = isThere ? 0.5f * first.extinction[from] : 0.0f;
+            second.emission[v] = isThere ? 2.0f * first.emission[from] : glm::vec3(0.0f);
+            second.albedo[v] = first.albedo[from];
+            second.temperature[v] = 1500.0f;
+        }
+        return {first, second, first};
+    }
+
+    std::mutex disk_; ///< held: nothing can be read
     base::AssetTable assets_{std::pmr::get_default_resource()};
     sim::VolumeDef def_;
+    sim::SequenceDef played_;
 };
 
 } // namespace
@@ -177,4 +242,51 @@ TEST_F(VolumeVoxelsTest, farAwayHaveCoarserVoxelsOfTheSameMedium)
             seen += double(picture.texels[i]);
         EXPECT_NEAR(seen, wanted[channel], 0.03 * wanted[channel]) << "channel " << channel;
     }
+}
+
+TEST_F(VolumeVoxelsTest, betweenTwoFramesAreTheMomentOfTheReference)
+{
+    const std::vector<base::VoxelVolume> frames = movingLumps();
+    const glm::quat upright(1.0f, 0.0f, 0.0f, 0.0f);
+    for (const double part : {0.25, 0.5}) {
+        const Picture picture = renderAlone(publishBetween(frames, 3, base::toTicks(part * kFrameSeconds)));
+        const auto between = render::MediumVolume::between(
+            render::MediumVolume(frames[0]), render::MediumVolume(frames[1]), {part, kFrameSeconds});
+        expectEqual(picture, integrals(between, frames[0], upright, 1.0, 5.0), 0.01);
+        const auto faded = render::MediumVolume::between(render::MediumVolume(frames[0]),
+                                                         render::MediumVolume(frames[1]), {part, 0.0});
+        const std::vector<double> other = integrals(faded, frames[0], upright, 1.0, 5.0);
+        double difference = 0.0, largest = 0.0;
+        for (size_t i = 3; i < other.size(); i += 4) {
+            difference = std::max(difference, std::abs(other[i] - double(picture.texels[i])));
+            largest = std::max(largest, other[i]);
+        }
+        EXPECT_GT(difference, 0.03 * largest) << "a cross-fade is another picture";
+    }
+}
+
+TEST_F(VolumeVoxelsTest, ofALateFrameAreItsBallsUntilItIsRead)
+{
+    std::vector<base::VoxelVolume> frames = movingLumps();
+    frames.insert(frames.end(), 4, frames[1]);
+    const base::Ticks tick = base::toTicks(4.0 * kFrameSeconds);
+    const glm::quat upright(1.0f, 0.0f, 0.0f, 0.0f);
+    const std::vector<double> wanted = integrals(frames[1], upright, 1.0, 5.0);
+    std::vector<double> late(wanted.size());
+    {
+        const std::scoped_lock stopped(disk_);
+        const Picture picture = renderAlone(publishBetween(frames, 3, tick));
+        EXPECT_EQ(played_.sequence->counts().late, 1u);
+        double opacity = 0.0, error = 0.0, all = 0.0;
+        for (size_t i = 3; i < wanted.size(); i += 4) {
+            opacity += double(picture.texels[i]);
+            error += std::abs(double(picture.texels[i]) - wanted[i]);
+            all += wanted[i];
+        }
+        EXPECT_NEAR(opacity, all, 0.5 * all) << "the medium is there";
+        EXPECT_GT(error, 0.05 * all) << "but is blurred";
+    }
+    for (int i = 0; i < 2000 && !played_.sequence->find(4); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    expectEqual(renderAlone(publishBetween(frames, 3, tick)), wanted, 0.01);
 }

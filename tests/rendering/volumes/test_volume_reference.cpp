@@ -36,7 +36,8 @@ public:
         schema_.add(base::kVolumeKind);
         voxels.side = kSide;
         publish(base::volumeCells(voxels), rotation);
-        list_ = render::mediumOf({&snapshot_, nullptr}, 1.0, [&](const base::GroupInfo&) { return volume_; });
+        list_ =
+            render::mediumOf({&snapshot_, nullptr}, 1.0, [&](const render::GroupVolume&) { return volume_; });
     }
 
     const render::MediumList& list() const { return list_; }

@@ -1,0 +1,168 @@
+#include "foundation/assets/volume_sequence.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace fx::base {
+
+namespace {
+
+std::atomic<uint64_t> readsOfProcess{0};
+
+} // namespace
+
+uint64_t VolumeSequence::readsOfAll()
+{
+    return readsOfProcess.load(std::memory_order_acquire);
+}
+
+VolumeSequence::VolumeSequence(Def def) : def_(std::move(def)), slots_(def_.frames.size())
+{
+    for (size_t i = 0; i < std::min(def_.held.size(), slots_.size()); ++i) {
+        slots_[i].volume = def_.held[i];
+        counts_.bytes += def_.held[i] ? def_.frames[i].bytes : 0;
+    }
+    counts_.peakBytes = counts_.bytes;
+    def_.held = {};
+}
+
+VolumeSequence::~VolumeSequence()
+{
+    {
+        const std::scoped_lock lock(mutex_);
+        isEnding_ = true;
+    }
+    changed_.notify_all();
+    if (reader_.joinable())
+        reader_.join();
+}
+
+uint64_t VolumeSequence::leastMemory(const std::vector<Frame>& frames)
+{
+    uint64_t most = 0;
+    for (size_t i = 0; i < frames.size(); ++i) {
+        uint64_t sum = 0;
+        for (size_t k = 0; k < std::min(frames.size(), size_t(3)); ++k)
+            sum += frames[(i + k) % frames.size()].bytes;
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
+uint64_t VolumeSequence::leastMemory() const
+{
+    return leastMemory(def_.frames);
+}
+
+VolumeSequence::Volume VolumeSequence::find(uint32_t frame)
+{
+    const std::scoped_lock lock(mutex_);
+    Slot& slot = slots_[frame];
+    slot.lastUse = ++uses_;
+    counts_.late += slot.volume ? 0 : 1;
+    return slot.volume;
+}
+
+void VolumeSequence::prefetch(uint32_t frame)
+{
+    {
+        const std::scoped_lock lock(mutex_);
+        uint64_t bytes = 0;
+        for (uint32_t k = 0; k < count(); ++k) {
+            const uint32_t wanted = (frame + k) % count();
+            bytes += def_.frames[wanted].bytes;
+            if (bytes > def_.memory)
+                break;
+            Slot& slot = slots_[wanted];
+            slot.lastUse = uses_ + count() - k; // the next one is needed most
+            if (slot.volume || slot.isReading || slot.isQueued || slot.hasFailed)
+                continue;
+            slot.isQueued = true;
+            if (k < 2)
+                queue_.push_front(wanted); // shown now
+            else
+                queue_.push_back(wanted);
+        }
+        uses_ += count();
+        if (queue_.empty())
+            return;
+        if (!reader_.joinable())
+            reader_ = std::thread([this] { runReader(); });
+    }
+    changed_.notify_all();
+}
+
+Result<VolumeSequence::Volume> VolumeSequence::wait(uint32_t frame)
+{
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !slots_[frame].isReading; });
+    slots_[frame].lastUse = ++uses_;
+    if (slots_[frame].volume)
+        return slots_[frame].volume;
+    return readInto(frame, lock);
+}
+
+VolumeSequence::Counts VolumeSequence::counts() const
+{
+    const std::scoped_lock lock(mutex_);
+    return counts_;
+}
+
+/// The least recently used frames go. The caller holds the lock.
+void VolumeSequence::makeRoom(uint64_t bytes)
+{
+    while (counts_.bytes + bytes > def_.memory) {
+        size_t oldest = slots_.size();
+        for (size_t i = 0; i < slots_.size(); ++i)
+            if (slots_[i].volume && (oldest == slots_.size() || slots_[i].lastUse < slots_[oldest].lastUse))
+                oldest = i;
+        if (oldest == slots_.size())
+            return; // the rest is being read
+        slots_[oldest].volume = nullptr;
+        counts_.bytes -= def_.frames[oldest].bytes;
+    }
+}
+
+/// Room is made before the frame is read, so that the frame that is being read is within the budget.
+Result<VolumeSequence::Volume> VolumeSequence::readInto(uint32_t frame, std::unique_lock<std::mutex>& lock)
+{
+    Slot& slot = slots_[frame];
+    const uint64_t bytes = def_.frames[frame].bytes;
+    makeRoom(bytes);
+    slot.isReading = true;
+    counts_.bytes += bytes;
+    counts_.peakBytes = std::max(counts_.peakBytes, counts_.bytes);
+    lock.unlock();
+    Result<Volume> read = def_.read(frame);
+    lock.lock();
+    slot.isReading = false;
+    if (read) {
+        ++counts_.reads;
+        slot.volume = *read;
+        readsOfProcess.fetch_add(1, std::memory_order_release);
+    } else {
+        counts_.failures += slot.hasFailed ? 0 : 1;
+        slot.hasFailed = true;
+        counts_.bytes -= bytes;
+    }
+    changed_.notify_all();
+    return read;
+}
+
+void VolumeSequence::runReader()
+{
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [&] { return isEnding_ || !queue_.empty(); });
+        if (isEnding_)
+            return;
+        const uint32_t frame = queue_.front();
+        queue_.pop_front();
+        Slot& slot = slots_[frame];
+        slot.isQueued = false;
+        if (!slot.volume && !slot.isReading && !slot.hasFailed)
+            static_cast<void>(readInto(frame, lock));
+    }
+}
+
+} // namespace fx::base

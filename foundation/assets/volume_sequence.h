@@ -1,0 +1,109 @@
+/// @file volume_sequence.h
+/// Numbered volumes that are shown one after another. Their voxels come and go within a budget of memory.
+///
+/// The cells of all frames are known from the beginning, so that a simulation never waits for a disk. Voxels
+/// are read by a thread of the sequence, which starts when a frame is first missing. Threads: any.
+#pragma once
+
+#include "foundation/assets/voxel_volume.h"
+#include "foundation/result/status.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace fx::base {
+
+constexpr uint32_t kMaxSequenceFrames = 4096;
+
+class VolumeSequence
+{
+public:
+    using Volume = std::shared_ptr<const VoxelVolume>;
+    /// Reads the voxels of a frame. One thread at a time calls it for each call of wait(), and one for all
+    /// others. The error names the file.
+    using Read = std::function<Result<Volume>(uint32_t frame)>;
+
+    struct Frame
+    {
+        std::vector<VolumeCells> cells; ///< volumeCells() of the voxels
+        uint64_t bytes = 0;             ///< [byte] VoxelVolume::bytes()
+    };
+
+    struct Def
+    {
+        float side = 1.0f;         ///< [m] of the voxels of all frames
+        glm::vec3 origin{0.0f};    ///< [m] center of the voxel (0, 0, 0) of all frames
+        bool hasVelocities = true; ///< false: a frame has none
+        uint64_t memory = 0;       ///< [byte] upper bound of the voxels of all frames that are held
+        std::vector<Frame> frames;
+        std::vector<Volume> held; ///< of the first frames; together at most `memory`
+        Read read;
+    };
+
+    struct Counts
+    {
+        uint64_t reads = 0;    ///< frames that were read again
+        uint64_t late = 0;     ///< calls of find() for a frame that was not there
+        uint64_t failures = 0; ///< frames that could not be read again; they are not tried again
+        uint64_t bytes = 0;    ///< [byte] of the frames that are held or being read
+        uint64_t peakBytes = 0;
+    };
+
+    explicit VolumeSequence(Def def);
+    ~VolumeSequence(); ///< waits for the frame that is being read
+    VolumeSequence(const VolumeSequence&) = delete;
+    VolumeSequence& operator=(const VolumeSequence&) = delete;
+
+    uint32_t count() const { return uint32_t(def_.frames.size()); }
+    const std::vector<VolumeCells>& cells(uint32_t frame) const { return def_.frames[frame].cells; }
+    uint64_t bytes(uint32_t frame) const { return def_.frames[frame].bytes; } ///< [byte] of the voxels
+    float side() const { return def_.side; }
+    const glm::vec3& origin() const { return def_.origin; }
+    bool hasVelocities() const { return def_.hasVelocities; }
+    uint64_t memory() const { return def_.memory; }
+    /// [byte] Memory below which no frame can be read ahead: that of the largest three successive frames.
+    uint64_t leastMemory() const;
+    static uint64_t leastMemory(const std::vector<Frame>& frames);
+
+    /// The voxels of a frame, or null if they are not there yet or cannot be read. Never waits for a disk.
+    Volume find(uint32_t frame);
+    /// Starts to read `frame` and those that follow it, as many as the memory holds; after the last one
+    /// follows the first one. Frames that were not asked for for the longest time make room.
+    void prefetch(uint32_t frame);
+    /// The voxels of a frame, which are read on this thread if they are not there. @return errors of Read
+    Result<Volume> wait(uint32_t frame);
+    Counts counts() const;
+    /// Number of frames that all sequences of the process have read. Pictures of the same moment may differ
+    /// after it has changed.
+    static uint64_t readsOfAll();
+
+private:
+    struct Slot
+    {
+        Volume volume;
+        uint64_t lastUse = 0;
+        bool isReading = false, isQueued = false, hasFailed = false;
+    };
+
+    void runReader();
+    Result<Volume> readInto(uint32_t frame, std::unique_lock<std::mutex>& lock);
+    void makeRoom(uint64_t bytes);
+
+    Def def_;                  ///< constant after construction
+    mutable std::mutex mutex_; ///< guards everything below
+    std::condition_variable changed_;
+    std::vector<Slot> slots_;
+    std::deque<uint32_t> queue_; ///< to be read
+    Counts counts_;
+    uint64_t uses_ = 0;
+    bool isEnding_ = false;
+    std::thread reader_;
+};
+
+} // namespace fx::base

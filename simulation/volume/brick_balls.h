@@ -1,0 +1,53 @@
+/// @file brick_balls.h
+/// Publishes a medium on voxels: the balls that stand for its bricks, and the place of the voxels.
+#pragma once
+
+#include "foundation/assets/voxel_volume.h"
+#include "foundation/snapshot/volume_kind.h"
+#include "simulation/solver/still_medium.h"
+
+#include <glm/geometric.hpp>
+
+#include <span>
+
+namespace fx::sim {
+
+/// Place of the voxels of a medium in the space of the effect.
+struct BrickPlace
+{
+    glm::vec3 origin{0.0f}; ///< [m] center of the voxel (0, 0, 0)
+    float side = 1.0f;      ///< [m]
+
+    BrickPlace(const StillMediumDef& def, const glm::vec3& ownOrigin, float ownSide)
+        : origin(def.position + def.scale * ownOrigin), side(def.scale * ownSide)
+    {}
+
+    /// [m] Center of the cells of a brick.
+    glm::vec3 centerOf(const glm::ivec3& brick) const
+    {
+        return origin + side * float(base::kVolumeBrickSide) * (glm::vec3(brick) + 0.5f);
+    }
+    /// [m] Upper bound of the distance of the ball of a brick from the origin of the effect.
+    float reachOf(const glm::ivec3& brick) const
+    {
+        return (glm::length(centerOf(brick)) + base::kVolumeBallRadius * side) * 1.0001f; // above rounding
+    }
+};
+
+struct BrickBalls
+{
+    const StillMediumDef& def;
+    BrickPlace place;
+    std::span<const base::VolumeCells> cells; ///< may be empty
+    uint32_t capacity;                        ///< most cells at any time
+    uint32_t asset;                           ///< id in the asset table
+    float frame = 0.0f, frameBefore = 0.0f;   ///< see volume_constant
+    float frameSeconds = 0.0f;                ///< [s]
+
+    /// Adds a group of balls and, if its kind is known, one of the volume. A ball has the same id wherever
+    /// its brick is.
+    void publish(const base::GroupInfo& base, base::KindId blobs, base::KindId volumes,
+                 base::FrameSnapshot& snapshot) const;
+};
+
+} // namespace fx::sim

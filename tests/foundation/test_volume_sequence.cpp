@@ -1,0 +1,151 @@
+#include "foundation/assets/volume_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+using namespace fx;
+using base::VolumeSequence;
+
+namespace {
+
+constexpr uint32_t kFrames = 10;
+
+VolumeSequence::Volume volumeOf(uint32_t frame)
+{
+    base::VoxelVolume volume;
+    volume.bricks = {{1, 1, 1}};
+    volume.extinction.assign(base::kVolumeBrickVoxels, float(frame + 1));
+    return std::make_shared<const base::VoxelVolume>(std::move(volume));
+}
+
+/// A disk whose reading can be stopped, and which can lose a file.
+struct Disk
+{
+    std::mutex mutex;
+    std::atomic<int> reads{0};
+    std::atomic<int> lost{-1};
+
+    VolumeSequence::Def def(uint32_t memoryFrames, uint32_t held)
+    {
+        VolumeSequence::Def def;
+        def.memory = memoryFrames * volumeOf(0)->bytes();
+        for (uint32_t i = 0; i < kFrames; ++i)
+            def.frames.push_back({base::volumeCells(*volumeOf(i)), volumeOf(i)->bytes()});
+        for (uint32_t i = 0; i < held; ++i)
+            def.held.push_back(volumeOf(i));
+        def.read = [this](uint32_t frame) -> base::Result<VolumeSequence::Volume> {
+            const std::scoped_lock lock(mutex);
+            ++reads;
+            if (int(frame) == lost)
+                return base::Status(base::Code::NotFound, "frame " + std::to_string(frame) + " is lost");
+            return volumeOf(frame);
+        };
+        return def;
+    }
+};
+
+/// Whether a frame comes by itself.
+bool comes(VolumeSequence& sequence, uint32_t frame)
+{
+    for (int i = 0; i < 2000; ++i) {
+        if (const auto found = sequence.find(frame))
+            return found->extinction[0] == float(frame + 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+} // namespace
+
+TEST(VolumeSequence, showsWhatIsHeldWithoutReading)
+{
+    Disk disk;
+    VolumeSequence sequence(disk.def(kFrames, kFrames));
+    for (uint32_t i = 0; i < kFrames; ++i) {
+        sequence.prefetch(i);
+        ASSERT_TRUE(sequence.find(i));
+    }
+    EXPECT_EQ(disk.reads, 0);
+    EXPECT_EQ(sequence.counts().late, 0u);
+    EXPECT_EQ(sequence.counts().bytes, kFrames * volumeOf(0)->bytes());
+}
+
+TEST(VolumeSequence, aLateFrameIsCountedAndNobodyWaitsForIt)
+{
+    Disk disk;
+    VolumeSequence sequence(disk.def(4, 4));
+    {
+        const std::scoped_lock stopped(
+            disk.mutex); // were find() or prefetch() to read, they would wait forever
+        sequence.prefetch(6);
+        EXPECT_FALSE(sequence.find(6));
+        EXPECT_FALSE(sequence.find(7));
+        EXPECT_EQ(sequence.counts().late, 2u);
+    }
+    EXPECT_TRUE(comes(sequence, 6));
+    EXPECT_TRUE(comes(sequence, 7));
+}
+
+TEST(VolumeSequence, playsWithinItsMemoryAndReadsEachFrameOnce)
+{
+    Disk disk;
+    VolumeSequence sequence(disk.def(4, 4));
+    for (uint32_t i = 0; i < kFrames; ++i) {
+        sequence.prefetch(i);
+        ASSERT_TRUE(comes(sequence, i)) << i;
+        ASSERT_TRUE(comes(sequence, (i + 1) % kFrames)) << i;
+    }
+    const VolumeSequence::Counts counts = sequence.counts();
+    EXPECT_LE(counts.peakBytes, 4 * volumeOf(0)->bytes());
+    EXPECT_GE(disk.reads, int(kFrames - 4));
+    EXPECT_LE(disk.reads, int(kFrames + 3)) << "those of the end, and the first ones ahead of a loop";
+}
+
+TEST(VolumeSequence, waitingReadsAtOnceAndGivesTheSameVolume)
+{
+    Disk disk;
+    VolumeSequence sequence(disk.def(3, 0));
+    for (const uint32_t frame : {9u, 2u, 5u, 9u, 0u}) {
+        const auto read = sequence.wait(frame);
+        ASSERT_TRUE(read.ok());
+        EXPECT_EQ(**read, *volumeOf(frame));
+        EXPECT_EQ(sequence.find(frame), *read);
+    }
+    EXPECT_EQ(sequence.counts().late, 0u);
+    EXPECT_LE(sequence.counts().peakBytes, 3 * volumeOf(0)->bytes());
+}
+
+TEST(VolumeSequence, aLostFrameIsAnErrorOnceAndOthersArePlayed)
+{
+    Disk disk;
+    VolumeSequence sequence(disk.def(3, 0));
+    disk.lost = 5;
+    EXPECT_EQ(sequence.wait(5).status().message(), "frame 5 is lost");
+    const int reads = disk.reads;
+    for (int i = 0; i < 20; ++i)
+        sequence.prefetch(4);
+    EXPECT_TRUE(comes(sequence, 4));
+    EXPECT_TRUE(comes(sequence, 6));
+    EXPECT_FALSE(sequence.find(5));
+    EXPECT_EQ(disk.reads, reads + 2) << "the lost one is not tried again and again";
+    EXPECT_EQ(sequence.counts().failures, 1u);
+}
+
+TEST(VolumeSequence, endsWhileItReads)
+{
+    Disk disk;
+    for (int i = 0; i < 50; ++i) {
+        VolumeSequence sequence(disk.def(5, 0));
+        sequence.prefetch(uint32_t(i) % kFrames);
+    }
+}
+
+TEST(VolumeSequence, needsMemoryForThreeFrames)
+{
+    Disk disk;
+    EXPECT_EQ(VolumeSequence(disk.def(3, 0)).leastMemory(), 3 * volumeOf(0)->bytes());
+}

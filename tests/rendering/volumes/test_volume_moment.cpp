@@ -1,0 +1,175 @@
+// Moments between two volumes: media that move keep their shape, and do not fade.
+#include "rendering/volumes/medium_volume.h"
+#include "rendering/volumes/volume_place.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+using namespace fx;
+
+namespace {
+
+constexpr int kBricks = 5; // along each axis
+constexpr float kSide = 0.5f;
+constexpr double kSeconds = 0.25;
+
+using Density = std::function<double(const glm::dvec3&)>;
+using Velocity = std::function<glm::dvec3(const glm::dvec3&)>;
+
+/// A cube of bricks; places are in voxels, velocities in voxels a second.
+base::VoxelVolume volumeOf(const Density& density, const Velocity& velocity)
+{
+    base::VoxelVolume volume;
+    volume.side = kSide;
+    volume.evenAlbedo = glm::vec3(0.25f);
+    for (int b = 0; b < kBricks * kBricks * kBricks; ++b)
+        volume.bricks.emplace_back(1 + b % kBricks, 1 + b / kBricks % kBricks, 1 + b / kBricks / kBricks);
+    for (const glm::ivec3& brick : volume.bricks)
+        for (int v = 0; v < 512; ++v) {
+            const glm::dvec3 place(8 * brick + glm::ivec3(v % 8, v / 8 % 8, v / 64));
+            volume.extinction.push_back(float(density(place)));
+            volume.emission.push_back(glm::vec3(volume.extinction.back() * 3.0f));
+            if (velocity)
+                volume.velocity.push_back(kSide * glm::vec3(velocity(place)));
+        }
+    return volume;
+}
+
+const glm::dvec3 kMiddle(8.0 + 4.0 * kBricks);
+
+/// A smooth lump that ends 2.5 widths from its center.
+double lump(const glm::dvec3& place, const glm::dvec3& center, double width)
+{
+    const double q = 1.0 - glm::dot(place - center, place - center) / (6.25 * width * width);
+    return q > 0.0 ? q * q : 0.0;
+}
+
+/// Root mean square of the difference from `wanted` over that of `wanted`, at all voxels.
+double errorOf(const render::MediumVolume& volume, const Density& wanted)
+{
+    double error = 0.0, all = 0.0;
+    for (int z = 8; z < 8 * (kBricks + 1); ++z)
+        for (int y = 8; y < 8 * (kBricks + 1); ++y)
+            for (int x = 8; x < 8 * (kBricks + 1); ++x) {
+                const glm::dvec3 place(x, y, z);
+                error += std::pow(volume.at(place).extinction - wanted(place), 2.0);
+                all += std::pow(wanted(place), 2.0);
+            }
+    return std::sqrt(error / all);
+}
+
+/// A lump of width 3 that moves by `way` between both volumes.
+std::pair<base::VoxelVolume, base::VoxelVolume> moving(const glm::dvec3& way, bool hasVelocities)
+{
+    Velocity velocity;
+    if (hasVelocities)
+        velocity = [=](const glm::dvec3&) { return way / kSeconds; };
+    const auto at = [=](double part) {
+        return [=](const glm::dvec3& p) { return lump(p, kMiddle + (part - 0.5) * way, 3.0); };
+    };
+    return {volumeOf(at(0.0), velocity), volumeOf(at(1.0), velocity)};
+}
+
+double errorOfMoving(const glm::dvec3& way, bool hasVelocities, double part)
+{
+    const auto [first, second] = moving(way, hasVelocities);
+    const render::MediumVolume a(first), b(second);
+    const auto between = render::MediumVolume::between(a, b, {part, hasVelocities ? kSeconds : 0.0});
+    return errorOf(between, [&](const glm::dvec3& p) { return lump(p, kMiddle + (part - 0.5) * way, 3.0); });
+}
+
+} // namespace
+
+TEST(VolumeMoment, aMediumThatMovesIsBetweenItsPlacesAndNotFaded)
+{
+    const glm::dvec3 way(8.0, -4.0, 2.0); // whole voxels, of which each part is a place of voxels
+    EXPECT_LT(errorOfMoving(way, true, 0.5), 1e-3);
+    EXPECT_LT(errorOfMoving(way, true, 0.25), 0.02) << "half voxels are interpolated";
+    EXPECT_GT(errorOfMoving(way, false, 0.5), 0.5) << "a cross-fade shows two lumps";
+}
+
+TEST(VolumeMoment, atItsEndsIsEachVolumeItself)
+{
+    const auto [first, second] = moving({7.0, 1.0, 3.0}, true);
+    const render::MediumVolume a(first), b(second);
+    for (const double part : {0.0, 1.0}) {
+        const auto between = render::MediumVolume::between(a, b, {part, kSeconds});
+        const render::MediumVolume& end = part == 0.0 ? a : b;
+        for (int i = 9; i < 40; ++i) {
+            const glm::dvec3 place(i, 0.5 * i + 10.0, 28.0);
+            EXPECT_DOUBLE_EQ(between.at(place).extinction, end.at(place).extinction);
+            EXPECT_EQ(between.at(place).emitted, end.at(place).emitted);
+            EXPECT_EQ(between.at(place).scattered, end.at(place).scattered);
+        }
+    }
+}
+
+/// Its velocity is way over time: r / t. All places are exact up to the square of the step over t.
+TEST(VolumeMoment, aMediumThatExpandsHasTheWidthOfItsTime)
+{
+    constexpr double kAge = 1.5; // [s] of the first volume
+    const auto at = [](double age) {
+        return [=](const glm::dvec3& p) {
+            return std::pow(kAge / age, 3.0) * lump(p, kMiddle, 4.0 * age / kAge);
+        };
+    };
+    const auto flow = [](double age) { return [=](const glm::dvec3& p) { return (p - kMiddle) / age; }; };
+    const render::MediumVolume a(volumeOf(at(kAge), flow(kAge)));
+    const render::MediumVolume b(volumeOf(at(kAge + kSeconds), flow(kAge + kSeconds)));
+    const auto wanted = at(kAge + 0.5 * kSeconds);
+    const double moved = errorOf(render::MediumVolume::between(a, b, {0.5, kSeconds}), wanted);
+    const double faded = errorOf(render::MediumVolume::between(a, b, {0.5, 0.0}), wanted);
+    EXPECT_LT(moved, 0.015);
+    EXPECT_LT(moved, 0.6 * faded);
+}
+
+TEST(VolumeMoment, twoStreamsThatCrossBothArrive)
+{
+    const auto at = [](double part) {
+        return [=](const glm::dvec3& p) {
+            return lump(p, kMiddle + glm::dvec3(12.0 * (part - 0.5), -7.0, 0.0), 2.5) +
+                   lump(p, kMiddle - glm::dvec3(12.0 * (part - 0.5), -7.0, 0.0), 2.5);
+        };
+    };
+    const Velocity velocity = [](const glm::dvec3& p) {
+        return glm::dvec3(p.y < kMiddle.y ? 12.0 : -12.0, 0.0, 0.0) / kSeconds;
+    };
+    const render::MediumVolume a(volumeOf(at(0.0), velocity)), b(volumeOf(at(1.0), velocity));
+    EXPECT_LT(errorOf(render::MediumVolume::between(a, b, {0.5, kSeconds}), at(0.5)), 1e-3);
+}
+
+TEST(VolumeMoment, coarserVoxelsMoveAsFarInTheWorld)
+{
+    const glm::dvec3 way(8.0, 0.0, 4.0);
+    const auto [first, second] = moving(way, true);
+    const render::MediumVolume a(first), b(second);
+    const auto between = render::MediumVolume::between(a.halved(), b.halved(), {0.5, kSeconds});
+    const auto wanted =
+        render::MediumVolume(volumeOf([&](const glm::dvec3& p) { return lump(p, kMiddle, 3.0); }, nullptr))
+            .halved();
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 place = 0.5 * kMiddle + glm::dvec3(0.05 * (i - 50), 0.03 * (i - 40), 0.02 * i - 1.0);
+        EXPECT_NEAR(between.at(place).extinction, wanted.at(place).extinction, 5e-3);
+    }
+}
+
+TEST(FramePair, countsBackFromTheEndBeforeALoopBegins)
+{
+    render::GroupVolume volume;
+    volume.frame = -0.25;
+    const render::FramePair back = render::framePair(volume, 10);
+    EXPECT_EQ(back.first, 9u);
+    EXPECT_EQ(back.second, 0u);
+    EXPECT_DOUBLE_EQ(back.part, 0.75);
+    volume.frame = 9.0;
+    const render::FramePair last = render::framePair(volume, 10);
+    EXPECT_EQ(last.first, 9u);
+    EXPECT_EQ(last.second, 9u);
+    volume.frame = 3.5;
+    EXPECT_EQ(render::framePair(volume, 10).second, 4u);
+    EXPECT_EQ(render::framePair(volume, 1).first, 0u);
+}

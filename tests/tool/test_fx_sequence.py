@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Sequences of volumes: fx export and fx import of numbered files, and pictures of them against those of the original."""
+import json
+import math
+import os
+import unittest
+
+from exr_planes import read_planes
+from fx_program import FxTest, fx
+
+HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
+# 6:29, 1000000, 192x144, 160 and 8,15,22,28 for the figures of docs/howto/volumes.md
+FRAMES = os.environ.get("FX_FRAMES", "14:17")
+VOXELS = os.environ.get("FX_VOXELS", "150000")
+SIZE = os.environ.get("FX_SIZE", "96x72")
+MEMORY = int(os.environ.get("FX_MEMORY", "20")) # [MiB] less than all frames need
+SHOWN = [int(n) for n in os.environ.get("FX_SHOWN", "15").split(",")]
+FPS = 24
+AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
+HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
+
+
+def error_of(planes, wanted):
+    """Root mean square of the error over covered pixels, over that of the picture; of opacity, and of light."""
+    opacity = [[sum(layers) for layers in zip(*(p[f"{name}.A"] for name in ("smoke", "fire", "dust")))] for p in (planes, wanted)]
+    covered = [i for i, a in enumerate(opacity[1]) if a > 1e-3]
+    errors = []
+    for pairs in ([opacity], [(planes[c], wanted[c]) for c in "RGB"]):
+        error = sum((a[i] - b[i]) ** 2 for a, b in pairs for i in covered)
+        errors.append(math.sqrt(error / sum(b[i] ** 2 for _, b in pairs for i in covered)))
+    return errors
+
+
+@unittest.skipUnless(HAS_OPENVDB, "fx was built without OpenVDB")
+class Sequence(FxTest):
+    def scene(self, name, instance, camera):
+        return self.write(name, json.dumps({
+            "version": 1, "name": "a", "camera": camera, "exposureEv100": 14, "composition": "volume",
+            "lighting": {"sunDirection": [-0.6, 0.5, 0.6], "sunIlluminance": [60000, 57000, 50000],
+                         "skyLuminance": [0, 0, 0], "groundAlbedo": 0},
+            "instances": [{"position": [0, 0, 0], **instance}]}))
+
+    def planes(self, scene, time, renderer="reference"):
+        path = self.folder / "a.exr"
+        exact = () if renderer == "gl" else ("--detail", "off", "--scattering", "none")
+        outcome = fx("render", scene, "--renderer", renderer, "--size", SIZE, "--time", time, "-o", path, *exact)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        return read_planes(path)[2]
+
+    def sequence(self, source, frames, *arguments):
+        outcome = fx("export", source, "-o", self.folder / "a.%04d.vdb", "--frames", frames, "--fps", FPS, *arguments)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        outcome = fx("import", self.folder / "a.%04d.vdb", "-o", self.folder / "a.fx.json", "--fps", FPS, "--memory",
+                     MEMORY, "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        return json.loads(outcome.out)
+
+    def test_an_exported_effect_is_played_as_it_was(self):
+        first = int(FRAMES.split(":")[0])
+        line = self.sequence("library:explosion", FRAMES, "--voxels", VOXELS)
+        self.assertTrue(line["velocities"])
+        camera = {"position": [0, 6, 30], "target": [0, 5, 0], "fovYDegrees": 40}
+        original = self.scene("original.scene.json", {"preset": "library:explosion"}, camera)
+        played = self.scene("played.scene.json", {"preset": "a.fx.json", "start": first / FPS}, camera)
+        for frame in SHOWN:
+            for part, allowed in ((0.0, AT_FRAMES), (0.5, HALFWAY)):
+                time = (frame + part) / FPS
+                found = self.planes(played, time)
+                opacity, _ = error_of(found, self.planes(original, time))
+                outcome = fx("export", "library:explosion", "-o", self.folder / "own.vdb", "--time", time, "--voxel-size",
+                             line["voxel_side"])
+                self.assertEqual(outcome.code, 0, outcome.err)
+                outcome = fx("import", self.folder / "own.vdb", "-o", self.folder / "own.fx.json", "--bricks")
+                self.assertEqual(outcome.code, 0, outcome.err)
+                own = error_of(found, self.planes(self.scene("own.scene.json", {"preset": "own.fx.json"}, camera), time))
+                drawn, _ = error_of(self.planes(played, time, "gl"), found)
+                print(f"frame {frame + part}: opacity {opacity:.4f}; against voxels of the moment itself {own[0]:.4f}, "
+                      f"light {own[1]:.4f}; opacity of GL against the reference {drawn:.4f}", flush=True)
+                self.assertLess(opacity, allowed)
+                self.assertLess(own[0], allowed)
+                self.assertLess(drawn, 0.03)
+        outcome = fx("render", played, "--size", SIZE, "--frames", f"{first}:{int(FRAMES.split(':')[1])}", "--fps", FPS,
+                     "-o", self.folder / "p.%04d.png", "--stats", self.folder / "s.json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        counts = [json.loads(text) for text in (self.folder / "s.json").read_text().splitlines()]
+        peak, reads = max(c["volume_bytes_peak"] for c in counts), counts[-1]["volume_reads"]
+        late = counts[-1]["volume_late"]
+        print(f"{len(counts)} pictures: {reads} frames read while playing, {late} late, at most {peak / 2**20:.1f} MiB of "
+              f"{MEMORY} MiB", flush=True)
+        self.assertLessEqual(peak, MEMORY * 2**20)
+        self.assertGreater(reads, 0)
+        self.assertEqual(late, 0)
+
+    def test_a_gap_is_named(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n0,2,0,0.5,2,0,0,0,0\n")
+        for number in (3, 4, 6):
+            outcome = fx("export", balls, "-o", self.folder / f"b.{number:04}.vdb", "--voxel-size", "0.1")
+            self.assertEqual(outcome.code, 0, outcome.err)
+        outcome = fx("import", self.folder / "b.%04d.vdb", "-o", self.folder / "b.fx.json")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("b.0005.vdb", outcome.err)
+        self.assertFalse((self.folder / "b.fx.json").exists())
+        outcome = fx("import", self.folder / "b.%04d.vdb", "-o", self.folder / "b.fx.json", "--frames", "3:4", "--end", "loop")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        preset = json.loads((self.folder / "b.fx.json").read_text())["volumes"][0]
+        self.assertEqual((preset["firstFrame"], preset["frames"], preset["end"]), (3, 2, "loop"))
+        self.assertEqual(fx("validate", self.folder / "b.fx.json").code, 0)
+        (self.folder / "b.0004.fxvolume").write_bytes((self.folder / "b.0004.fxvolume").read_bytes()[:-9])
+        outcome = fx("validate", self.folder / "b.fx.json")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("b.0004.fxvolume", outcome.err + outcome.out)
+
+    def test_a_damaged_frame_is_named(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n0,2,0,0.5,2,0,0,0,0\n")
+        for number in (0, 1):
+            outcome = fx("export", balls, "-o", self.folder / f"c.{number}.vdb", "--voxel-size", "0.1")
+            self.assertEqual(outcome.code, 0, outcome.err)
+        whole = (self.folder / "c.1.vdb").read_bytes()
+        (self.folder / "c.1.vdb").write_bytes(whole[:len(whole) // 2])
+        outcome = fx("import", self.folder / "c.%d.vdb", "-o", self.folder / "c.fx.json")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("c.1.vdb", outcome.err)
+        self.assertFalse((self.folder / "c.fx.json").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
