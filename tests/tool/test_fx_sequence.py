@@ -9,14 +9,15 @@ from exr_planes import read_planes
 from fx_program import FxTest, fx
 
 HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
-# 6:29, 1000000, 192x144, 160 and 8,15,22,28 for the figures of docs/howto/volumes.md
+# 6:29, 1500000, 64x48, 200 and 8,15,28 for the figures of docs/howto/volumes.md
 FRAMES = os.environ.get("FX_FRAMES", "14:17")
-VOXELS = os.environ.get("FX_VOXELS", "150000")
+VOXELS = os.environ.get("FX_VOXELS", "400000")
 SIZE = os.environ.get("FX_SIZE", "96x72")
-MEMORY = int(os.environ.get("FX_MEMORY", "20")) # [MiB] less than all frames need
+MEMORY = int(os.environ.get("FX_MEMORY", "50")) # [MiB] less than all frames need
 SHOWN = [int(n) for n in os.environ.get("FX_SHOWN", "15").split(",")]
 FPS = 24
 AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
+DRAWN = 0.06                    # of OpenGL, where pixels are larger than voxels, which are then replaced by coarser ones
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
 
 
@@ -76,9 +77,10 @@ class Sequence(FxTest):
                 drawn, _ = error_of(self.planes(played, time, "gl"), found)
                 print(f"frame {frame + part}: opacity {opacity:.4f}; against voxels of the moment itself {own[0]:.4f}, "
                       f"light {own[1]:.4f}; opacity of GL against the reference {drawn:.4f}", flush=True)
-                self.assertLess(opacity, allowed)
-                self.assertLess(own[0], allowed)
-                self.assertLess(drawn, 0.03)
+                with self.subTest(frame=frame + part):
+                    self.assertLess(opacity, allowed)
+                    self.assertLess(own[0], allowed)
+                    self.assertLess(drawn, DRAWN)
         outcome = fx("render", played, "--size", SIZE, "--frames", f"{first}:{int(FRAMES.split(':')[1])}", "--fps", FPS,
                      "-o", self.folder / "p.%04d.png", "--stats", self.folder / "s.json")
         self.assertEqual(outcome.code, 0, outcome.err)
