@@ -9,7 +9,7 @@ from exr_planes import read_planes
 from fx_program import FxTest, fx
 
 HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
-# 6:29, 1500000, 64x48, 200 and 8,15,28 for the figures of docs/howto/volumes.md
+# for the figures of docs/howto/volumes.md see there
 FRAMES = os.environ.get("FX_FRAMES", "14:17")
 VOXELS = os.environ.get("FX_VOXELS", "400000")
 SIZE = os.environ.get("FX_SIZE", "96x72")
