@@ -47,6 +47,7 @@ enum : size_t
     Owner,   ///< variant that consists of these blocks; kNoOwner: they are the blocks of the effect
     Blocks,  ///< number of blocks at all levels; only with kNoOwner
     Refused, ///< number of balls beyond the effect's bound, which are missing; only with kNoOwner
+    Seconds, ///< [s] local time of animated content; 0 if no content is animated; only with kNoOwner
     Count
 };
 }
@@ -78,7 +79,7 @@ inline constexpr ColumnDesc kBlockColumns[block_column::Count] = {
 };
 
 inline constexpr ColumnDesc kBlockConstants[block_constant::Count] = {
-    {"owner", "1"}, {"blocks", "1"}, {"refused", "1"}};
+    {"owner", "1"}, {"blocks", "1"}, {"refused", "1"}, {"seconds", "s"}};
 
 inline constexpr ColumnDesc kBlockBallConstants[block_ball_constant::Count] = {{"variant", "1"}};
 

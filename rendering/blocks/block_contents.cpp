@@ -17,8 +17,6 @@ namespace {
 namespace blob = base::blob_column;
 using base::SnapshotGroup;
 
-constexpr size_t kMaxKnown = 1024; ///< identities that are kept
-
 glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
 {
     return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
@@ -70,6 +68,7 @@ BlockContent BlockContents::sumOfBalls(const SnapshotGroup& group) const
                         group.start(blob::Temperature)[i] != group.start(blob::Temperature)[0] ||
                         vectorAt(group, blob::EmissionR, i) != vectorAt(group, blob::EmissionR, 0);
         sum.speed = std::max(sum.speed, glm::length(vectorAt(group, blob::VelocityX, i)));
+        sum.isAnimated = sum.isAnimated || group.start(blob::Age)[i] != base::kSettledAge;
     }
     divideMeans(sum);
     return sum;
@@ -86,6 +85,7 @@ BlockContent BlockContents::sumOfBlocks(const SnapshotGroup& group) const
         const float scale = group.start(base::block_column::Scale)[i];
         addTo(sum, inner, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
         sum.speed = std::max(sum.speed, scale * inner.speed);
+        sum.isAnimated = sum.isAnimated || inner.isAnimated;
         first = first ? first : &inner;
         sum.isColored = sum.isColored || inner.albedo != first->albedo || inner.light != first->light;
     }
@@ -93,17 +93,12 @@ BlockContent BlockContents::sumOfBlocks(const SnapshotGroup& group) const
     return sum;
 }
 
-uint64_t BlockContents::identityOf(const SnapshotGroup& group, uint32_t variant, const BlockContent& content)
+uint64_t BlockContents::identityOf(const SnapshotGroup& group, uint32_t variant,
+                                   const BlockContent& content) const
 {
     const base::GroupInfo& info = group.info();
-    if (content.speed > 0.0f)
+    if (content.isAnimated)
         return base::hashWord(base::hashWord(info.instance, info.solver), variant);
-    const auto same = std::ranges::find_if(known_, [&](const Known& known) {
-        return known.instance == info.instance && known.solver == info.solver && known.variant == variant &&
-               known.count == info.count;
-    });
-    if (same != known_.end())
-        return same->identity;
     uint64_t hash = base::hashWord(1, uint64_t(groups_->isBlocks(group)));
     const size_t columns =
         groups_->isBlocks(group) ? size_t(base::block_column::Variant) : size_t(blob::Count);
@@ -111,9 +106,6 @@ uint64_t BlockContents::identityOf(const SnapshotGroup& group, uint32_t variant,
         hash = base::hashBytes(hash, group.start(k), group.count() * sizeof(float));
     for (uint32_t i = 0; groups_->isBlocks(group) && i < group.count(); ++i)
         hash = base::hashWord(hash, contents_[base::BlockGroups::variantIn(group, i)].identity);
-    if (known_.size() >= kMaxKnown)
-        known_.clear();
-    known_.push_back({info.instance, info.solver, variant, info.count, hash});
     return hash;
 }
 

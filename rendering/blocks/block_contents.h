@@ -31,9 +31,10 @@ struct BlockContent
     glm::vec3 brightest{0.0f};                  ///< [cd/m2] largest BlockBall::light, by channel
     float fireShare = 0.0f;                     ///< mean
     float heat = 0.0f;                          ///< [K] mean
-    float speed = 0.0f; ///< [m/s] largest speed of a ball relative to the block; 0: the content never changes
-    uint32_t balls = 0; ///< number of balls, at most UINT32_MAX
-    bool isColored = false; ///< true: albedo or emitted light differ between balls
+    float speed = 0.0f;                         ///< [m/s] largest speed of a ball relative to the block
+    bool isAnimated = false;                    ///< false: the content never changes
+    uint32_t balls = 0;                         ///< number of balls, at most UINT32_MAX
+    bool isColored = false;                     ///< true: albedo or emitted light differ between balls
     /// Identifies the content. Static content has the same number in all instances that show it; animated
     /// content has a number of its own for each instance and variant.
     uint64_t identity = 0;
@@ -42,7 +43,7 @@ struct BlockContent
 class BlockContents
 {
 public:
-    explicit BlockContents(std::pmr::memory_resource* memory) : contents_(memory), known_(memory) {}
+    explicit BlockContents(std::pmr::memory_resource* memory) : contents_(memory) {}
 
     /// Reads the groups of one solver.
     /// @param groups must stay valid until the last call of balls()
@@ -53,21 +54,13 @@ public:
     void balls(uint32_t variant, std::pmr::vector<BlockBall>& out) const;
 
 private:
-    /// The identity of static content, kept so that its rows are hashed once.
-    struct Known
-    {
-        uint64_t instance = 0;
-        uint32_t solver = 0, variant = 0, count = 0;
-        uint64_t identity = 0;
-    };
-
     BlockContent sumOfBalls(const base::SnapshotGroup& group) const;
     BlockContent sumOfBlocks(const base::SnapshotGroup& group) const;
-    uint64_t identityOf(const base::SnapshotGroup& group, uint32_t variant, const BlockContent& content);
+    uint64_t identityOf(const base::SnapshotGroup& group, uint32_t variant,
+                        const BlockContent& content) const;
 
     const base::BlockGroups* groups_ = nullptr;
     std::pmr::vector<BlockContent> contents_; ///< by variant
-    std::pmr::vector<Known> known_;
 };
 
 } // namespace fx::render

@@ -15,6 +15,9 @@ constexpr uint32_t kMaxPages = kTilePageColumns * kMaxTilePageRows;
 /// Balls times 8 x 8 texels that the jobs of a frame may have beyond the tiles that nothing can replace.
 constexpr uint64_t kWorkOfFrame = uint64_t(1) << 20;
 
+constexpr double kMaxTileSeconds = 0.1; ///< [s] of animated content: sizes, opacities and colors change too
+constexpr double kMostDeferred = 4.0;   ///< [1] factor of the limits of a tile that is replaced later
+
 uint32_t slotsAlong(int size)
 {
     return uint32_t(kMaxTile / size);
@@ -44,6 +47,7 @@ void BlockTiles::forget()
     pages_.clear();
     jobs_.clear();
     classes_ = {};
+    deferred_ = used_ = 0;
 }
 
 int BlockTiles::pageRows() const
@@ -57,17 +61,20 @@ std::optional<Tile> BlockTiles::find(const TileRequest& request)
     const BlockContent& content = *request.content;
     if (content.balls == 0 || content.balls > kMaxTileBalls)
         return std::nullopt;
-    const float radius = std::max(0.5f * request.pixels, 0.5f);
+    const float pixels = std::clamp(request.pixels, 1.0f, 4.0f * float(kMaxTile));
+    const float radius = 0.5f * pixels;
     const int cells = cellsForAngle(request.along, settings_.parallax / radius);
-    const int size = std::clamp(
-        int(std::bit_ceil(uint32_t(std::ceil(settings_.resolution * request.pixels)))), kMinTile, kMaxTile);
+    const int size = std::clamp(int(std::bit_ceil(uint32_t(std::ceil(settings_.resolution * pixels)))),
+                                kMinTile, kMaxTile);
     const glm::ivec2 cell = directionCell(request.along, cells);
     const Key key{content.identity, cell.y * cells + cell.x, uint16_t(cells), uint16_t(size)};
     const auto same = found_.find(key);
     if (same != found_.end() && isFresh(slots_[same->second], request))
         return use(same->second);
     if (settings_.isSpread && work_ > kWorkOfFrame)
-        if (const auto other = same != found_.end() ? same->second : neighbor(request, key, cell)) {
+        if (const auto other = same != found_.end() ? same->second : neighbor(request, key, cell);
+            other && canWait(slots_[*other], request))
+        {
             ++deferred_;
             return use(*other);
         }
@@ -78,15 +85,33 @@ std::optional<Tile> BlockTiles::find(const TileRequest& request)
     return use(*slot);
 }
 
-/// True if the content has moved by no more than the settings allow since the tile was made.
-bool BlockTiles::isFresh(const Slot& slot, const TileRequest& request) const
+namespace {
+
+/// [pixel] By how much animated content has moved in `seconds`.
+double movedBy(double seconds, const TileRequest& request)
 {
     const BlockContent& content = *request.content;
-    if (!(content.speed > 0.0f) || slot.frame == frame_)
-        return true; // what several blocks show is drawn once a frame
-    const double moved = std::abs(request.seconds - slot.seconds) * double(content.speed); // [m]
-    const double pixels = 0.5 * double(request.pixels) / std::max(double(content.radius), 1e-12);
-    return moved * pixels <= double(settings_.parallax);
+    return std::abs(seconds) * double(content.speed) * 0.5 * double(request.pixels) /
+           std::max(double(content.radius), 1e-12);
+}
+
+} // namespace
+
+/// True if the content has changed by no more than the settings allow since the tile was made.
+bool BlockTiles::isFresh(const Slot& slot, const TileRequest& request) const
+{
+    const double seconds = request.seconds - slot.seconds;
+    if (!request.content->isAnimated || seconds == 0.0)
+        return true;
+    return movedBy(seconds, request) <= double(settings_.parallax) && std::abs(seconds) <= kMaxTileSeconds;
+}
+
+/// True if a tile may be shown although it is due.
+bool BlockTiles::canWait(const Slot& slot, const TileRequest& request) const
+{
+    const double seconds = request.content->isAnimated ? request.seconds - slot.seconds : 0.0;
+    return movedBy(seconds, request) <= kMostDeferred * double(settings_.parallax) &&
+           std::abs(seconds) <= kMostDeferred * kMaxTileSeconds;
 }
 
 /// An existing tile of a direction nearby.
@@ -121,7 +146,7 @@ std::optional<uint32_t> BlockTiles::slotFor(const Key& key)
     Slot& taken = slots_[*slot];
     if (taken.isTaken)
         found_.erase(taken.key);
-    taken = {key, 0.0, frame_, true};
+    taken = {key, 0.0, 0.0f, frame_, true};
     found_[key] = *slot;
     return slot;
 }
@@ -189,14 +214,16 @@ Tile BlockTiles::use(uint32_t slot)
     const glm::ivec2 corner = kMaxTile * glm::ivec2(page % kTilePageColumns, page / kTilePageColumns) +
                               size * glm::ivec2(place % along, place / along);
     const int cells = used.key.cells;
-    return {corner, size, axesOfCell({used.key.cell % cells, used.key.cell / cells}, cells)};
+    return {corner, size, axesOfCell({used.key.cell % cells, used.key.cell / cells}, cells), used.brightest};
 }
 
 void BlockTiles::make(uint32_t slot, const TileRequest& request)
 {
     const Tile tile = use(slot);
     --used_; // counted by the caller's use
+    const glm::vec3& light = request.content->brightest;
     slots_[slot].seconds = request.seconds;
+    slots_[slot].brightest = std::max({light.x, light.y, light.z});
     jobs_.push_back({request.variant, tile.corner, tile.size, tile.axes, request.content->radius});
     work_ += uint64_t(request.content->balls) * uint64_t(tile.size / 8) * uint64_t(tile.size / 8);
 }

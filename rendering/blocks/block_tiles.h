@@ -39,6 +39,7 @@ struct Tile
     glm::ivec2 corner{0};
     int size = 0;
     TileAxes axes;
+    float brightest = 0.0f; ///< [cd/m2] light for which the tile has the value 1
 };
 
 /// What a tile has to show.
@@ -54,7 +55,7 @@ struct TileRequest
 /// Limits of the error of a tile.
 struct TileSettings
 {
-    float parallax = 0.5f;   ///< [pixel] largest shift of the front against the back of a block
+    float parallax = 0.5f;   ///< [pixel] largest shift of the front of a block against its middle
     float resolution = 1.0f; ///< texels per pixel, at least
     bool isSpread = true;    ///< false: all tiles are drawn at once when they are needed
 
@@ -95,7 +96,8 @@ private:
     {
         Key key;
         double seconds = 0.0; ///< local time of the content
-        uint64_t frame = 0;   ///< in which the slot was last used
+        float brightest = 0.0f;
+        uint64_t frame = 0; ///< in which the slot was last used
         bool isTaken = false;
     };
     /// A square of kMaxTile^2 texels with tiles of one size.
@@ -122,6 +124,7 @@ private:
     std::optional<uint32_t> neighbor(const TileRequest& request, const Key& key,
                                      const glm::ivec2& cell) const;
     bool isFresh(const Slot& slot, const TileRequest& request) const;
+    bool canWait(const Slot& slot, const TileRequest& request) const;
     Tile use(uint32_t slot);
     void make(uint32_t slot, const TileRequest& request);
 

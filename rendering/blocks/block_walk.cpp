@@ -90,6 +90,7 @@ void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& conten
     instance_ = groups.root().info().instance;
     seconds_ = seconds;
     effectBalls_ = 0;
+    back_ = older ? (1.0f - t) * stepSeconds : 0.0f;
     BlockFrame outer;
     outer.position = glm::vec3(place.position);
     outer.rotation = place.rotation;
@@ -129,8 +130,11 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
     const float radius = frame.scale * content.radius;
     if (!content.group || content.balls == 0 || !(weight * frame.density > 0.0f) || !(radius > 0.0f))
         return;
-    if (!isFinite(frame.position, radius, content.crossSection)) {
-        ++counts_.refused;
+    const float section = weight * frame.density * frame.scale * frame.scale * content.crossSection;
+    const float sum = content.albedo.x + content.albedo.y + content.albedo.z + content.light.x +
+                      content.light.y + content.light.z;
+    if (!isFinite(frame.position, radius, section) || !std::isfinite(sum)) {
+        ++counts_.nonFinite;
         return;
     }
     if (!volume_.touches(frame.position, radius)) {
@@ -140,9 +144,12 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
     float pixels = 0.0f;
     float share = impostorShare(frame, radius, pixels);
     const bool isBalls = !groups_->isBlocks(*content.group);
-    if (isBalls && effectBalls_ + content.balls > settings_->maxBalls)
+    if (isBalls && effectBalls_ + content.balls > settings_->maxBalls) {
+        if (!camera_.orthographic && glm::length(frame.position) < kNearest * radius)
+            return; // around the eye there is no impostor
         share = 1.0f;
-    if (share > 0.0f) {
+    }
+    if (share > 0.0f && section > 0.0f) {
         const glm::vec3 towards = camera_.orthographic ? camera_.forward : glm::normalize(frame.position);
         const auto tile =
             tiles_.find({variant, &content, glm::conjugate(frame.rotation) * towards, pixels, seconds_});
@@ -168,10 +175,10 @@ void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content
     const float section = frame.scale * frame.scale * content.crossSection;
     GatheredBlob ball = like_;
     ball.center = frame.position;
-    ball.radius = frame.scale * content.radius;
-    ball.crossSection = weight * frame.density * section;
-    if (!(ball.crossSection > 0.0f))
-        return;
+    const float radius = frame.scale * content.radius;
+    ball.radius = std::max(radius, leastRadius(frame.position));
+    ball.crossSection = formula::fxWidenedSection(weight * frame.density * section, radius, ball.radius);
+    const float perWidth = radius / ball.radius;
     ball.albedo = content.albedo;
     ball.emission = content.light;
     ball.temperature = 0.0f;
@@ -180,14 +187,19 @@ void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content
     ball.velocity = frame.velocity;
     ball.seed = detailSeed(frame.id);
     ball.rank = listRank(instance_, frame.id, 0);
-    const float brightest = std::max({content.brightest.x, content.brightest.y, content.brightest.z});
     records_.push_back({{frame.rotation * tile.axes.right, 0.0f},
-                        {frame.rotation * tile.axes.up, 1.0f / section},
+                        {frame.rotation * tile.axes.up, perWidth * perWidth / section},
                         {float(tile.size), float(tile.corner.x), float(tile.corner.y),
-                         content.isColored ? brightest * settings_->exposure : -1.0f}});
+                         content.isColored ? tile.brightest * settings_->exposure : -1.0f}});
     ball.tile = uint32_t(records_.size());
     balls_.push_back(ball);
     ++counts_.impostors;
+}
+
+/// [m] Radius of the smallest ball that is drawn there.
+float BlockWalk::leastRadius(const glm::vec3& center) const
+{
+    return kMinPixels * (camera_.orthographic ? 1.0f : glm::length(center)) / pixelsPerSlope_;
 }
 
 void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, float weight)
@@ -195,17 +207,17 @@ void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, fl
     const float section = weight * frame.density * frame.scale * frame.scale;
     for (uint32_t i = 0; i < group.count(); ++i) {
         GatheredBlob ball = like_;
-        ball.center = frame.position + frame.turned(vectorAt(group, blob::PositionX, i));
+        ball.center = frame.position + frame.turned(vectorAt(group, blob::PositionX, i) -
+                                                    back_ * vectorAt(group, blob::VelocityX, i));
         ball.radius = frame.scale * group.start(blob::Radius)[i];
         ball.crossSection = section * group.start(blob::CrossSection)[i];
         if (!isFinite(ball.center, ball.radius, ball.crossSection)) {
-            ++counts_.refused;
+            ++counts_.nonFinite;
             continue;
         }
         if (!(ball.crossSection > 0.0f && ball.radius > 0.0f))
             continue;
-        const float depth = camera_.orthographic ? 1.0f : glm::length(ball.center);
-        if (const float least = kMinPixels * depth / pixelsPerSlope_; ball.radius < least) {
+        if (const float least = leastRadius(ball.center); ball.radius < least) {
             ball.crossSection = formula::fxWidenedSection(ball.crossSection, ball.radius, least);
             ball.radius = least;
         }
@@ -245,7 +257,8 @@ void BlockWalk::addCasters(const BlockFrame& frame, uint32_t variant)
             addCasters(frame.inside(group, i), base::BlockGroups::variantIn(group, i));
     } else if (castsBalls_) {
         for (uint32_t i = 0; i < group.count(); ++i)
-            add(frame.position + frame.turned(vectorAt(group, blob::PositionX, i)),
+            add(frame.position + frame.turned(vectorAt(group, blob::PositionX, i) -
+                                              back_ * vectorAt(group, blob::VelocityX, i)),
                 frame.scale * group.start(blob::Radius)[i], section * group.start(blob::CrossSection)[i]);
     } else {
         add(frame.position, frame.scale * content.radius, section * content.crossSection);

@@ -37,7 +37,8 @@ struct BlockWalkSettings
 /// Counters of the walks of a frame.
 struct BlockWalkCounts
 {
-    uint32_t impostors = 0, balls = 0, culled = 0, refused = 0;
+    uint32_t impostors = 0, balls = 0, culled = 0;
+    uint32_t nonFinite = 0; ///< blocks and balls with a value that is not finite
 };
 
 /// Walks through the blocks of an effect.
@@ -73,6 +74,7 @@ private:
                      float weight);
     void addBalls(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight);
     void addCasters(const base::BlockFrame& frame, uint32_t variant);
+    float leastRadius(const glm::vec3& center) const;
     float impostorShare(const base::BlockFrame& frame, float radius, float& outPixels) const;
 
     const CameraGeometry& camera_;
@@ -92,6 +94,7 @@ private:
     uint64_t instance_ = 0;
     double seconds_ = 0.0;
     uint32_t effectBalls_ = 0;
+    float back_ = 0.0f; ///< [s] from the moment of the frame to the newer snapshot
     bool castsBalls_ = true;
 };
 

@@ -204,6 +204,7 @@ struct BlockSettings
     /// [pixel] Largest diameter on the picture of blocks that are drawn as impostors, up to kMaxPixels.
     float maxPixels = 96.0f;
     static constexpr float kMaxPixels = 128.0f;
+    static constexpr float kMaxParallax = 16.0f;
 
     bool operator==(const BlockSettings&) const = default;
 };

@@ -349,17 +349,16 @@ const LateBalls* lateBallsOf(const base::GroupName& name, std::span<const LateBa
     return same == late.end() ? nullptr : &*same;
 }
 
-void addLate(const LateBalls& late, bool castsShadows, std::pmr::vector<GatheredBlob>& ioVisible,
+void addLate(const LateBalls& late, std::pmr::vector<GatheredBlob>& ioVisible,
              std::pmr::vector<MediumCaster>& ioMedium, std::pmr::vector<InstanceBlobs>& ioInstances,
              FieldGather* ioFields)
 {
-    const BlobRun begin{ioInstances.size() - 1, -1, ioVisible.size(), 0, ioMedium.size(), 0};
+    const size_t visibleBegin = ioVisible.size(), mediumBegin = ioMedium.size();
     ioVisible.insert(ioVisible.end(), late.visible.begin(), late.visible.end());
-    if (castsShadows)
-        ioMedium.insert(ioMedium.end(), late.casters.begin(), late.casters.end());
+    ioMedium.insert(ioMedium.end(), late.casters.begin(), late.casters.end());
     ioInstances.back().visibleEnd = ioVisible.size();
     if (ioFields)
-        addRun({begin.instance, -1, begin.visibleBegin, ioVisible.size(), begin.mediumBegin, ioMedium.size()},
+        addRun({ioInstances.size() - 1, -1, visibleBegin, ioVisible.size(), mediumBegin, ioMedium.size()},
                ioFields->runs);
 }
 
@@ -396,7 +395,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
                 far = farCasters(newer, g);
         }
         if (const LateBalls* const given = lateBallsOf(newer.name(g), late)) {
-            addLate(*given, castsShadows, outVisible, outMedium, outInstances, outFields);
+            addLate(*given, outVisible, outMedium, outInstances, outFields);
             continue;
         }
         const base::SnapshotGroup& group = newer.group(g);

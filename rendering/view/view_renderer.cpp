@@ -34,7 +34,8 @@ uint64_t casterRevision(const GatherInputs& in)
     if (lod.bias > 0.0f || lod.impostorPixels > 0.0f)
         for (int i = 0; i < 3; ++i)
             revision = base::hashWord(revision, std::bit_cast<uint64_t>(in.camera->eye[i]));
-    return revision;
+    const bool hasTiles = in.drawsTiles && in.settings->blocks.parallax > 0.0f && in.settings->outputs == 0;
+    return base::hashWord(revision, uint64_t(hasTiles)); // blocks of very many balls cast as single balls
 }
 
 /// Whether any light has planes that casters are needed for.

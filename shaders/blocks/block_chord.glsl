@@ -1,5 +1,5 @@
 // The optical depth of a block along a ray, from its tile: see blocks/block_tiles.comp.glsl. Needs slabs/slab_balls.glsl.
-layout(binding = 11) uniform sampler2D blockAtlas;
+layout(binding = 12) uniform sampler2D blockAtlas;
 
 // What a tile knows of a ray.
 struct BlockChord

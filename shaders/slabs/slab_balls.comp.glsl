@@ -59,7 +59,8 @@ void main()
 #if FX_BLOCKS
     if (blob.layer.z > 0.5) {
         BlockRecord block = blockRecords[int(blob.layer.z) - 1];
-        imageStore(balls, ballTexel(ball, kMedium), vec4(blob.medium.x * block.up.w, blob.centerRadius.w, blob.layer.x, -1.0));
+        float wider = blob.centerRadius.w / radius;
+        imageStore(balls, ballTexel(ball, kMedium), vec4(isThere ? blob.medium.x * block.up.w * wider * wider : 0.0, radius, blob.layer.x, -1.0));
         imageStore(balls, ballTexel(ball, kTile), block.tile);
         imageStore(balls, ballTexel(ball, kTileRight), block.right);
         imageStore(balls, ballTexel(ball, kTileUp), block.up);

@@ -216,6 +216,8 @@ void BlocksSolver::addBalls(const base::GroupInfo& base, size_t root, base::Fram
     blocks.editInfo().bounds = bounds;
     blocks.editConstants()[constant::Blocks] = float(inside);
     blocks.editConstants()[constant::Refused] = float(balls - kept);
+    if (def_.isAnimated())
+        blocks.editConstants()[constant::Seconds] = float(base::toSeconds(now_));
     if (kinds_.blob == base::kNoKind || kept == 0)
         return;
     SnapshotGroup& expanded = snapshot.addLateGroup(kinds_.blob, base::expandBlocks);

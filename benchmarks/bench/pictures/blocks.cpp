@@ -72,7 +72,10 @@ public:
         require(stage_->draw());
         const render::FrameStatistics& drawn = statistics();
         if (drawn.spilledBalls > 0 || drawn.blockParticlesRefused > 0 || (drawn.blockImpostors > 0) != blocks)
-            fail("blocks are missing or are not drawn as asked");
+            fail("blocks are missing or are not drawn as asked: impostors " +
+                 std::to_string(drawn.blockImpostors) + ", balls spilled " +
+                 std::to_string(drawn.spilledBalls) + ", refused " +
+                 std::to_string(drawn.blockParticlesRefused));
         return stage_->processorMilliseconds();
     }
     void settle()
@@ -194,7 +197,7 @@ void measure(Options options)
         machine.glRenderer = pictures.stage().rendererName();
         if (isSingle)
             pictures.draw(false);
-        pictures.draw(true, 0.0f, 2.0f); // compiles, and draws tiles of another size
+        pictures.draw(true, 0.0f, 0.5f); // compiles, and draws tiles of another size
         line["ms_first"] = pictures.draw(true);
         line["tiles_first"] = pictures.statistics().blockTilesDrawn;
         pictures.settle();

@@ -45,7 +45,7 @@ constexpr ProgramDesc kBallPrograms[] = {
 
 constexpr uint32_t kLumpUnit = 10;       ///< as in shaders/field/field_detail.glsl
 constexpr uint32_t kRecordBinding = 7;   ///< as in shaders/slabs/slab_balls.comp.glsl
-constexpr uint32_t kAtlasUnit = 11;      ///< as in shaders/blocks/block_chord.glsl
+constexpr uint32_t kAtlasUnit = 12;      ///< as in shaders/blocks/block_chord.glsl
 constexpr uint32_t kMaterialBinding = 4; ///< as in shaders/slabs/slab_balls.comp.glsl
 constexpr size_t kCardBytes = 32;
 constexpr size_t kTileBytes = 16;

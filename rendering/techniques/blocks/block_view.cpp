@@ -57,13 +57,17 @@ base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
     ends_.clear();
     late_.clear();
     jobs_.begin();
+    if (isPending_) // the last frame has failed
+        tiles_.forget();
+    isPending_ = false;
+    tiles_.begin({in.settings->blocks.parallax, in.settings->blocks.resolution, !in.request->resetHistory});
     const base::FrameSnapshot* const shown = in.snapshots->newer;
     for (size_t place = 0; shown && place < shown->addedCount(); ++place)
         addCounts(shown->added(place));
     const bool drawsTiles = in.drawsTiles && in.settings->blocks.parallax > 0.0f && in.settings->outputs == 0;
     if (!drawsTiles || counts_.blockInstances == 0)
         return {};
-    tiles_.begin({in.settings->blocks.parallax, in.settings->blocks.resolution, !in.request->resetHistory});
+    isPending_ = true;
     walk(in);
     if (tiles_.pageRows() > rows_) {
         // A larger atlas is empty: all tiles are drawn anew.
@@ -100,6 +104,8 @@ void BlockView::walk(const GatherInputs& in)
             this->walk(in, walk, place);
     }
     counts_.blockImpostors = walk.counts().impostors;
+    counts_.blobsCulled = walk.counts().culled;
+    counts_.blobsNonFinite = walk.counts().nonFinite;
 }
 
 void BlockView::walk(const GatherInputs& in, BlockWalk& walk, size_t place)
@@ -117,7 +123,7 @@ void BlockView::walk(const GatherInputs& in, BlockWalk& walk, size_t place)
     settings.exposure = exposureFromEv100(in.settings->exposureEv100);
     settings.maxBalls = late.count();
     const size_t jobs = tiles_.jobs().size();
-    walk.run(groups, contents_, before, t, float(step), base::toSeconds(newer.tick()),
+    walk.run(groups, contents_, before, t, float(step), double(groups.root().constants()[constant::Seconds]),
              placementAt(groups.root(), before, t, in.camera->eye), commonOf(late), settings);
     jobs_.add(tiles_.jobs().subspan(jobs), contents_);
     ends_.push_back({base::nameOf(late.info()), gathered_.size(), casters_.size()});
@@ -125,8 +131,11 @@ void BlockView::walk(const GatherInputs& in, BlockWalk& walk, size_t place)
 
 base::Status BlockView::makeRoom()
 {
-    if (records_.empty())
+    if (records_.empty()) {
+        if (!jobs_.isEmpty())
+            tiles_.forget();
         return {};
+    }
     if (base::Status status =
             render::makeRoom(device_, recordBuffer_, records_.size() * sizeof(BlockRecord), "block records");
         !status)
@@ -187,6 +196,8 @@ void BlockView::count(FrameStatistics& statistics) const
     statistics.blockParticles += counts_.blockParticles;
     statistics.blockParticlesRefused += counts_.blockParticlesRefused;
     statistics.blockImpostors += counts_.blockImpostors;
+    statistics.blobsCulled += counts_.blobsCulled;
+    statistics.blobsNonFinite += counts_.blobsNonFinite;
     if (isKept_)
         return;
     statistics.blockTilesDrawn += jobs_.count();
@@ -200,8 +211,9 @@ void BlockView::forget()
     tiles_.forget();
 }
 
-void BlockView::endFrame(bool)
+void BlockView::endFrame(bool succeeded)
 {
+    isPending_ = isPending_ && !succeeded;
     unused_ = records_.empty() ? unused_ + 1 : 0;
     if (unused_ == kIdleFrames)
         release();

@@ -57,9 +57,10 @@ private:
     std::pmr::vector<LateBalls> late_;
     GlTexture atlas_;
     GlBuffer recordBuffer_;
-    int rows_ = 0;        ///< rows of pages of the atlas
-    bool isKept_ = false; ///< true: lists and buffers are those of the last frame
-    uint32_t unused_ = 0; ///< consecutive frames without impostors
+    int rows_ = 0;           ///< rows of pages of the atlas
+    bool isPending_ = false; ///< true: tiles of the cache have not been drawn yet
+    bool isKept_ = false;    ///< true: lists and buffers are those of the last frame
+    uint32_t unused_ = 0;    ///< consecutive frames without impostors
 };
 
 } // namespace fx::render

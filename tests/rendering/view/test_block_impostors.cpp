@@ -123,6 +123,40 @@ TEST_F(BlockImpostors, areLitAsTheirBallsAre)
     EXPECT_GE(rmsDifference(drawUpTo(kAll, blocks, eye), impostors), 0.06);
 }
 
+TEST_F(BlockImpostors, areThereWhereTheyAreSmallerThanAPixel)
+{
+    glowAlone();
+    const base::FrameSnapshot blocks = published(threeBlocks(true));
+    // What reaches the eye falls with the square of the distance, also where pixels are larger than blocks.
+    const double flux = meanOf(drawUpTo(kAll, blocks, {0.0, 0.0, 20.0})) * 20.0 * 20.0;
+    for (const double distance : {60.0, 150.0, 400.0}) {
+        const Picture far = drawUpTo(kAll, blocks, {0.0, 0.0, distance});
+        EXPECT_EQ(view_->statistics().blockImpostors, 3u);
+        const double error = std::abs(meanOf(far) * distance * distance - flux);
+        EXPECT_LE(error, (distance < 200.0 ? 0.2 : 0.8) * flux) << distance;
+        // What is widened to a pixel hides less of what is behind: blocks are better than single balls.
+        const double ofBalls = meanOf(drawBalls(blocks, {0.0, 0.0, distance})) * distance * distance;
+        EXPECT_LE(error, 0.6 * std::abs(ofBalls - flux)) << distance;
+    }
+}
+
+TEST_F(BlockImpostors, standBesideFieldsWithDetail)
+{
+    glowAlone();
+    // A ball with detail behind the eye takes part in lists and textures but not in the picture.
+    const base::FrameSnapshot blocks = published(threeBlocks(true));
+    base::FrameSnapshot both =
+        detailedSnapshotOf({{.center = {0.0f, 0.0f, 9.2f}, .radius = 1.0f, .crossSection = 1e-4f}});
+    base::GroupInfo info;
+    info.instance = 7;
+    const sim::BlocksDef def = threeBlocks(true);
+    def.create(schema_, {}, std::pmr::get_default_resource())->publish(info, both);
+    const glm::dvec3 eye(0, 0, 8);
+    const Picture alone = drawUpTo(kAll, blocks, eye), beside = drawUpTo(kAll, both, eye);
+    EXPECT_EQ(view_->statistics().blockImpostors, 3u);
+    EXPECT_LE(rmsDifference(alone, beside), 0.01);
+}
+
 TEST_F(BlockImpostors, becomeTheirBallsWithoutAJump)
 {
     glowAlone();

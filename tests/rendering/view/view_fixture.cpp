@@ -16,7 +16,8 @@ double maxDifference(const Picture& a, const Picture& b)
 {
     double most = 0.0;
     for (size_t i = 0; i < a.texels.size(); ++i)
-        most = std::max(most, double(std::abs(a.texels[i] - b.texels[i])));
+        if (const double difference = double(std::abs(a.texels[i] - b.texels[i])); !(difference <= most))
+            most = difference; // NaN too
     return most;
 }
 
