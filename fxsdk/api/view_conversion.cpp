@@ -71,6 +71,7 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
     check.range(given.lodBias, 0.0f, 256.0f, "settings.lodBias");
     check.range(given.lodImpostorPixels, 0.0f, fx::render::LodSettings::kMaxImpostorPixels,
                 "settings.lodImpostorPixels");
+    check.range(given.blockParallax, 0.0f, fx::render::BlockSettings::kMaxParallax, "settings.blockParallax");
 }
 
 void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
@@ -165,6 +166,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.fragmentBudget = given.fragmentBudget;
     settings.lod.bias = given.lodBias;
     settings.lod.impostorPixels = given.lodImpostorPixels;
+    settings.blocks.parallax = given.blockParallax;
     render::SliceSettings& slices = settings.slices;
     slices.enabled = given.lightSlices != 0;
     slices.resolution = {int(given.lightSliceTexels), int(given.lightSlicePlanes)};

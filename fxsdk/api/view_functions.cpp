@@ -99,6 +99,8 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.blockInstances = frame.blockInstances;
     statistics.blockParticles = frame.blockParticles;
     statistics.blockParticlesRefused = frame.blockParticlesRefused;
+    statistics.blockImpostors = frame.blockImpostors;
+    statistics.blockTilesDrawn = frame.blockTilesDrawn;
     return statistics;
 }
 

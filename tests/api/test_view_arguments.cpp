@@ -51,6 +51,8 @@ TEST_F(ViewArguments, aSettingOutOfRangeIsRefusedByNameAndTheOldOnesStay)
     refuse("lodBias", [](FxViewSettings& s) { s.lodBias = kNan; });
     refuse("lodImpostorPixels", [](FxViewSettings& s) { s.lodImpostorPixels = 14.0f; });
     refuse("lodImpostorPixels", [](FxViewSettings& s) { s.lodImpostorPixels = kNan; });
+    refuse("blockParallax", [](FxViewSettings& s) { s.blockParallax = -0.1f; });
+    refuse("blockParallax", [](FxViewSettings& s) { s.blockParallax = 16.5f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.3f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.0f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = kNan; });

@@ -27,6 +27,7 @@ FxViewSettings CallsPlayer::anySettings()
     settings.layerScale = kScales[input_.below(4)];
     settings.lodBias = floatNumber(8.0);
     settings.lodImpostorPixels = floatNumber(13.0);
+    settings.blockParallax = floatNumber(16.0);
     settings.activationOverlay = input_.below(2);
     settings.budgetMilliseconds = floatNumber(10.0);
     settings.budgetClock = FX_BUDGET_CLOCK_CPU;

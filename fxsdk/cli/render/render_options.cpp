@@ -241,6 +241,11 @@ void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
                     "[pixel] Radius below which effects are drawn as pictures of themselves; 0: none")
         ->check(CLI::Range(0.0f, 13.0f))
         ->capture_default_str();
+    command
+        .add_option("--block-parallax", arguments.blockParallax,
+                    "[pixel] Error up to which blocks are drawn as impostors; 0: ball by ball")
+        ->check(CLI::Range(0.0f, 16.0f))
+        ->capture_default_str();
 }
 
 void addReportOptions(CLI::App& command, RenderArguments& arguments)
@@ -339,6 +344,7 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.overlay = arguments.overlay;
     settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
     settings.lod = {arguments.lodBias, arguments.impostorPixels};
+    settings.blocks.parallax = arguments.blockParallax;
     settings.fragmentBudget = arguments.fragmentBudget;
     settings.slices.enabled = arguments.lightSlices != "off";
     if (settings.slices.enabled && !arguments.lightSlices.empty())

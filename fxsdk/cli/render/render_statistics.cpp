@@ -59,6 +59,8 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"block_instances", view.blockInstances},
         {"block_particles", view.blockParticles},
         {"block_particles_refused", view.blockParticlesRefused},
+        {"block_impostors", view.blockImpostors},
+        {"block_tiles_drawn", view.blockTilesDrawn},
         {"lod_groups", {view.lodGroups[0], view.lodGroups[1], view.lodGroups[2], view.lodGroups[3]}},
         {"composition", render::nameOf(render::Composition(view.composition))},
         {"composition_size", view.compositionSize},

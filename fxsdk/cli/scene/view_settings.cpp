@@ -34,6 +34,7 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.fragmentBudget = uint32_t(settings.fragmentBudget);
     api.lodBias = settings.lod.bias;
     api.lodImpostorPixels = settings.lod.impostorPixels;
+    api.blockParallax = settings.blocks.parallax;
     api.lightSlices = settings.slices.enabled ? 1 : 0;
     api.lightSlicePlanes = uint32_t(settings.slices.resolution.planes);
     api.lightSliceTexels = uint32_t(settings.slices.resolution.texels);

@@ -222,6 +222,11 @@ typedef struct FxViewSettings
     /// frame with outputs compiles their programs, unless fxContext_WarmUp() was called while a view had
     /// these settings.
     uint32_t outputs;
+
+    /// [pixel] 0..16: largest error of the place of medium within a block that is drawn as an impostor, by
+    /// its direction and its motion; default 0.5. 0: all particles of blocks are drawn. Impostors are drawn
+    /// with FX_COMPOSITION_SLABS and without outputs only.
+    float blockParallax;
 } FxViewSettings;
 
 /// Default settings: daylight exposure, no lights, all effects enabled.
@@ -256,6 +261,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.slabs = 16;
     settings.voxels = 96;
     settings.lightRefreshFrames = 1;
+    settings.blockParallax = 0.5f;
     return settings;
 }
 

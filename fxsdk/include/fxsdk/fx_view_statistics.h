@@ -150,8 +150,15 @@ typedef struct FxViewStatistics
     /// Number of particles of media that these blocks consist of.
     uint64_t blockParticles;
 
-    /// Number of particles of blocks beyond the member "maxParticles" of their effects, which are not drawn.
+    /// Number of particles of blocks beyond the member "maxParticles" of their effects. They are not drawn,
+    /// unless their blocks are drawn as impostors.
     uint64_t blockParticlesRefused;
+
+    /// Number of blocks that were drawn as impostors.
+    uint32_t blockImpostors;
+
+    /// Number of tiles of impostors that were drawn in the frame. Later frames reuse them.
+    uint32_t blockTilesDrawn;
 } FxViewStatistics;
 
 #ifdef __cplusplus
