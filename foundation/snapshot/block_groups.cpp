@@ -8,11 +8,6 @@ namespace {
 
 namespace block = block_column;
 
-glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
-{
-    return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
-}
-
 /// Variant that a group is the content of; kNoOwner for the blocks of the effect.
 float variantOfGroup(const SnapshotGroup& group, bool isBalls)
 {

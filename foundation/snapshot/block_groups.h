@@ -14,6 +14,12 @@
 
 namespace fx::base {
 
+/// Three columns of row `i` as a vector. @param first column of x
+inline glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
+{
+    return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
+}
+
 /// The placement, density, age and id that the blocks above an element give to it.
 struct BlockFrame
 {

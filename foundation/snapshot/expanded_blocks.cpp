@@ -11,11 +11,6 @@ namespace {
 
 namespace blob = blob_column;
 
-glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
-{
-    return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
-}
-
 /// Blocks whose rows are to be expanded.
 struct Level
 {

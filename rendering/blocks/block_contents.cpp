@@ -16,11 +16,7 @@ namespace {
 
 namespace blob = base::blob_column;
 using base::SnapshotGroup;
-
-glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
-{
-    return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
-}
+using base::vectorAt;
 
 /// Light per optical depth, as of thin gas.
 glm::vec3 lightOf(const SnapshotGroup& group, uint32_t i, const glm::vec3& albedo)

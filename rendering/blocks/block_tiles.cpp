@@ -37,7 +37,7 @@ void BlockTiles::begin(const TileSettings& settings)
     jobs_.clear();
     ++frame_;
     work_ = 0;
-    deferred_ = used_ = 0;
+    deferred_ = 0;
 }
 
 void BlockTiles::forget()
@@ -47,7 +47,7 @@ void BlockTiles::forget()
     pages_.clear();
     jobs_.clear();
     classes_ = {};
-    deferred_ = used_ = 0;
+    deferred_ = 0;
 }
 
 int BlockTiles::pageRows() const
@@ -208,7 +208,6 @@ Tile BlockTiles::use(uint32_t slot)
     Slot& used = slots_[slot];
     const uint32_t page = slot / kSlotsOfPage, place = slot % kSlotsOfPage;
     used.frame = pages_[page].frame = frame_;
-    ++used_;
     const int size = used.key.size;
     const uint32_t along = slotsAlong(size);
     const glm::ivec2 corner = kMaxTile * glm::ivec2(page % kTilePageColumns, page / kTilePageColumns) +
@@ -220,7 +219,6 @@ Tile BlockTiles::use(uint32_t slot)
 void BlockTiles::make(uint32_t slot, const TileRequest& request)
 {
     const Tile tile = use(slot);
-    --used_; // counted by the caller's use
     const glm::vec3& light = request.content->brightest;
     slots_[slot].seconds = request.seconds;
     slots_[slot].brightest = std::max({light.x, light.y, light.z});

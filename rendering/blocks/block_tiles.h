@@ -76,7 +76,6 @@ public:
 
     std::span<const TileJob> jobs() const { return jobs_; }
     uint32_t deferred() const { return deferred_; } ///< tiles that are replaced by others in this frame
-    uint32_t used() const { return used_; }         ///< number of find() that gave a tile
     int pageRows() const;                           ///< rows of pages that tiles need, a power of 2; 0: none
     void forget();                                  ///< discards all tiles
 
@@ -136,7 +135,7 @@ private:
     std::array<SizeClass, kTileSizes> classes_;
     uint64_t frame_ = 0;
     uint64_t work_ = 0; ///< of the jobs of this frame
-    uint32_t deferred_ = 0, used_ = 0;
+    uint32_t deferred_ = 0;
 };
 
 } // namespace fx::render

@@ -17,16 +17,12 @@ namespace blob = base::blob_column;
 namespace block = base::block_column;
 using base::BlockFrame;
 using base::SnapshotGroup;
+using base::vectorAt;
 
-constexpr float kFadePixels =
-    0.8f; ///< [1] share of BlockWalkSettings::maxPixels from which the content fades in
+/// [1] Share of BlockWalkSettings::maxPixels from which the content fades in.
+constexpr float kFadePixels = 0.8f;
 /// [1] Distance over the radius below which a block is its content, and from which it is an impostor alone.
 constexpr float kNearest = 1.5f, kFar = 2.0f;
-
-glm::vec3 vectorAt(const SnapshotGroup& group, size_t first, uint32_t i)
-{
-    return {group.start(first)[i], group.start(first + 1)[i], group.start(first + 2)[i]};
-}
 
 bool isFinite(const glm::vec3& center, float radius, float crossSection)
 {
@@ -235,7 +231,6 @@ void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, fl
         ball.seed = detailSeed(id);
         ball.rank = listRank(instance_, id, 0);
         balls_.push_back(ball);
-        ++counts_.balls;
         ++effectBalls_;
     }
 }

@@ -37,7 +37,7 @@ struct BlockWalkSettings
 /// Counters of the walks of a frame.
 struct BlockWalkCounts
 {
-    uint32_t impostors = 0, balls = 0, culled = 0;
+    uint32_t impostors = 0, culled = 0;
     uint32_t nonFinite = 0; ///< blocks and balls with a value that is not finite
 };
 

@@ -196,7 +196,7 @@ struct LodSettings
 /// Settings of the impostors of blocks of medium. An impostor stands for all balls of a block.
 struct BlockSettings
 {
-    /// [pixel] Largest shift of the front of a block against its back, by which a tile may differ from the
+    /// [pixel] Largest shift of the front of a block against its middle, by which a tile may differ from the
     /// true direction, and largest motion of animated content until a tile is drawn again. 0: all balls are
     /// drawn.
     float parallax = 0.5f;

@@ -82,6 +82,8 @@ EffectLight GroupGlow::light(const base::Placement& placement, float extent, flo
 
 namespace {
 
+constexpr float kColdest = 400.0f; ///< [K] up to which blackBodyLuminance() is 0
+
 /// True if the balls of blocks do not glow, so that their rows need not be computed.
 bool isDark(const base::FrameSnapshot& snapshot, size_t index)
 {
@@ -96,10 +98,12 @@ bool isDark(const base::FrameSnapshot& snapshot, size_t index)
             break;
         if (balls.info().kind != kind)
             continue;
-        const auto glows = [](float value) { return value > 0.0f; };
-        for (const size_t column : {blob::EmissionR, blob::EmissionG, blob::EmissionB, blob::Temperature})
-            if (std::ranges::any_of(balls.column(column), glows))
+        const auto isAbove = [](float least) { return [=](float value) { return value > least; }; };
+        for (const size_t column : {blob::EmissionR, blob::EmissionG, blob::EmissionB})
+            if (std::ranges::any_of(balls.column(column), isAbove(0.0f)))
                 return false;
+        if (std::ranges::any_of(balls.column(blob::Temperature), isAbove(kColdest)))
+            return false;
     }
     return true;
 }
