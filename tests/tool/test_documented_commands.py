@@ -63,7 +63,8 @@ NEEDS = {"render": ("-o", "--output"), "export": ("-o", "--output"), "stability"
 
 # In place of the placeholders of a synopsis.
 VALUES = {"FILE": "tiny.fx.json", "OUT": "out/a.png", "OUT.png": "out/b.png", "OUT.exr": "out/a.exr", "IN.exr": "in.exr",
-          "CASE": "sod", "TECHNIQUE": "furnace", "OUT.vdb": "out/a.vdb", "IN.vdb": "in.vdb", "PRESET.fx.json": "out/cloud.fx.json", "FOLDER": "out/maps", "FILE.svg": "out/a.svg", "OUT.fxgrid": "out/a.fxgrid",
+          "CASE": "sod", "TECHNIQUE": "furnace", "OUT.vdb": "out/a.vdb", "IN.vdb": "in.vdb", "IN.%04d.vdb": "in.%04d.vdb",
+          "PRESET.fx.json": "out/cloud.fx.json", "FOLDER": "out/maps", "FILE.svg": "out/a.svg", "OUT.fxgrid": "out/a.fxgrid",
           "POINTS.csv": "points.csv", "NUMBERS.raw": "numbers.raw", "library:NAME": "library:sparks",
           "NX": "2", "NY": "2", "NZ": "2"}
 
@@ -101,7 +102,8 @@ class Workplace:
         (self.root / "numbers.raw").write_bytes(struct.pack("<8f", *range(8)))
         self.run(["fx", "render", "tiny.fx.json", "-o", "in.exr", "--size", "16x16"])
         if HAS_OPENVDB:
-            self.run(["fx", "export", "tiny.fx.json", "-o", "in.vdb", "--voxel-size", "0.2"])
+            for name in ("in.vdb", "in.0001.vdb", "in.0002.vdb"):
+                self.run(["fx", "export", "tiny.fx.json", "-o", name, "--voxel-size", "0.2"])
 
     def close(self):
         self._folder.cleanup()
