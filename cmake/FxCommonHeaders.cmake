@@ -1,6 +1,6 @@
 # Headers of the standard library and GLM that most sources include are compiled once.
-# Sources name what they use all the same: builds with Clang or with sanitizers read every header by itself.
-option(FXSDK_PRECOMPILE_HEADERS "Read headers that most sources include once (GCC without sanitizers)" ON)
+# Sources name what they use all the same: builds without precompiled headers, as those of scripts/check-all, show it.
+option(FXSDK_PRECOMPILE_HEADERS "Read headers that most sources include once" ON)
 set(FX_COMMON_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <memory_resource>
     <mutex> <numbers> <numeric> <optional> <span> <string> <string_view> <utility> <vector> <glm/glm.hpp> <glm/gtc/quaternion.hpp>)
 
@@ -15,11 +15,16 @@ function(fx_precompile target position_independence)
     target_precompile_headers(${target} PRIVATE ${ARGN})
 endfunction()
 
-if(FXSDK_PRECOMPILE_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT FXSDK_SANITIZE)
+if(FXSDK_PRECOMPILE_HEADERS)
     find_package(glm REQUIRED)
-    # False for "literal" + std::string, and not known to be in a header of the system once it is precompiled.
-    target_compile_options(fx_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-stringop-overflow> $<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds>)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        # False for "literal" + std::string, and not known to be in a header of the system once it is precompiled.
+        target_compile_options(fx_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-stringop-overflow> $<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds>)
+    endif()
     fx_precompile(fx_library_headers -fPIC ${FX_COMMON_HEADERS})
+    if(FXSDK_BUILD_FUZZERS)
+        target_compile_options(fx_library_headers PRIVATE -fsanitize=fuzzer-no-link)
+    endif()
     if(FXSDK_BUILD_TESTS)
         find_package(GTest REQUIRED)
         fx_precompile(fx_test_headers -fPIE ${FX_COMMON_HEADERS} <gtest/gtest.h>)
