@@ -112,13 +112,72 @@ bool sleepsThrough(const FxView& view, const FxFrameDef* frame)
            std::memcmp(frame, &view.sleptFrame, sizeof view.sleptFrame) == 0;
 }
 
+void showMoment(const FxView& view, const fx::scene::Presentation& shown, fx::render::FrameRequest& io)
+{
+    io.interpolation = shown.interpolation;
+    io.time = shown.time;
+    io.instances = fx::api::instanceNames(view);
+}
+
+Status readFrame(const FxFrameDef* frame, FxFrameDef& outKnown, fx::render::FrameRequest& outRequest)
+{
+    if (Status status = fx::api::readStruct(frame, "frame", fxDefaultFrameDef(), outKnown); !status)
+        return status;
+    return fx::api::convertFrame(outKnown, outRequest);
+}
+
+Status readEye(const char* eye, const FxFrameDef* frame, FxFrameDef& outKnown,
+               fx::render::FrameRequest& outRequest)
+{
+    const Status status = readFrame(frame, outKnown, outRequest);
+    return status ? status : Status(status.code(), std::string(eye) + ": " + std::string(status.message()));
+}
+
+/// The overlays of both eyes follow each other in view.overlay.
+void overlayEyes(FxView& view, fx::render::FrameRequest& ioFirst, fx::render::FrameRequest& ioSecond)
+{
+    view.scene->scene.copyMarks(view.marks);
+    std::pmr::vector<fx::render::OverlayBox> second(view.overlay.get_allocator());
+    fx::api::makeOverlay(view.marks, ioFirst.camera.origin, view.overlay);
+    fx::api::makeOverlay(view.marks, ioSecond.camera.origin, second);
+    const size_t count = view.overlay.size();
+    view.overlay.insert(view.overlay.end(), second.begin(), second.end());
+    ioFirst.overlay = std::span(view.overlay).first(count);
+    ioSecond.overlay = std::span(view.overlay).subspan(count);
+}
+
+Status renderEyes(FxView& view, const FxFrameDef* first, const FxFrameDef* second)
+{
+    FxFrameDef known, knownSecond;
+    fx::render::FrameRequest request, requestSecond;
+    if (Status status = readEye("first", first, known, request); !status)
+        return status;
+    if (Status status = readEye("second", second, knownSecond, requestSecond); !status)
+        return status;
+    const uint64_t before = view.context->memory.allocationCount();
+    view.sleeps = false;
+    const FrameEnd end(view);
+    const fx::scene::Presentation& shown = fx::api::showFrame(view, known).shown();
+    showMoment(view, shown, request);
+    showMoment(view, shown, requestSecond);
+    if (view.renderer.settings().overlay)
+        overlayEyes(view, request, requestSecond);
+    Status status = view.renderer.renderStereo(shown.snapshots, request, requestSecond);
+    view.allocations = view.context->memory.allocationCount() - before;
+    return status;
+}
+
+void noteComputing(FxView& view)
+{
+    view.scene->gpuSeen.store(view.renderer.canComputeParticles() ? FxScene::kRemembered : 0u,
+                              std::memory_order_relaxed);
+}
+
 Status renderFrame(FxView& view, const FxFrameDef* frame)
 {
     FxFrameDef known;
-    if (Status status = fx::api::readStruct(frame, "frame", fxDefaultFrameDef(), known); !status)
-        return status;
     fx::render::FrameRequest request;
-    if (Status status = fx::api::convertFrame(known, request); !status)
+    if (Status status = readFrame(frame, known, request); !status)
         return status;
     if (!view.prepared && view.sleeps && !request.targets.useFramebuffer && view.scene->scene.showsNothing())
     {
@@ -133,9 +192,7 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
     if (!view.prepared || !view.prepared->isSameAs(known))
         fx::api::showFrame(view, known);
     const fx::scene::Presentation& shown = view.prepared->shown();
-    request.interpolation = shown.interpolation;
-    request.time = shown.time;
-    request.instances = fx::api::instanceNames(view);
+    showMoment(view, shown, request);
     const bool marks = view.renderer.settings().overlay;
     if (marks) {
         view.scene->scene.copyMarks(view.marks);
@@ -222,9 +279,30 @@ FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
 {
     return fx::api::insideView("fxView_Render", view, [&]() -> Status {
         Status status = sleepsThrough(*view, frame) ? Status() : renderFrame(*view, frame);
-        view->scene->gpuSeen.store(view->renderer.canComputeParticles() ? FxScene::kRemembered : 0u,
-                                   std::memory_order_relaxed);
+        noteComputing(*view);
         return status;
+    });
+}
+
+FxResult fxView_RenderStereo(FxView* view, const FxFrameDef* first, const FxFrameDef* second)
+{
+    return fx::api::insideView("fxView_RenderStereo", view, [&]() -> Status {
+        Status status = renderEyes(*view, first, second);
+        noteComputing(*view);
+        return status;
+    });
+}
+
+FxResult fxView_SetScene(FxView* view, FxScene* scene)
+{
+    return fx::api::insideView("fxView_SetScene", view, [&]() -> Status {
+        if (!scene)
+            return fx::api::invalid("scene is null");
+        if (scene->context != view->context)
+            return fx::api::invalid("scene belongs to another context");
+        if (scene != view->scene)
+            view->setScene(scene);
+        return {};
     });
 }
 

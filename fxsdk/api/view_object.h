@@ -11,16 +11,16 @@
 
 #include <memory_resource>
 #include <optional>
+#include <utility>
 #include <vector>
 
 struct FxView
 {
     FxView(FxScene* shown, const fx::render::ViewSettings& settings)
         : context(shown->context), scene(shown), marks(&context->memory), overlay(&context->memory),
-          renderer(context->device.get(), &context->schema, &context->memory, context->techniques.draws)
+          renderer(makeRenderer(*context))
     {
         setSettings(settings);
-        renderer.setAssets(&context->assets);
         scene->views.fetch_add(1);
     }
     ~FxView()
@@ -30,6 +30,31 @@ struct FxView
     }
     FxView(const FxView&) = delete;
     FxView& operator=(const FxView&) = delete;
+
+    static fx::render::ViewRenderer makeRenderer(FxContext& context)
+    {
+        fx::render::ViewRenderer renderer(context.device.get(), &context.schema, &context.memory,
+                                          context.techniques.draws);
+        renderer.setAssets(&context.assets);
+        return renderer;
+    }
+
+    /// Shows another scene, by a renderer without data of the last scene. Strong guarantee.
+    void setScene(FxScene* shown)
+    {
+        fx::render::ViewRenderer empty = makeRenderer(*context);
+        empty.settings() = renderer.settings();
+        prepared.reset();
+        if (renderer.settings().overlay) {
+            shown->scene.wantMarks(true);
+            scene->scene.wantMarks(false);
+        }
+        renderer = std::move(empty);
+        shown->views.fetch_add(1);
+        scene->views.fetch_sub(1);
+        scene = shown;
+        sleeps = false;
+    }
 
     /// Replaces all settings except the host's lights. If the settings enable the activation overlay, the
     /// scene records the marks of the overlay.

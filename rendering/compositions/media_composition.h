@@ -52,6 +52,8 @@ struct MediaComposition
     bool needsOrder = true;
     /// True: the composition draws the tiles of balls, see BallList::tiles. False: techniques must give none.
     bool drawsTiles = false;
+    /// True: the picture depends on which balls have been culled, because grids are fitted to the others.
+    bool fitsToVisible = false;
     /// Creates the composition's state in a view. Null: the composition has no state, and the media pass
     /// draws all streams.
     std::unique_ptr<CompositionView> (*create)(const TechniqueSetup& setup) = nullptr;

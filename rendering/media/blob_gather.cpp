@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fx::render {
 
@@ -150,6 +151,12 @@ public:
 
     /// Whether what is beside the view is left out.
     void cullToView(bool isCulled) { isCulled_ = isCulled; }
+    /// A second camera, whose view is not culled.
+    void alsoShowTo(const CameraGeometry& other)
+    {
+        otherVolume_.emplace(other);
+        toOther_ = glm::vec3(camera_.eye - other.eye);
+    }
     /// Whether the blobs of the next groups stand for the bricks of a volume, of which none may be left out.
     void standForBricks(bool areBricks) { areBricks_ = areBricks; }
 
@@ -266,7 +273,8 @@ private:
             blob.center = head - streak * (float(k) / float(line.count));
             blob.crossSection = section * line.shareOf(k);
             blob.rank = listRank(instance, id, k);
-            if (!isCulled_ || volume_.touches(blob.center, blob.radius))
+            if (!isCulled_ || volume_.touches(blob.center, blob.radius) ||
+                (otherVolume_ && otherVolume_->touches(blob.center + toOther_, blob.radius)))
                 visible_.push_back(blob);
             else
                 ++counts_.culled;
@@ -275,6 +283,8 @@ private:
 
     const CameraGeometry& camera_;
     ViewVolume volume_;
+    std::optional<ViewVolume> otherVolume_;
+    glm::vec3 toOther_{0.0f}; ///< [m] from places relative to the eye to those relative to the other eye
     float pixelsPerSlope_;
     float share_;
     LevelOfDetail* lod_;
@@ -369,7 +379,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share, LevelOfDetail* lod,
                          ImpostorField* impostors, bool castsShadows, FieldGather* outFields,
-                         std::span<const LateBalls> late)
+                         std::span<const LateBalls> late, const CameraGeometry* otherEye)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -380,6 +390,8 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
     const float stepSeconds =
         snapshots.older ? float(base::toSeconds(newer.tick() - snapshots.older->tick())) : 0.0f;
     GroupGather gather(camera, height, share, lod, outVisible, outMedium, counts);
+    if (otherEye)
+        gather.alsoShowTo(*otherEye);
     FarCasters far;
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         if (newer.name(g).kind != kind)

@@ -85,12 +85,13 @@ struct GatherCounts
 ///     drawn as impostors of effects
 /// @param outFields receives the detail and the volumes of groups, and runs of blobs; may be null. Blobs that
 ///     stand for a volume are then not thinned, and cast shadows as balls that their bricks contain
+/// @param otherEye camera whose view is not culled either; null: none
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share = 1.0f,
                          LevelOfDetail* lod = nullptr, ImpostorField* impostors = nullptr,
                          bool castsShadows = true, FieldGather* outFields = nullptr,
-                         std::span<const LateBalls> late = {});
+                         std::span<const LateBalls> late = {}, const CameraGeometry* otherEye = nullptr);
 
 } // namespace fx::render

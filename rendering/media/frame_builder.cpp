@@ -48,7 +48,8 @@ FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
                          const ViewSettings& settings, const CameraGeometry& camera, LevelOfDetail& lod,
-                         uint64_t content, bool castsShadows, bool isSorted, std::span<const LateBalls> late)
+                         uint64_t content, bool castsShadows, bool isSorted, std::span<const LateBalls> late,
+                         const CameraGeometry* otherEye)
 {
     gathered_.clear();
     casters_.clear();
@@ -61,11 +62,36 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
     beginImpostors(request, settings, camera, content);
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
                           casters_, instances_, settings.particleShare, &lod, &impostors_, castsShadows,
-                          isSorted ? nullptr : &fields_, late);
+                          isSorted ? nullptr : &fields_, late, otherEye);
     impostors_.end();
     shade(settings, camera, isSorted);
     sort(camera, isSorted);
     sortImpostors(camera);
+    eye_ = camera.eye;
+    isSorted_ = isSorted;
+}
+
+void FrameBuilder::turnTo(const CameraGeometry& camera)
+{
+    const glm::dvec3 way = eye_ - camera.eye;
+    const glm::vec3 step(way);
+    for (BlobInstance& blob : shaded_) {
+        blob.centerRadius += glm::vec4(step, 0.0f);
+        blob.lit += glm::vec4(step, 0.0f);
+    }
+    for (MediumCaster& caster : casters_)
+        caster.center += step;
+    for (BlobEffect& effect : effects_) {
+        effect.low += step;
+        effect.high += step;
+    }
+    for (GroupDetail& detail : fields_.details)
+        for (int i = 0; i < 2; ++i)
+            detail.first[i] -= detail.toCells[i] * step;
+    for (GroupVolume& volume : fields_.volumes)
+        volume.first -= volume.toVoxels * way;
+    eye_ = camera.eye;
+    sort(camera, isSorted_);
 }
 
 void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSettings& settings,

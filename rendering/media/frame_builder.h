@@ -30,9 +30,15 @@ public:
     /// @param castsShadows see gatherBlobs()
     /// @param late see gatherBlobs()
     /// @param isSorted true: blobs() are sorted by distance; false: by group and id
+    /// @param otherEye camera of the other eye, to which turnTo() will be called; null: none
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
                const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0,
-               bool castsShadows = true, bool isSorted = true, std::span<const LateBalls> late = {});
+               bool castsShadows = true, bool isSorted = true, std::span<const LateBalls> late = {},
+               const CameraGeometry* otherEye = nullptr);
+
+    /// Shows the blobs of the last build() to the camera that was its `otherEye`. Blobs are moved and sorted
+    /// anew, not gathered and shaded. Impostors are not supported.
+    void turnTo(const CameraGeometry& camera);
 
     /// Blobs, sorted by decreasing distance. If build() had isSorted = false, blobs are sorted by group and
     /// id.
@@ -108,6 +114,8 @@ private:
     uint64_t lightingRevision_ = 0;
     bool mustForget_ = false;
     GatherCounts counts_;
+    glm::dvec3 eye_{0.0}; ///< [m] world, to which the lists are relative
+    bool isSorted_ = true;
     std::span<const uint32_t> order_;
     bool isParallel_ = false;
     bool anyHeat_ = false;

@@ -62,6 +62,8 @@ struct GatherInputs
     /// True: balls must be sorted, farthest first, because they are blended over each other.
     bool needsOrder = true;
     bool drawsTiles = false; ///< true: balls may have tiles, see BallList::tiles
+    /// Camera of the second eye, for which gatherOtherEye() will be called; null: a frame of one eye.
+    const CameraGeometry* otherEye = nullptr;
 };
 
 /// Data that techniques have gathered for a frame. The view calls gather() of its techniques in the order of
@@ -134,6 +136,9 @@ public:
     virtual base::Status begin(const ViewSettings&) { return {}; }
     /// Gathers the visible data of a frame, and adds its streams and shadow casters to the GatheredFrame.
     virtual base::Status gather(const GatherInputs&, GatheredFrame&) { return {}; }
+    /// Gathers the data of the second eye of a stereo frame. Inputs differ from those of gather() only in
+    /// camera and targets, so that a technique can reuse what does not depend on the camera.
+    virtual base::Status gatherOtherEye(const GatherInputs& in, GatheredFrame& io) { return gather(in, io); }
     /// The view calls this function instead of gather() if the frame reuses the data of the last frame.
     virtual void keep() {}
     /// True if a frame with the same inputs would give the same picture as the last frame.

@@ -30,6 +30,17 @@ struct PreparedFrame
     uint32_t programsCompiled;
 };
 
+/// State of a frame of two eyes, which are drawn one after the other.
+struct StereoFrame
+{
+    /// Camera of the second eye while the first eye is drawn; otherwise null.
+    const CameraGeometry* otherCamera = nullptr;
+    bool isSecond = false;    ///< true: the second eye is drawn
+    bool hasLists = false;    ///< true: the lists have been gathered for both eyes
+    glm::dvec3 firstEye{0.0}; ///< [m] world, eye that the level of detail depends on
+    int divisor = 1;          ///< divisor of the layers of the first eye
+};
+
 struct ViewRenderer::Impl
 {
     Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
@@ -92,6 +103,7 @@ struct ViewRenderer::Impl
     /// Key of the gathered lists and of the data on the GPU; without a value, the lists and data are invalid.
     std::optional<FrameKey> key;
     bool keptLists = false; ///< true: this frame has reused the lists
+    StereoFrame stereo;
     std::optional<PreparedFrame> prepared;
     bool hasLights = false;                       ///< true: `lights` are valid for the last frame
     std::pmr::vector<std::string_view> passNames; ///< passes that the last frame executed

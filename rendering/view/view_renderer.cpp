@@ -26,14 +26,14 @@ uint64_t contentOf(const RevisionPair& revisions, double interpolation)
                           moment);
 }
 
-/// Differs where the casters of a frame differ in the world: level of detail depends on the camera.
-uint64_t casterRevision(const GatherInputs& in)
+/// Differs where the casters of a frame differ in the world: level of detail depends on the eye.
+uint64_t casterRevision(const GatherInputs& in, const glm::dvec3& eye)
 {
     const LodSettings& lod = in.settings->lod;
     uint64_t revision = base::hashWord(in.content, std::bit_cast<uint32_t>(in.settings->particleShare));
     if (lod.bias > 0.0f || lod.impostorPixels > 0.0f)
         for (int i = 0; i < 3; ++i)
-            revision = base::hashWord(revision, std::bit_cast<uint64_t>(in.camera->eye[i]));
+            revision = base::hashWord(revision, std::bit_cast<uint64_t>(eye[i]));
     const bool hasTiles = in.drawsTiles && in.settings->blocks.parallax > 0.0f && in.settings->outputs == 0;
     return base::hashWord(revision, uint64_t(hasTiles)); // blocks of very many balls cast as single balls
 }
@@ -98,7 +98,7 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
 {
     const RevisionPair now = revisions.revisionsOf(snapshots);
     const FrameKey wanted = frameKey(now, request, settings, assets);
-    keptLists = key == wanted && !request.resetHistory;
+    keptLists = key == wanted && !request.resetHistory && !stereo.otherCamera;
     if (keptLists) {
         lights.keep();
         for (const auto& part : parts)
@@ -128,7 +128,13 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                                             const FrameRequest& request, const ViewSettings& settings)
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
-    lod.begin(settings.lod, camera, request.targets.height, request.resetHistory);
+    const bool isOtherEye = stereo.isSecond && stereo.hasLists;
+    const bool sharesLists = !composing->fitsToVisible && !settings.slices.network;
+    stereo.hasLists = false;
+    if (!isOtherEye) {
+        lod.begin(settings.lod, camera, request.targets.height, request.resetHistory);
+        stereo.firstEye = camera.eye;
+    }
     glowCount = snapshots.newer ? render::effectLights(*snapshots.newer, glows, techniques) : 0;
     const GatherInputs inputs{&snapshots,
                               now,
@@ -143,25 +149,30 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               contentOf(now, request.interpolation),
                               castsShadows(settings, glowCount),
                               composing->needsOrder,
-                              composing->drawsTiles};
+                              composing->drawsTiles,
+                              sharesLists ? stereo.otherCamera : nullptr};
     streams.clear();
     solids.clear();
     mediaBatches = {};
     casters.clear();
     GatheredFrame gathered{&streams, &casters};
     for (const auto& part : parts)
-        if (base::Status status = part->gather(inputs, gathered); !status)
+        if (base::Status status = isOtherEye && sharesLists ? part->gatherOtherEye(inputs, gathered)
+                                                            : part->gather(inputs, gathered);
+            !status)
             return status;
     for (const auto& part : parts)
         if (const MediaSource* source = part->solids())
             solids.push_back(source);
-    const LightListInputs lit{&settings, camera.eye, inputs.lights, casters, request.resetHistory};
+    const LightListInputs lit{&settings, camera.eye,           inputs.lights,
+                              casters,   request.resetHistory, isOtherEye};
     const bool isUsed =
         (composition && composition->hasMedia()) || !streams.empty() || !solids.empty() || !casters.empty();
-    if (base::Status status = lights.gather(lit, casterRevision(inputs), isUsed); !status)
+    if (base::Status status = lights.gather(lit, casterRevision(inputs, stereo.firstEye), isUsed); !status)
         return status;
     fragments = gathered.fragments;
     mediaBatches = batcher.build(streams);
+    stereo.hasLists = stereo.otherCamera != nullptr;
     return {};
 }
 
@@ -171,6 +182,8 @@ ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema,
 {}
 
 ViewRenderer::~ViewRenderer() = default;
+ViewRenderer::ViewRenderer(ViewRenderer&&) noexcept = default;
+ViewRenderer& ViewRenderer::operator=(ViewRenderer&&) noexcept = default;
 
 void ViewRenderer::setAssets(const base::AssetTable* assets)
 {
@@ -333,8 +346,10 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     s.lights.setSunShadow(asked.sunShadow, asked.camera.origin);
     s.timer.beginFrame(s.clock, s.tag);
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
-    const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
-                                            asked.resetHistory);
+    if (!s.stereo.isSecond)
+        s.stereo.divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
+                                               asked.resetHistory);
+    const int divisor = s.stereo.divisor;
     base::Status status;
     try {
         status = s.draw(seen, settings_, divisor);

@@ -46,8 +46,8 @@ public:
     ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                  DrawTechniques techniques = drawTechniques());
     ~ViewRenderer();
-    ViewRenderer(const ViewRenderer&) = delete;
-    ViewRenderer& operator=(const ViewRenderer&) = delete;
+    ViewRenderer(ViewRenderer&&) noexcept;
+    ViewRenderer& operator=(ViewRenderer&&) noexcept;
 
     DrawTechniques techniques() const;
 
@@ -59,6 +59,13 @@ public:
 
     /// Draws `snapshots` over the host's picture. On failure the picture and the GL state do not change.
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
+
+    /// Draws two eyes, as render() draws each of them. Data that do not depend on the camera are gathered,
+    /// uploaded and computed once: level of detail, lights and glare follow the first eye. If it fails, the
+    /// picture of the first eye may have changed.
+    /// @param second times, moment and history are those of `first`
+    base::Status renderStereo(const base::SnapshotPair& snapshots, const FrameRequest& first,
+                              const FrameRequest& second);
 
     /// Gathers a frame and fills its light slices. The host can then draw surfaces with media shadows before
     /// it calls render(). render() reuses the result if its request differs only in targets and times.

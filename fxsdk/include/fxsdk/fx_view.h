@@ -351,6 +351,27 @@ FX_API FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 ///         GL state do not change.
 FX_API FxResult fxView_Render(FxView* view, const FxFrameDef* frame);
 
+/// Draws both eyes of a head-mounted or stereoscopic display, each over its own picture. Both eyes show the
+/// same moment. Blobs are gathered and shaded once, particles are uploaded and computed on the GPU once, and
+/// light slices are filled once; sorting and drawing are done for each eye. The picture of an eye is that of
+/// fxView_Render() with its frame, within 1/255, except for what follows the first eye: level of detail, and
+/// the strength of glare unless resetHistory is 1; eyes are at most some centimeters apart.
+/// settings.budgetMilliseconds and times of quality are those of the first eye. Counters of passes, draw
+/// calls, GL calls, programs, uploads and sorting are sums, other counters are those of the second eye.
+/// settings.layerOutputs and settings.outputs must be 0. [GL thread]
+/// @param first  frame of one eye, also with moment, deltaTime, resetHistory and holdQuality of both
+/// @param second frame of the other eye; it may name the same targets at another viewport
+/// @return as fxView_Render(). If the second eye fails after its arguments were found valid, the picture of
+///         the first eye has changed
+FX_API FxResult fxView_RenderStereo(FxView* view, const FxFrameDef* first, const FxFrameDef* second);
+
+/// Shows another scene of the same context from the next frame on. Settings and lights of the view are kept.
+/// What belongs to the last scene, such as the history of glare, impostors and layer textures, is released.
+/// [GL thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or a scene of another context), FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. On failure the view does not change.
+FX_API FxResult fxView_SetScene(FxView* view, FxScene* scene);
+
 /// Reads the counters of the last frame. [GL thread]
 /// @param ioStatistics structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,

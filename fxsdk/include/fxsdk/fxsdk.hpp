@@ -295,6 +295,11 @@ public:
 
     void setSettings(const FxViewSettings& settings) { check(fxView_SetSettings(get(), &settings)); }
     void render(const FxFrameDef& frame) { check(fxView_Render(get(), &frame)); }
+    void renderStereo(const FxFrameDef& first, const FxFrameDef& second)
+    {
+        check(fxView_RenderStereo(get(), &first, &second));
+    }
+    void setScene(const Scene& scene) { check(fxView_SetScene(get(), scene.get())); }
 
     FxViewStatistics statistics()
     {

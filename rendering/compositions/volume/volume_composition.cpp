@@ -51,6 +51,7 @@ constexpr MediaComposition kVolumeComposition{
     .value = Composition::Volume,
     .meaning = "balls of an effect summed up in voxels, through which rays march; no order of balls is seen",
     .needsOrder = false,
+    .fitsToVisible = true,
     .create = create,
     .programs = programs,
     .timedPasses = kTimed,

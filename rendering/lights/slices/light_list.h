@@ -72,6 +72,8 @@ struct LightListInputs
     std::span<const EffectLight> effects; ///< lights of the effects, brightest first
     std::span<const MediumCaster> casters;
     bool resetsHistory = false; ///< true: planes do not cross-fade from the planes of the last frame
+    /// True: these are the inputs of the last frame for another eye, and cross-fades do not advance.
+    bool isOtherEye = false;
 };
 
 /// The lights of a frame, in the order in which they get planes. The sun comes first, then point lights by

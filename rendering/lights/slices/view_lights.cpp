@@ -50,7 +50,7 @@ bool ViewLights::buildBehind(const LightListInputs& in)
         caster.center += glm::vec3(heldEye_ - in.eye);
     LightListInputs held = in;
     held.casters = shifted_;
-    list_.build(held);
+    in.isOtherEye ? list_.rebuild(held) : list_.build(held);
     return keyOf(heldRevision_, held, list_) == filled_;
 }
 
@@ -69,15 +69,11 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters, boo
     isKept_ = false;
     eye_ = in.eye;
     const bool areMoving = casters != std::exchange(givenRevision_, casters);
-    if (areMoving && heldRevision_ != casters && mayWait(in)) {
-        isBehind_ = buildBehind(in);
-        if (isBehind_)
-            return isUsed ? makeRoom() : base::Status();
-        list_.rebuild(in);
-    } else {
-        isBehind_ = false;
-        list_.build(in);
-    }
+    const bool waits = in.isOtherEye ? isBehind_ : areMoving && heldRevision_ != casters && mayWait(in);
+    isBehind_ = waits && buildBehind(in);
+    if (isBehind_)
+        return isUsed ? makeRoom() : base::Status();
+    waits || in.isOtherEye ? list_.rebuild(in) : list_.build(in);
     wanted_ = keyOf(casters, in, list_);
     if (wanted_ != filled_) {
         hold(in, casters);

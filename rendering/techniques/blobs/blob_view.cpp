@@ -18,11 +18,25 @@ BlobView::BlobView(const TechniqueSetup& setup) : device_(*setup.device), builde
 
 base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
 {
+    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content, in.castsShadows,
+                   in.needsOrder, io.late, in.otherEye);
+    return handOut(in, io);
+}
+
+/// Tiles of blocks and impostors are chosen for one camera.
+base::Status BlobView::gatherOtherEye(const GatherInputs& in, GatheredFrame& io)
+{
+    if (!io.late.empty() || in.settings->lod.impostorPixels > 0.0f)
+        return gather(in, io);
+    builder_.turnTo(*in.camera);
+    return handOut(in, io);
+}
+
+base::Status BlobView::handOut(const GatherInputs& in, GatheredFrame& io)
+{
     isKept_ = false;
     restingFrames_ = 0;
     const HostTargets& targets = in.request->targets;
-    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content, in.castsShadows,
-                   in.needsOrder, io.late);
     io.blobs = builder_.blobs();
     io.effects = builder_.effects();
     io.marks = builder_.marks();

@@ -17,6 +17,7 @@ public:
     explicit BlobView(const TechniqueSetup& setup);
 
     base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
+    base::Status gatherOtherEye(const GatherInputs& in, GatheredFrame& io) override;
     void keep() override;
     bool isSettled() const override { return builder_.isSettled(); }
     void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
@@ -29,6 +30,7 @@ public:
     uint64_t bytes() const override;
 
 private:
+    base::Status handOut(const GatherInputs& in, GatheredFrame& io);
     base::Status makeRoomForImpostors();
     void releaseBlobs();
     void releaseImpostors();
