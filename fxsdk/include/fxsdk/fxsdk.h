@@ -21,5 +21,6 @@
 #include "fxsdk/fx_view_frame.h"
 #include "fxsdk/fx_view_lights.h"
 #include "fxsdk/fx_view_quality.h"
+#include "fxsdk/fx_visibility.h"
 
 #endif
