@@ -105,6 +105,11 @@ base::Result<GlAtlas> GlAssetCache::makeAtlas(const base::ImageAsset& image, int
     gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &atlas.texture);
     gl.TextureStorage3D(atlas.texture, levels, image.isSrgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, atlas.width,
                         atlas.height, atlas.frames);
+    if (base::Status status = device_.takeError(what); !status) {
+        gl.DeleteTextures(1, &atlas.texture);
+        return status;
+    }
+    uint64_t bytes = 0;
     const UnpackScope unpack(gl);
     std::vector<uint8_t> texels;
     std::vector<uint8_t> smaller;
@@ -116,7 +121,7 @@ base::Result<GlAtlas> GlAssetCache::makeAtlas(const base::ImageAsset& image, int
         for (int level = 0; level < levels; ++level) {
             gl.TextureSubImage3D(atlas.texture, level, 0, 0, frame, width, height, 1, GL_RGBA,
                                  GL_UNSIGNED_BYTE, texels.data());
-            bytes_ += texels.size();
+            bytes += texels.size();
             base::halveImage(texels, width, height, image.isSrgb, smaller);
             texels.swap(smaller);
             width = std::max(width / 2, 1);
@@ -127,6 +132,7 @@ base::Result<GlAtlas> GlAssetCache::makeAtlas(const base::ImageAsset& image, int
         gl.DeleteTextures(1, &atlas.texture);
         return status;
     }
+    bytes_ += bytes;
     gl.ObjectLabel(GL_TEXTURE, atlas.texture, -1, "particle frames");
     return atlas;
 }

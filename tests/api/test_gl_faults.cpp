@@ -1,0 +1,228 @@
+// Each call of OpenGL that can fail fails once: a frame is drawn, or the picture is the host's, nothing
+// leaks, and the next frame is drawn.
+#include "tests/api/gl_faults.h"
+#include "tests/api/view_fixture.h"
+#include "tests/rendering/gl/gl_host_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace {
+
+using fx::render::GlProbe;
+using Objects = std::map<std::string, int>;
+
+float largestDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+    float most = 0.0f;
+    for (size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+}
+
+class GlFaultSweep : public fx::test::ViewApiTest
+{
+protected:
+    GlFaultSweep() : faults_(gl_->loader()), states_(gl_->loader()) {}
+
+    FxContext* makeContext()
+    {
+        FxContextDef def = fxDefaultContextDef();
+        def.workers = 1;
+        def.allocator = blocks_.hooks();
+        def.gl = faults_.hooks();
+        FxContext* context = nullptr;
+        const FxResult result = fxCreateContext(&def, &context);
+        EXPECT_EQ(result == FX_OK, context != nullptr);
+        return context;
+    }
+    FxScene* makeScene(FxContext* context, std::initializer_list<const char*> presets)
+    {
+        FxScene* scene = nullptr;
+        const FxSceneDef def = fxDefaultSceneDef();
+        EXPECT_EQ(fxCreateScene(context, &def, &scene), FX_OK);
+        for (const char* preset : presets) {
+            FxInstanceDef instance = fxDefaultInstanceDef();
+            EXPECT_EQ(fxLoadPresetLibrary(context, preset, &instance.preset), FX_OK);
+            FxInstanceId id{};
+            EXPECT_EQ(fxScene_CreateInstance(scene, &instance, &id), FX_OK);
+        }
+        for (int i = 0; i < 20; ++i)
+            EXPECT_EQ(fxScene_Update(scene, fx::test::kFrame), FX_OK);
+        return scene;
+    }
+    FxViewSettings settings() const
+    {
+        FxViewSettings all = fxDefaultViewSettings();
+        for (int i = 0; i < 3; ++i) {
+            all.sunIlluminance[i] = 60'000.0f;
+            all.skyLuminance[i] = 4'000.0f;
+        }
+        all.composition = FX_COMPOSITION_AUTOMATIC;
+        return all;
+    }
+    /// A view that has not drawn yet draws; with a fault at call `n`, then without.
+    /// @return false: there were fewer calls that can fail
+    bool drawWithFault(FxContext* context, FxScene* scene, uint64_t n, bool ofCompilers)
+    {
+        SCOPED_TRACE("call " + std::to_string(n));
+        const FxViewSettings all = settings();
+        const FxFrameDef def = frame();
+        fillPicture();
+        const GlProbe before = states_.probe();
+        faults_.failAt(n, ofCompilers);
+        FxView* view = nullptr;
+        FxResult result = fxCreateView(context, scene, &all, &view);
+        if (result == FX_OK)
+            result = fxView_Render(view, &def);
+        const std::string failed = faults_.failed();
+        SCOPED_TRACE(failed);
+        const bool isOfTarget =
+            failed == "glCheckNamedFramebufferStatus" && result == FX_ERROR_INVALID_ARGUMENT;
+        EXPECT_TRUE(result == FX_OK || result == FX_ERROR_OUT_OF_MEMORY || result == FX_ERROR_GL_FAILED ||
+                    isOfTarget) // the host's target counts as one that cannot be drawn to
+
+            << result << " " << fxGetLastErrorMessage();
+        EXPECT_EQ(picture(), result == FX_OK ? wanted_ : empty_) << fxGetLastErrorMessage();
+        EXPECT_EQ(fx::render::differences(before, states_.probe()), std::vector<std::string>());
+        faults_.failAt(0, ofCompilers);
+        fillPicture();
+        if (view) {
+            EXPECT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
+            EXPECT_LE(largestDifference(picture(), wanted_), 1e-5f); // equal distances sort as before
+        }
+        EXPECT_EQ(fxDestroyView(view), FX_OK);
+        refused_ += result != FX_OK;
+        return !failed.empty();
+    }
+    Objects objects()
+    {
+        Objects all;
+        for (const char* kind :
+             {"Program", "Shader", "Texture", "Buffer", "Framebuffer", "VertexArray", "Sampler", "Query"})
+        {
+            const auto exists = reinterpret_cast<PFNGLISTEXTUREPROC>(
+                gl_->loader().getProcAddress(gl_->loader().user, (std::string("glIs") + kind).c_str()));
+            for (GLuint i = 1; i <= 1024; ++i)
+                all[kind] += exists(i) ? 1 : 0;
+        }
+        return all;
+    }
+    /// Draws without faults: the picture that all frames must have.
+    void learn(FxContext* context, FxScene* scene)
+    {
+        fillPicture();
+        empty_ = wanted_ = picture();
+        const FxViewSettings all = settings();
+        const FxFrameDef def = frame();
+        FxView* view = nullptr;
+        ASSERT_EQ(fxCreateView(context, scene, &all, &view), FX_OK);
+        ASSERT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
+        wanted_ = picture();
+        ASSERT_NE(wanted_, empty_);
+        ASSERT_EQ(fxDestroyView(view), FX_OK);
+    }
+
+    fx::test::HostAllocator blocks_;
+    fx::test::GlFaults faults_;
+    fx::render::GlHost states_;
+    std::vector<float> empty_, wanted_;
+    uint64_t refused_ = 0; ///< frames that have failed
+};
+
+} // namespace
+
+TEST_F(GlFaultSweep, ofMemoryAndFramebuffersLeavesPictureStatesAndObjects)
+{
+    FxContext* const context = makeContext();
+    ASSERT_NE(context, nullptr) << fxGetLastErrorMessage();
+    ASSERT_EQ(fxContext_WarmUp(context), FX_OK) << fxGetLastErrorMessage();
+    FxScene* const scene = makeScene(context, {"campfire", "debris", "magic-trail"});
+    learn(context, scene);
+    const Objects warm = objects();
+    uint64_t n = 1;
+    for (; drawWithFault(context, scene, n, false) && !HasFailure(); ++n)
+        ASSERT_EQ(objects(), warm) << n;
+    std::printf("%llu calls failed, %llu frames were refused\n", static_cast<unsigned long long>(n - 1),
+                static_cast<unsigned long long>(refused_));
+    EXPECT_GT(refused_, 20u);
+    ASSERT_EQ(fxDestroyContext(context), FX_OK);
+    EXPECT_EQ(blocks_.blocks(), 0);
+}
+
+TEST_F(GlFaultSweep, ofCompilersLeavesPictureStatesAndObjects)
+{
+    const Objects before = objects();
+    uint64_t n = 0;
+    for (bool hasFault = true; hasFault && !HasFailure(); ++n) {
+        FxContext* const context = makeContext();
+        ASSERT_NE(context, nullptr) << fxGetLastErrorMessage();
+        FxScene* const scene = makeScene(context, {"sparks"});
+        if (n == 0)
+            learn(context, scene);
+        else
+            hasFault = drawWithFault(context, scene, n, true);
+        ASSERT_EQ(fxDestroyContext(context), FX_OK);
+        ASSERT_EQ(objects(), before) << n;
+    }
+    std::printf("%llu calls failed, %llu frames were refused\n", static_cast<unsigned long long>(n - 2),
+                static_cast<unsigned long long>(refused_));
+    EXPECT_GT(refused_, 8u);
+    EXPECT_EQ(blocks_.blocks(), 0);
+}
+
+TEST_F(GlFaultSweep, aMissingFunctionIsNamed)
+{
+    ASSERT_EQ(fxDestroyContext(makeContext()), FX_OK);
+    const Objects before = objects();
+    const std::set<std::string> names = faults_.asked();
+    EXPECT_GT(names.size(), 100u);
+    for (const std::string& name : names) {
+        faults_.hide(name);
+        FxContext* const context = makeContext();
+        EXPECT_EQ(context, nullptr) << name;
+        EXPECT_NE(std::string(fxGetLastErrorMessage()).find(name), std::string::npos)
+            << fxGetLastErrorMessage();
+        fxDestroyContext(context);
+        ASSERT_EQ(objects(), before) << name;
+    }
+    EXPECT_EQ(blocks_.blocks(), 0);
+}
+
+TEST_F(GlFaultSweep, aTargetOfAnotherSizeInEachFrameLeaksNothing)
+{
+    FxContext* const context = makeContext();
+    ASSERT_EQ(fxContext_WarmUp(context), FX_OK) << fxGetLastErrorMessage();
+    FxScene* const scene = makeScene(context, {"campfire", "debris"});
+    const Objects warm = objects();
+    const FxViewSettings all = settings();
+    FxView* view = nullptr;
+    ASSERT_EQ(fxCreateView(context, scene, &all, &view), FX_OK);
+    const auto draw = [&](int width, int height) {
+        FxFrameDef def = frame();
+        def.width = width;
+        def.height = height;
+        return fxView_Render(view, &def);
+    };
+    uint64_t most = 0;
+    for (int i = 0; i < 80; ++i) {
+        ASSERT_EQ(draw(1 + i * 37 % kSize, 1 + i * 23 % kSize), FX_OK) << fxGetLastErrorMessage();
+        FxViewStatistics statistics{};
+        statistics.structSize = sizeof statistics;
+        ASSERT_EQ(fxView_GetStatistics(view, &statistics), FX_OK);
+        if (i < 40)
+            most = std::max(most, statistics.textureBytes);
+        EXPECT_LE(statistics.textureBytes, 2 * most) << i;
+    }
+    fillPicture();
+    const std::vector<float> before = picture();
+    for (const int size : {0, -1, kSize + 1, 16'384, 16'385, 1 << 30})
+        EXPECT_EQ(draw(size, kSize), FX_ERROR_INVALID_ARGUMENT) << size;
+    EXPECT_EQ(picture(), before);
+    EXPECT_EQ(draw(kSize, kSize), FX_OK) << fxGetLastErrorMessage();
+    ASSERT_EQ(fxDestroyView(view), FX_OK);
+    EXPECT_EQ(objects(), warm);
+    ASSERT_EQ(fxDestroyContext(context), FX_OK);
+}
