@@ -266,8 +266,10 @@ MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume
         const double p = moment.part;
         out.extinction_[v] = float((1.0 - p) * left * a.extinction + p * arrived * b.extinction); // (5)
         out.scattered_[v] = glm::vec3((1.0 - p) * left * a.scattered + p * arrived * b.scattered);
-        if (emits)
-            out.emitted_[v] = glm::vec3((1.0 - p) * left * a.emitted + p * arrived * b.emitted);
+        for (int c = 0; emits && c < 3; ++c)
+            out.emitted_[v][c] = float(formula64::fxFlowLight((1.0 - p) * left * a.extinction, a.emitted[c],
+                                                              p * arrived * b.extinction, b.emitted[c],
+                                                              a.extinction, b.extinction)); // (7)
     }
     out.findLargest();
     return out;

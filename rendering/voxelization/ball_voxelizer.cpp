@@ -1,5 +1,9 @@
 #include "rendering/voxelization/ball_voxelizer.h"
 
+#include "rendering/optics/color_temperature.h"
+#include "rendering/volumes/escape_depth.h"
+#include "rendering/voxelization/block_table.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +18,8 @@ constexpr double kSamplesPerRadius = 4.0; // at least
 constexpr double kSummedSamples = 32.0;   // per radius, up to which the weights are summed one by one
 constexpr int kPadded = kBlockSide + 2;   // a block and one voxel more on each side
 constexpr int kMaxAlong = 24;             // samples along an axis that reach into one block
-constexpr size_t kSums = 9;               // density, temperature, flame, velocity, albedo
-constexpr uint32_t kMinBalls = 256;       // of a task
+constexpr int kPaddedVoxels = kPadded * kPadded * kPadded;
+constexpr uint32_t kMinBalls = 256; // of a task
 
 double samplesAlongVoxel(double radius)
 {
@@ -52,12 +56,16 @@ struct AxisSamples
     }
 };
 
+/// Escape depths of the voxels of a block and of its border.
+using PaddedDepths = std::array<float, kPaddedVoxels>;
+
 /// Weights (2) of one ball, assigned to the voxels of a block and of its border.
 class BallWeights
 {
 public:
+    /// @param depths null: all samples are seen alike
     /// @return whether the ball has samples near the block
-    bool assign(const VoxelBall& ball, double voxelSize, const glm::ivec3& origin)
+    bool assign(const VoxelBall& ball, double voxelSize, const glm::ivec3& origin, const PaddedDepths* depths)
     {
         const double radius = ball.radius / voxelSize;
         const glm::dvec3 center = ball.center / voxelSize;
@@ -70,19 +78,25 @@ public:
                 z.cell[size_t(z.count - 1)] + 1};
         for (int i = low.x; i <= high.x; ++i)
             for (int j = low.y; j <= high.y; ++j)
-                std::fill(row(i, j) + low.z, row(i, j) + high.z + 1, 0.0);
+                for (std::array<double, kPaddedVoxels>* weights : {&weights_, &seen_})
+                    std::fill(&(*weights)[at(i, j, low.z)], &(*weights)[at(i, j, high.z)] + 1, 0.0);
+        depths_ = depths;
         for (size_t a = 0; a < size_t(x.count); ++a)
             for (size_t b = 0; b < size_t(y.count); ++b)
                 assignRow(x, a, y, b, z);
         return true;
     }
 
-    const double* row(int i, int j) const { return &weights_[size_t(i * kPadded + j) * kPadded]; }
+    const double* row(int i, int j) const { return &weights_[at(i, j, 0)]; }
+    /// The same times the share of the light that leaves the medium. With depths only.
+    const double* seenRow(int i, int j) const { return &seen_[at(i, j, 0)]; }
 
     glm::ivec3 low{0}, high{0}; ///< what is assigned, of the padded block, both included
 
 private:
-    double* row(int i, int j) { return &weights_[size_t(i * kPadded + j) * kPadded]; }
+    using Line = std::array<double, kPadded>;
+
+    static size_t at(int i, int j, int k) { return size_t((i * kPadded + j) * kPadded + k); }
 
     /// All samples with the numbers a along x and b along y.
     void assignRow(const AxisSamples& x, size_t a, const AxisSamples& y, size_t b, const AxisSamples& z)
@@ -90,72 +104,131 @@ private:
         const double inside = 1.0 - x.square[a] - y.square[b];
         if (inside <= 0.0)
             return;
-        std::array<double, kPadded> line{};
+        std::array<double, 4> shares; // (3)
+        for (int k = 0; k < 4; ++k)
+            shares[size_t(k)] =
+                (k / 2 == 1 ? x.above[a] : 1.0 - x.above[a]) * (k % 2 == 1 ? y.above[b] : 1.0 - y.above[b]);
+        Line depths{};
+        for (int k = 0; depths_ && k < 4; ++k)
+            for (int l = low.z; l <= high.z; ++l)
+                depths[size_t(l)] +=
+                    shares[size_t(k)] * double((*depths_)[at(x.cell[a] + k / 2, y.cell[b] + k % 2, l)]);
+        Line line{}, seen{};
         for (size_t c = 0; c < size_t(z.count); ++c) {
             const double q = std::max(inside - z.square[c], 0.0);
             const double weight = q * q; // (2)
-            line[size_t(z.cell[c])] += weight * (1.0 - z.above[c]);
-            line[size_t(z.cell[c]) + 1] += weight * z.above[c];
+            const size_t cell = size_t(z.cell[c]);
+            line[cell] += weight * (1.0 - z.above[c]);
+            line[cell + 1] += weight * z.above[c];
+            if (!depths_)
+                continue;
+            const double depth = depths[cell] + z.above[c] * (depths[cell + 1] - depths[cell]);
+            const double leaving = weight * double(std::exp(-float(depth)));
+            seen[cell] += leaving * (1.0 - z.above[c]);
+            seen[cell + 1] += leaving * z.above[c];
         }
-        for (int i = 0; i < 2; ++i)
-            for (int j = 0; j < 2; ++j) {
-                const double share = (i == 1 ? x.above[a] : 1.0 - x.above[a]) *
-                                     (j == 1 ? y.above[b] : 1.0 - y.above[b]); // (3)
-                double* const target = row(x.cell[a] + i, y.cell[b] + j);
-                for (int k = low.z; k <= high.z; ++k)
-                    target[k] += share * line[size_t(k)];
-            }
+        for (int k = 0; k < 4; ++k) {
+            const size_t first = at(x.cell[a] + k / 2, y.cell[b] + k % 2, 0);
+            for (int l = low.z; l <= high.z; ++l)
+                weights_[first + size_t(l)] += shares[size_t(k)] * line[size_t(l)];
+            for (int l = low.z; depths_ && l <= high.z; ++l)
+                seen_[first + size_t(l)] += shares[size_t(k)] * seen[size_t(l)];
+        }
     }
 
-    std::array<double, kPadded * kPadded * kPadded> weights_{};
+    std::array<double, kPaddedVoxels> weights_{}, seen_{};
+    const PaddedDepths* depths_ = nullptr;
 };
+
+/// [1/m] Density of a ball for a weight of 1. @param norm 1 / N
+double densityOf(const VoxelBall& ball, double norm, double voxelSize)
+{
+    return ball.crossSection * norm / (voxelSize * voxelSize * voxelSize); // (3)
+}
+
+/// Calls add(k, weight, seen) for the voxels of a block.
+/// @param seen whether samples are weighted with what leaves the medium
+template <class Add>
+void forVoxels(const BallWeights& weights, bool seen, const Add& add)
+{
+    const int firstZ = std::max(weights.low.z, 1), lastZ = std::min(weights.high.z, kBlockSide);
+    for (int i = std::max(weights.low.x, 1); i <= std::min(weights.high.x, kBlockSide); ++i)
+        for (int j = std::max(weights.low.y, 1); j <= std::min(weights.high.y, kBlockSide); ++j) {
+            const double* const from = seen ? weights.seenRow(i, j) : weights.row(i, j);
+            const size_t to = size_t(((i - 1) * kBlockSide + j - 1) * kBlockSide);
+            for (int k = firstZ; k <= lastZ; ++k)
+                add(to + size_t(k - 1), from[k]);
+        }
+}
 
 /// Sums over the balls of a block.
 class BlockSums
 {
 public:
-    /// @param norm 1 / N
-    void add(const VoxelBall& ball, double norm, double voxelSize, const BallWeights& weights)
+    /// @param density densityOf() the ball  @param red [cd/m2] of its light
+    void add(const VoxelBall& ball, double density, double red, const BallWeights& weights, bool hasDepths)
     {
-        const double density = ball.crossSection * norm / (voxelSize * voxelSize * voxelSize); // (3)
-        const std::array<double, kSums> values{density,
-                                               density * ball.temperature,
-                                               density * ball.luminance,
-                                               density * ball.velocity.x,
-                                               density * ball.velocity.y,
-                                               density * ball.velocity.z,
-                                               density * ball.albedo.x,
-                                               density * ball.albedo.y,
-                                               density * ball.albedo.z};
-        const int firstZ = std::max(weights.low.z, 1), lastZ = std::min(weights.high.z, kBlockSide);
-        for (int i = std::max(weights.low.x, 1); i <= std::min(weights.high.x, kBlockSide); ++i)
-            for (int j = std::max(weights.low.y, 1); j <= std::min(weights.high.y, kBlockSide); ++j) {
-                const double* const from = weights.row(i, j);
-                const size_t to = size_t(((i - 1) * kBlockSide + j - 1) * kBlockSide);
-                for (size_t s = 0; s < kSums; ++s)
-                    for (int k = firstZ; k <= lastZ; ++k)
-                        sums_[s][to + size_t(k - 1)] += values[s] * from[k];
-            }
+        const std::array<double, kMeans> values{
+            density,
+            density * ball.temperature,
+            density * ball.velocity.x,
+            density * ball.velocity.y,
+            density * ball.velocity.z,
+            density * ball.albedo.x,
+            density * ball.albedo.y,
+            density * ball.albedo.z,
+        };
+        for (size_t s = 0; s < kMeans; ++s)
+            forVoxels(weights, false, [&](size_t v, double weight) { means_[s][v] += values[s] * weight; });
+        const std::array<double, kLights> lights{density, density * ball.luminance, density * red};
+        for (size_t s = 0; s < kLights; ++s)
+            if (lights[s] > 0.0)
+                forVoxels(weights, hasDepths,
+                          [&](size_t v, double weight) { lights_[s][v] += lights[s] * weight; });
     }
 
     void write(VoxelBlock& out) const
     {
         for (size_t v = 0; v < size_t(kBlockVoxels); ++v) {
-            const double density = sums_[0][v];
+            const double density = means_[0][v];
             const double share = density > 0.0 ? 1.0 / density : 0.0;
+            const double seen = lights_[0][v], light = lights_[1][v], red = lights_[2][v];
+            const auto mean = float(means_[1][v] * share);
             out.density[v] = float(density);
-            out.temperature[v] = float(sums_[1][v] * share);
-            out.flame[v] = float(sums_[2][v]);
-            out.velocity[v] = {float(sums_[3][v] * share), float(sums_[4][v] * share),
-                               float(sums_[5][v] * share)};
-            out.albedo[v] = {float(sums_[6][v] * share), float(sums_[7][v] * share),
-                             float(sums_[8][v] * share)};
+            out.flame[v] = float(seen > 0.0 ? density * light / seen : 0.0);
+            out.temperature[v] = light > 0.0 ? colorTemperature(float(red / light), mean) : mean;
+            out.velocity[v] = {float(means_[2][v] * share), float(means_[3][v] * share),
+                               float(means_[4][v] * share)};
+            out.albedo[v] = {float(means_[5][v] * share), float(means_[6][v] * share),
+                             float(means_[7][v] * share)};
         }
     }
 
 private:
-    std::array<std::array<double, kBlockVoxels>, kSums> sums_{};
+    static constexpr size_t kMeans = 8;  // density, temperature, velocity, albedo
+    static constexpr size_t kLights = 3; // density, luminance and red, as they are seen
+    std::array<std::array<double, kBlockVoxels>, kMeans> means_{};
+    std::array<std::array<double, kBlockVoxels>, kLights> lights_{};
 };
+
+/// @param places [block] of all blocks, rising
+void gatherDepths(std::span<const glm::ivec3> places, std::span<const float> depths, size_t block,
+                  PaddedDepths& out)
+{
+    std::array<size_t, 27> around;
+    for (int k = 0; k < 27; ++k)
+        around[size_t(k)] =
+            findBlock(places, places[block] + glm::ivec3(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1));
+    for (int v = 0; v < kPaddedVoxels; ++v) {
+        const glm::ivec3 in = glm::ivec3(v / (kPadded * kPadded), v / kPadded % kPadded, v % kPadded) - 1;
+        const glm::ivec3 step(in.x >> 3, in.y >> 3, in.z >> 3);
+        const size_t other = around[size_t(9 * (step.x + 1) + 3 * (step.y + 1) + step.z + 1)];
+        out[size_t(v)] =
+            other == kNoBlock
+                ? 0.0f
+                : depths[other * size_t(kBlockVoxels) + voxelInBlock(in.x & 7, in.y & 7, in.z & 7)];
+    }
+}
 
 } // namespace
 
@@ -178,12 +251,44 @@ double sampleNormalization(double radius)
 }
 
 BallVoxelizer::BallVoxelizer(std::span<const VoxelBall> balls, const BlockPlan& plan, base::TaskRunner& tasks)
-    : balls_(balls), plan_(plan), tasks_(tasks), normalization_(balls.size())
+    : balls_(balls), plan_(plan), tasks_(tasks), normalization_(balls.size()), red_(balls.size())
 {
     tasks_.parallelFor(uint32_t(balls.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t i = begin; i < end; ++i)
+        for (uint32_t i = begin; i < end; ++i) {
             normalization_[i] = sampleNormalization(balls_[i].radius / plan_.voxelSize());
+            red_[i] = balls_[i].luminance * double(blackBodyColor(float(balls_[i].temperature)).x);
+        }
     });
+}
+
+void BallVoxelizer::fillDensity(size_t block, std::span<float> out) const
+{
+    const auto weights = std::make_unique<BallWeights>();
+    const BlockPlan::Block& own = plan_.blocks()[block];
+    std::array<double, kBlockVoxels> sums{};
+    for (const uint32_t ball : plan_.balls().subspan(own.first, own.count))
+        if (weights->assign(balls_[ball], plan_.voxelSize(), own.origin, nullptr)) {
+            const double density = densityOf(balls_[ball], normalization_[ball], plan_.voxelSize());
+            forVoxels(*weights, false, [&](size_t v, double weight) { sums[v] += density * weight; });
+        }
+    std::ranges::transform(sums, out.begin(), [](double density) { return float(density); });
+}
+
+void BallVoxelizer::findEscapeDepths()
+{
+    if (std::ranges::none_of(balls_, [](const VoxelBall& ball) { return ball.luminance > 0.0; }))
+        return;
+    const size_t blocks = plan_.blocks().size();
+    std::vector<float> density(plan_.voxels());
+    tasks_.parallelFor(uint32_t(blocks), 1, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t b = begin; b < end; ++b)
+            fillDensity(b, std::span(density).subspan(b * size_t(kBlockVoxels), kBlockVoxels));
+    });
+    places_.clear();
+    for (const BlockPlan::Block& block : plan_.blocks())
+        places_.push_back(block.origin / kBlockSide); // multiples of it
+    escapeDepths_ =
+        escapeDepths({places_, {kBlockSide * kBlockSide, kBlockSide, 1}, density, plan_.voxelSize()});
 }
 
 void BallVoxelizer::fill(size_t first, size_t count, std::vector<VoxelBlock>& out) const
@@ -191,12 +296,21 @@ void BallVoxelizer::fill(size_t first, size_t count, std::vector<VoxelBlock>& ou
     out.resize(count);
     tasks_.parallelFor(uint32_t(count), 1, [&](uint32_t begin, uint32_t end) {
         const auto weights = std::make_unique<BallWeights>();
+        const auto depths = std::make_unique<PaddedDepths>();
         for (uint32_t i = begin; i < end; ++i) {
             const BlockPlan::Block& block = plan_.blocks()[first + i];
+            const auto list = plan_.balls().subspan(block.first, block.count);
+            const bool hasDepths = !escapeDepths_.empty() && std::ranges::any_of(list, [&](uint32_t ball) {
+                return balls_[ball].luminance > 0.0;
+            });
+            if (hasDepths)
+                gatherDepths(places_, escapeDepths_, first + i, *depths);
             const auto sums = std::make_unique<BlockSums>();
-            for (const uint32_t ball : plan_.balls().subspan(block.first, block.count))
-                if (weights->assign(balls_[ball], plan_.voxelSize(), block.origin))
-                    sums->add(balls_[ball], normalization_[ball], plan_.voxelSize(), *weights);
+            for (const uint32_t ball : list)
+                if (weights->assign(balls_[ball], plan_.voxelSize(), block.origin,
+                                    hasDepths ? depths.get() : nullptr))
+                    sums->add(balls_[ball], densityOf(balls_[ball], normalization_[ball], plan_.voxelSize()),
+                              red_[ball], *weights, hasDepths);
             out[i].origin = block.origin;
             sums->write(out[i]);
         }

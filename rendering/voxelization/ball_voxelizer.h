@@ -35,7 +35,9 @@ namespace fx::render {
 ///   The tents of all voxels sum to 1 at any point, so that h^3 sum_i rho_i = sigma. The sum of the tents
 ///   times i is the point itself, so that the mean of i weighted with rho_i is the mean of the samples,
 ///   which is c by symmetry.
-///   Means of temperature and velocity, and the emitted light, are sums over the balls weighted with (3).
+///   Means of temperature, velocity and albedo are sums over the balls weighted with (3), as is the emitted
+///   light where no escape depths are given. Otherwise the samples of a voxel that emits have in addition the
+///   weight exp(-t(x_a)) of formula escape-depth, of which (3) is the light of the voxel.
 /// @source    textbook; (3) is the assignment "cloud in cell" of particle-mesh methods
 /// @deviation for n R > 32, N is the integral of the kernel, 32 pi/105 (n R)^3, instead of the sum
 /// @valid     R > 0; |c| + R < 2^30
@@ -56,11 +58,20 @@ public:
     /// Fills `out` with the blocks [first, first + count) of the plan.
     void fill(size_t first, size_t count, std::vector<VoxelBlock>& out) const;
 
+    /// Sets the light of thick voxels to that of their sides that are seen from outside. Without a call of
+    /// this function, the light of a voxel is the mean of what the balls emit. Does nothing if no ball emits.
+    void findEscapeDepths();
+
 private:
+    void fillDensity(size_t block, std::span<float> out) const;
+
     std::span<const VoxelBall> balls_;
     const BlockPlan& plan_;
     base::TaskRunner& tasks_;
     std::vector<double> normalization_; ///< sampleNormalization() of each ball
+    std::vector<double> red_;           ///< [cd/m2] of the light of each ball
+    std::vector<float> escapeDepths_;   ///< of the voxels of all blocks; empty: not found
+    std::vector<glm::ivec3> places_;    ///< [block] coordinates of the blocks
 };
 
 } // namespace fx::render

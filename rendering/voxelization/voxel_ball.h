@@ -19,11 +19,12 @@ struct VoxelBall
     double radius = 0.0;       ///< [m] > 0
     double crossSection = 0.0; ///< [m2] integral of the ball's extinction over space, > 0
     double temperature = 0.0;  ///< [K]
-    double luminance = 0.0;    ///< [cd/m2] emitted luminance per optical depth
-    glm::dvec3 velocity{0.0};  ///< [m/s] velocity in the world
-    glm::dvec3 albedo{0.0};    ///< [1]
-    uint64_t id = 0;           ///< id of the ball in its effect
-    uint64_t instance = 0;     ///< instance of the effect in the scene
+    /// [cd/m2] Emitted luminance per optical depth. The color is that of a black body of the temperature.
+    double luminance = 0.0;
+    glm::dvec3 velocity{0.0}; ///< [m/s] velocity in the world
+    glm::dvec3 albedo{0.0};   ///< [1]
+    uint64_t id = 0;          ///< id of the ball in its effect
+    uint64_t instance = 0;    ///< instance of the effect in the scene
 };
 
 constexpr int kBlockSide = 8; ///< [voxel] side of a block
@@ -34,8 +35,9 @@ constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 struct VoxelBlock
 {
     glm::ivec3 origin{0}; ///< [voxel] index of the block's first voxel; multiples of kBlockSide
-    std::array<float, kBlockVoxels> density;      ///< [1/m] extinction
-    std::array<float, kBlockVoxels> temperature;  ///< [K] mean, weighted with the extinction
+    std::array<float, kBlockVoxels> density; ///< [1/m] extinction
+    /// [K] color temperature of the emitted light; without light the mean, weighted with the extinction
+    std::array<float, kBlockVoxels> temperature;
     std::array<float, kBlockVoxels> flame;        ///< [cd/m3] luminance that the medium emits per meter
     std::array<glm::vec3, kBlockVoxels> velocity; ///< [m/s] mean, weighted with the extinction
     std::array<glm::vec3, kBlockVoxels> albedo;   ///< [1] mean, weighted with the extinction

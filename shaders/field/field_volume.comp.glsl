@@ -157,7 +157,11 @@ VolumeSample volumeAt(vec3 place)
         share *= vec2(densityOf(moment.y, from), densityOf(-moment.z, to));
     }
     VolumeSample a = mediumAt(0, before), b = mediumAt(1, after);
-    return VolumeSample(share.x * a.medium + share.y * b.medium, share.x * a.scattered + share.y * b.scattered); // (5)
+    vec2 own = vec2(a.medium.a, b.medium.a), extinction = share * own; // (5)
+    vec3 light;
+    for (int c = 0; c < 3; ++c)
+        light[c] = fxFlowLight(extinction.x, a.medium[c], extinction.y, b.medium[c], own.x, own.y); // (7)
+    return VolumeSample(vec4(light, extinction.x + extinction.y), share.x * a.scattered + share.y * b.scattered);
 }
 #else
 VolumeSample volumeAt(vec3 place)

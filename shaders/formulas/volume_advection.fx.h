@@ -10,6 +10,8 @@
 ///   o      voxel/s  velocity where there are no voxels
 ///   d      1/s      divergence of the velocity
 ///   q      1        factor by which lengths grow
+///   k      1/m      extinction of both volumes at a and b, each with its factor of (5)
+///   S      cd/m2    source function: emitted light over extinction
 ///
 /// @derivation
 ///   The velocity of the medium at x is about that of both volumes there, each with its weight:
@@ -21,14 +23,20 @@
 ///   where v1 = m1 / e1, v2 = m2 / e2, and v(x) where they are not defined. If the medium expands alike in
 ///   all directions, grad v = d/3, a length grows by dx/da = q and a volume by its cube:
 ///       q = 1 + s d1(a) / 3,  for the second volume  q = 1 - u d2(b) / 3                        (4)
-///   within 0.8 to 1.25. The extinction, the emitted light and the scattering coefficient are
+///   within 0.8 to 1.25. The extinction and the scattering coefficient are
 ///       (1 - w) f1(a) / q1^3 + w f2(b) / q2^3                                                  (5)
+///   Emitted light is a steep function of the temperature T: that of a black body is about as T^n with n from
+///   12 at 2000 K to 25 at 1000 K in visible light. Matter that cools at an even rate has halfway the mean of
+///   both temperatures, not of both lights. So the source function of the moment is a mean of its 16th roots
+///       S^(1/16) = (k1 S1(a)^(1/16) + k2 S2(b)^(1/16)) / (k1 + k2)                             (6)
+///   and the emitted light (k1 + k2) S                                                         (7)
 ///   At w = 0 and w = 1 they are those of the volume itself.
 /// @source    [Stam99] section 2.2 for tracing places back through a flow; the rest is own
 /// @deviation places are traced with the velocity that the medium has in its own volume, not with a flow of
 ///            the moment between
 /// @valid     s |grad v| < 1. Medium is not seen where neither volume has voxels
-/// @accuracy  a medium with the flow x/t has its places up to (s/t)^2 of the way, and its density with them
+/// @accuracy  a medium with the flow x/t has its places up to (s/t)^2 of the way, and its density with them;
+///            luminance halfway between temperatures that differ by 15 %: 6 % from 1000 K to 3000 K
 /// @tests     tests/rendering/volumes/test_volume_moment.cpp
 FX_FORMULA(fxFlowWeight)(FX_REAL extinction)
 {
@@ -44,4 +52,25 @@ FX_FORMULA(fxFlowDensity)(FX_REAL seconds, FX_REAL d)
 {
     FX_REAL q = clamp(FX_REAL(1.0) + seconds * d / FX_REAL(3.0), FX_REAL(0.8), FX_REAL(1.25)); // (4)
     return FX_REAL(1.0) / (q * q * q);
+}
+
+FX_FORMULA(fxRoot16)(FX_REAL x)
+{
+    return sqrt(sqrt(sqrt(sqrt(x))));
+}
+
+/// @param k1, k2 extinction with their factors  @param j1, j2 emitted light, and e1, e2 extinction, without
+FX_FORMULA(fxFlowLight)(FX_REAL k1, FX_REAL j1, FX_REAL k2, FX_REAL j2, FX_REAL e1, FX_REAL e2)
+{
+    const FX_REAL zero = FX_REAL(0.0);
+    FX_REAL first = e1 > zero ? max(j1, zero) / e1 : zero; // S1
+    FX_REAL second = e2 > zero ? max(j2, zero) / e2 : zero;
+    if (!(k2 > zero))
+        return e1 > zero ? k1 / e1 * max(j1, zero) : zero; // alone it keeps its own light
+    if (!(k1 > zero))
+        return e2 > zero ? k2 / e2 * max(j2, zero) : zero;
+    FX_REAL root = (k1 * fxRoot16(first) + k2 * fxRoot16(second)) / (k1 + k2); // (6)
+    FX_REAL square = root * root;
+    FX_REAL eighth = square * square * square * square;
+    return (k1 + k2) * eighth * eighth; // (7)
 }

@@ -17,6 +17,8 @@ MEMORY = int(os.environ.get("FX_MEMORY", "50")) # [MiB] less than all frames nee
 SHOWN = [int(n) for n in os.environ.get("FX_SHOWN", "15").split(",")]
 FPS = 24
 AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
+LIGHT_HALFWAY = 0.3             # of emitted light alone, against voxels of the moment itself
+LIGHT_SUM = 0.3                 # of the sum of emitted light, against the balls; 0.8 if voxels emit the mean of their balls
 DRAWN = 0.06                    # of OpenGL, where pixels are larger than voxels, which are then replaced by coarser ones
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
 
@@ -67,7 +69,9 @@ class Sequence(FxTest):
             for part, allowed in ((0.0, AT_FRAMES), (0.5, HALFWAY)):
                 time = (frame + part) / FPS
                 found = self.planes(played, time)
-                opacity, _ = error_of(found, self.planes(original, time))
+                wanted = self.planes(original, time)
+                opacity, light = error_of(found, wanted)
+                sums = [sum(sum(p[c]) for c in "RGB") for p in (found, wanted)]
                 outcome = fx("export", "library:explosion", "-o", self.folder / "own.vdb", "--time", time, "--voxel-size",
                              line["voxel_side"])
                 self.assertEqual(outcome.code, 0, outcome.err)
@@ -75,11 +79,13 @@ class Sequence(FxTest):
                 self.assertEqual(outcome.code, 0, outcome.err)
                 own = error_of(found, self.planes(self.scene("own.scene.json", {"preset": "own.fx.json"}, camera), time))
                 drawn, _ = error_of(self.planes(played, time, "gl"), found)
-                print(f"frame {frame + part}: opacity {opacity:.4f}; against voxels of the moment itself {own[0]:.4f}, "
+                print(f"frame {frame + part}: opacity {opacity:.4f}, light {light:.4f} and its sum {sums[0] / sums[1]:.3f}; against voxels of the moment itself {own[0]:.4f}, "
                       f"light {own[1]:.4f}; opacity of GL against the reference {drawn:.4f}", flush=True)
                 with self.subTest(frame=frame + part):
                     self.assertLess(opacity, allowed)
                     self.assertLess(own[0], allowed)
+                    self.assertLess(own[1], LIGHT_HALFWAY if part > 0 else 0.01)
+                    self.assertLess(abs(sums[0] / sums[1] - 1), LIGHT_SUM)
                     self.assertLess(drawn, DRAWN)
         outcome = fx("render", played, "--size", SIZE, "--frames", f"{first}:{int(FRAMES.split(':')[1])}", "--fps", FPS,
                      "-o", self.folder / "p.%04d.png", "--stats", self.folder / "s.json")

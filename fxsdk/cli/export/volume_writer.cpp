@@ -46,7 +46,8 @@ base::Result<VolumeReport> writeVolume(std::span<const render::VoxelBall> balls,
     const auto plan = render::BlockPlan::create(balls, options.voxelSize, options.maxVoxels);
     if (!plan)
         return tooManyVoxels(balls, options);
-    const render::BallVoxelizer voxelizer(balls, *plan, tasks);
+    render::BallVoxelizer voxelizer(balls, *plan, tasks);
+    voxelizer.findEscapeDepths();
     render::VdbVolume volume(options.voxelSize);
     VolumeReport report;
     std::vector<render::VoxelBlock> blocks;

@@ -7,6 +7,7 @@
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "rendering/optics/color_temperature.h"
 #include "rendering/voxelization/block_table.h"
 
 #include <glm/common.hpp>
@@ -159,7 +160,7 @@ void append(const Voxel& voxel, bool keepsVelocity, base::VoxelVolume& io, const
     const double temperature = std::min(voxel.heat * per, kMostTemperature);
     io.extinction.push_back(float(voxel.density));
     if (hasFlame)
-        io.emission.push_back(float(voxel.flame) * colorOf(temperature));
+        io.emission.push_back(float(voxel.flame) * render::blackBodyColor(float(temperature)));
     else if (!grid.temperature.empty())
         io.temperature.push_back(float(temperature));
     if (!grid.albedo.empty())

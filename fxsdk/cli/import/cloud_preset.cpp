@@ -3,6 +3,7 @@
 #include "fxsdk/cli/import/preset_files.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/cli/support/progress.h"
+#include "rendering/optics/color_temperature.h"
 #include "rendering/voxelization/opacity_view.h"
 
 #include <glm/common.hpp>
@@ -47,7 +48,8 @@ sim::BallList ballListOf(const render::MediumGrid& grid, const std::vector<rende
         out.temperature =
             hasFlame || grid.temperature.empty() ? kAir : float(std::min(ball.temperature, 1e5));
         if (hasFlame)
-            out.emission = float(std::min(ball.luminance, 1e11)) * colorOf(ball.temperature);
+            out.emission =
+                float(std::min(ball.luminance, 1e11)) * render::blackBodyColor(float(ball.temperature));
     }
     return list;
 }

@@ -4,7 +4,6 @@
 
 #include "foundation/result/status.h"
 
-#include <glm/vec3.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
@@ -15,10 +14,6 @@ namespace fx::cli {
 
 /// The name of a preset's file without ".fx.json". @return InvalidArgument for other names
 base::Result<std::string> presetStem(const std::filesystem::path& preset);
-
-/// A color of luminance 1: that of a black body of this temperature [K], where it is hot enough to have one;
-/// otherwise white.
-glm::vec3 colorOf(double temperature);
 
 /// Writes the file that a preset names, and then the preset. @return Io
 base::Status writePresetFiles(const std::filesystem::path& preset, const nlohmann::ordered_json& text,

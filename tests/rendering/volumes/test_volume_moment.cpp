@@ -1,4 +1,5 @@
 // Moments between two volumes: media that move keep their shape, and do not fade.
+#include "rendering/optics/black_body.h"
 #include "rendering/volumes/medium_volume.h"
 #include "rendering/volumes/volume_place.h"
 
@@ -80,6 +81,40 @@ double errorOfMoving(const glm::dvec3& way, bool hasVelocities, double part)
     const render::MediumVolume a(first), b(second);
     const auto between = render::MediumVolume::between(a, b, {part, hasVelocities ? kSeconds : 0.0});
     return errorOf(between, [&](const glm::dvec3& p) { return lump(p, kMiddle + (part - 0.5) * way, 3.0); });
+}
+
+TEST(VolumeMoment, matterThatCoolsGlowsHalfwayAsItsMeanTemperatureDoes)
+{
+    const auto lightOf = [](double temperature) {
+        return double(render::blackBodyLuminance(float(temperature)).x);
+    };
+    base::VoxelVolume first;
+    first.bricks = {{1, 1, 1}};
+    first.extinction.assign(512, 200.0f);
+    for (const double temperature : {1000.0, 1500.0, 2000.0, 3000.0}) {
+        base::VoxelVolume second = first;
+        first.emission.assign(512, glm::vec3(200.0f * float(lightOf(1.075 * temperature))));
+        second.emission.assign(512, glm::vec3(200.0f * float(lightOf(0.925 * temperature))));
+        const auto between = render::MediumVolume::between(render::MediumVolume(first),
+                                                           render::MediumVolume(second), {0.5, 0.0});
+        EXPECT_NEAR(between.at({11, 12, 13}).emitted.x / (200.0 * lightOf(temperature)), 1.0, 0.06)
+            << temperature;
+    }
+}
+
+TEST(VolumeMoment, lightOfMatterThatOnlyOneVolumeHasIsItsOwnInItsShare)
+{
+    base::VoxelVolume hot, none;
+    hot.bricks = none.bricks = {{1, 1, 1}};
+    hot.extinction.assign(512, 8.0f);
+    hot.emission.assign(512, glm::vec3(5e6f, 3e5f, 0.0f));
+    none.extinction.assign(512, 0.0f);
+    const render::MediumVolume a(hot), b(none);
+    const glm::dvec3 dying = render::MediumVolume::between(a, b, {0.25, 0.0}).at({10, 10, 10}).emitted;
+    const glm::dvec3 born = render::MediumVolume::between(b, a, {0.25, 0.0}).at({10, 10, 10}).emitted;
+    EXPECT_NEAR(dying.x, 0.75 * 5e6, 1.0);
+    EXPECT_NEAR(dying.y, 0.75 * 3e5, 0.1);
+    EXPECT_NEAR(born.x, 0.25 * 5e6, 1.0);
 }
 
 } // namespace

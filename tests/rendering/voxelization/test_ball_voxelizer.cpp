@@ -1,3 +1,5 @@
+#include "rendering/optics/color_temperature.h"
+#include "rendering/volumes/escape_depth.h"
 #include "rendering/voxelization/ball_voxelizer.h"
 #include "tests/foundation/real_threads.h"
 #include "tests/rendering/voxelization/voxel_sums.h"
@@ -120,7 +122,6 @@ TEST(BallVoxelizer, meansOfTwoBallsAreWeightedWithTheirDensityAndLightIsAdded)
     const auto blocks = voxelize(balls, kVoxel);
     const VoxelSums sums = sumsOf(blocks, kVoxel);
     EXPECT_NEAR(sums.mass, 3.0, 3e-6);
-    EXPECT_NEAR(sums.heat, 2.5 * 900.0 + 0.5 * 2000.0, 0.01);
     EXPECT_NEAR(sums.light, 2.5 * 40.0 + 0.5 * 1e5, 0.2);
     EXPECT_NEAR(glm::distance(sums.momentum, 2.5 * balls[0].velocity + 0.5 * balls[1].velocity), 0.0, 1e-5);
     glm::dvec3 scattered(0.0); // [m2]
@@ -156,6 +157,90 @@ TEST(BallVoxelizer, theSumOfWeightsMeetsTheIntegralWhereTheFormulaChanges)
 {
     const double below = sampleNormalization(15.9999), above = sampleNormalization(16.0001);
     EXPECT_NEAR(below / above, std::pow(16.0001 / 15.9999, 3.0), 2e-6);
+}
+
+TEST(BallVoxelizer, withoutLightTheTemperatureIsTheMeanWeightedWithTheDensity)
+{
+    VoxelBall balls[] = {ballOf({0.0, 0.0, 0.0}, 0.5), ballOf({0.3, 0.1, 0.0}, 0.04)};
+    balls[0].luminance = balls[1].luminance = 0.0;
+    balls[1].temperature = 2000.0;
+    EXPECT_NEAR(sumsOf(voxelize(balls, kVoxel), kVoxel).heat, 2.5 * 900.0 + 2.5 * 2000.0, 0.03);
+}
+
+TEST(BallVoxelizer, theColorOfLightIsThatOfTheLightThatBallsEmit)
+{
+    VoxelBall balls[] = {ballOf({0.0, 0.0, 0.0}, 0.5), ballOf({0.0, 0.0, 0.0}, 0.5)};
+    balls[0].temperature = 1100.0; // nine tenths of the medium, a tenth of the light
+    balls[1].temperature = 2000.0;
+    balls[0].crossSection = 0.9;
+    balls[1].crossSection = 0.1;
+    balls[0].luminance = 1e3;
+    balls[1].luminance = 8.1e4;
+    const glm::vec3 wanted = 0.1f * blackBodyColor(1100.0f) + 0.9f * blackBodyColor(2000.0f);
+    for (const VoxelBlock& block : voxelize(balls, kVoxel))
+        for (size_t v = 0; v < size_t(kBlockVoxels); ++v)
+            if (block.density[v] > 0.0f) {
+                const glm::vec3 found = blackBodyColor(block.temperature[v]);
+                EXPECT_NEAR(found.x / wanted.x, 1.0f, 1e-3f);
+                EXPECT_NEAR(found.y / wanted.y, 1.0f, 5e-3f);
+            }
+}
+
+/// Blocks of balls of which voxels emit as they are seen from outside, and the light that leaves them [cd].
+std::vector<VoxelBlock> voxelizeAsSeen(std::span<const VoxelBall> balls)
+{
+    const auto tasks = base::makeSerialRunner();
+    const auto plan = BlockPlan::create(balls, kVoxel, kManyVoxels);
+    std::vector<VoxelBlock> blocks;
+    BallVoxelizer voxelizer(balls, *plan, *tasks);
+    voxelizer.findEscapeDepths();
+    voxelizer.fill(0, plan->blocks().size(), blocks);
+    return blocks;
+}
+
+/// [cd/m2 m2] What leaves the blocks.
+double leaving(const std::vector<VoxelBlock>& blocks)
+{
+    std::vector<glm::ivec3> places;
+    std::vector<float> density;
+    for (const VoxelBlock& block : blocks) {
+        places.push_back(block.origin / kBlockSide);
+        density.insert(density.end(), block.density.begin(), block.density.end());
+    }
+    const auto depths = escapeDepths({places, {64, 8, 1}, density, kVoxel});
+    double sum = 0.0;
+    for (size_t v = 0; v < density.size(); ++v)
+        sum += double(blocks[v / 512].flame[v % 512]) * std::exp(-double(depths[v]));
+    return sum;
+}
+
+TEST(BallVoxelizer, thinMediaEmitAllTheirLight)
+{
+    auto balls = std::vector{ballOf({0.0, 0.0, 0.0}, 0.5), ballOf({0.3, 0.1, 0.0}, 0.2)};
+    balls[0].crossSection = balls[1].crossSection = 1e-4;
+    balls[1].luminance = 1e5;
+    EXPECT_NEAR(sumsOf(voxelizeAsSeen(balls), kVoxel).light / sumsOf(voxelize(balls, kVoxel), kVoxel).light,
+                1.0, 2e-3);
+}
+
+TEST(BallVoxelizer, fireBehindACrustOfSootIsHiddenInVoxelsThatHaveBoth)
+{
+    // A hot ball of 4 voxels, and around it cold soot that is half a voxel thick, of an optical depth of 40.
+    std::vector<VoxelBall> balls{ballOf({0.0, 0.0, 0.0}, 0.4)};
+    balls[0].crossSection = 100.0;
+    balls[0].luminance = 1e6;
+    constexpr int kSoot = 4000;
+    for (int i = 0; i < kSoot; ++i) {
+        const double z = 1.0 - (2.0 * i + 1.0) / kSoot, r = std::sqrt(1.0 - z * z), turn = 2.399963 * i;
+        balls.push_back(ballOf(0.425 * glm::dvec3(r * std::cos(turn), r * std::sin(turn), z), 0.025));
+        balls.back().crossSection = 40.0 * 4.0 * std::numbers::pi * 0.425 * 0.425 / kSoot;
+        balls.back().luminance = 0.0;
+    }
+    const double mixed = leaving(voxelize(balls, kVoxel)), seen = leaving(voxelizeAsSeen(balls));
+    EXPECT_LT(seen, 0.25 * mixed);
+    for (VoxelBall& ball : balls)
+        ball.luminance = 1e6; // all alike: the surface has their luminance in both ways
+    EXPECT_NEAR(leaving(voxelizeAsSeen(balls)) / leaving(voxelize(balls, kVoxel)), 1.0, 1e-5);
 }
 
 std::vector<VoxelBall> cloud()

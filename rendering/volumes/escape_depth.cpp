@@ -1,0 +1,137 @@
+#include "rendering/volumes/escape_depth.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+
+namespace fx::render {
+
+namespace {
+
+constexpr int kSide = 8;
+constexpr size_t kVoxels = 512;
+constexpr uint32_t kNone = ~0u;
+constexpr int kAround = 27; // a block and its neighbors
+constexpr double kAxisWeight = 1.0 / 15.0, kCornerWeight = 3.0 / 40.0;
+
+int aroundOf(const glm::ivec3& step)
+{
+    return step.x + 1 + 3 * (step.y + 1) + 9 * (step.z + 1);
+}
+
+/// Finds the neighbors of blocks.
+class Neighbors
+{
+public:
+    explicit Neighbors(std::span<const glm::ivec3> blocks) : blocks_(blocks), order_(blocks.size())
+    {
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::ranges::sort(order_, {}, [&](uint32_t i) { return keyOf(blocks_[i]); });
+    }
+
+    uint32_t find(const glm::ivec3& block) const
+    {
+        const auto found =
+            std::ranges::lower_bound(order_, keyOf(block), {}, [&](uint32_t i) { return keyOf(blocks_[i]); });
+        return found != order_.end() && blocks_[*found] == block ? *found : kNone;
+    }
+
+private:
+    static std::tuple<int, int, int> keyOf(const glm::ivec3& b) { return {b.x, b.y, b.z}; }
+
+    std::span<const glm::ivec3> blocks_;
+    std::vector<uint32_t> order_;
+};
+
+class Sweep
+{
+public:
+    explicit Sweep(const BlockLattice& lattice)
+        : lattice_(lattice), around_(lattice.blocks.size()), order_(lattice.blocks.size()),
+          depth_(lattice.extinction.size()), seen_(lattice.extinction.size())
+    {
+        const Neighbors neighbors(lattice.blocks);
+        for (size_t b = 0; b < around_.size(); ++b)
+            for (int k = 0; k < kAround; ++k)
+                around_[b][size_t(k)] =
+                    neighbors.find(lattice.blocks[b] + glm::ivec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+    }
+
+    /// @param d each component -1 to 1
+    void add(const glm::ivec3& d, double weight)
+    {
+        std::iota(order_.begin(), order_.end(), 0u);
+        const auto alongOf = [&](uint32_t b) {
+            const glm::ivec3& p = lattice_.blocks[b];
+            return int64_t(d.x) * p.x + int64_t(d.y) * p.y + int64_t(d.z) * p.z;
+        };
+        std::ranges::sort(order_, std::ranges::greater{}, alongOf); // first those that others look through
+        half_ = float(0.5 * lattice_.side * glm::length(glm::dvec3(d)));
+        for (const uint32_t block : order_)
+            addBlock(block, d);
+        for (size_t v = 0; v < depth_.size(); ++v)
+            seen_[v] += float(weight) * std::exp(-std::min(depth_[v], kMostEscapeDepth));
+    }
+
+    std::vector<float> depths() &&
+    {
+        for (float& seen : seen_)
+            seen = std::max(-std::log(seen), 0.0f);
+        return std::move(seen_);
+    }
+
+private:
+    void addBlock(uint32_t block, const glm::ivec3& d)
+    {
+        const glm::ivec3& strides = lattice_.strides;
+        const auto placeOf = [](int i, int step) { return step > 0 ? kSide - 1 - i : i; };
+        for (int k = 0; k < kSide; ++k)
+            for (int j = 0; j < kSide; ++j)
+                for (int i = 0; i < kSide; ++i) {
+                    const glm::ivec3 own(placeOf(i, d.x), placeOf(j, d.y), placeOf(k, d.z));
+                    const glm::ivec3 next = own + d, step(next.x >> 3, next.y >> 3, next.z >> 3);
+                    const uint32_t other = around_[block][size_t(aroundOf(step))];
+                    const size_t v = size_t(block) * kVoxels + indexOf(own, strides);
+                    float depth = half_ * lattice_.extinction[v];
+                    if (other != kNone) {
+                        const size_t u = size_t(other) * kVoxels + indexOf(next - kSide * step, strides);
+                        depth += half_ * lattice_.extinction[u] + depth_[u]; // (1)
+                    }
+                    depth_[v] = depth;
+                }
+    }
+
+    static size_t indexOf(const glm::ivec3& in, const glm::ivec3& strides)
+    {
+        return size_t(in.x * strides.x + in.y * strides.y + in.z * strides.z);
+    }
+
+    const BlockLattice& lattice_;
+    std::vector<std::array<uint32_t, kAround>> around_;
+    std::vector<uint32_t> order_;
+    std::vector<float> depth_, seen_;
+    float half_ = 0.0f; ///< [m]
+};
+
+} // namespace
+
+std::vector<float> escapeDepths(const BlockLattice& lattice)
+{
+    Sweep sweep(lattice);
+    for (int a = 0; a < 3; ++a)
+        for (const int sign : {-1, 1}) {
+            glm::ivec3 d(0);
+            d[a] = sign;
+            sweep.add(d, kAxisWeight);
+        }
+    for (int k = 0; k < 8; ++k)
+        sweep.add(glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * 2 - 1, kCornerWeight);
+    return std::move(sweep).depths(); // (2)
+}
+
+} // namespace fx::render
