@@ -32,10 +32,10 @@ size_t findingsAfterRemedies(Document& io)
 TEST(DocumentFindings, aNumberOutOfItsRangeIsSetToTheBound)
 {
     Document document = documentOf(
-        R"({"version": 1, "emitters": [{"emission": {"rate": 5}, "speed": -5000, "lifetime": 9000}]})");
+        R"({"version": 1, "emitters": [{"emission": {"rate": 5}, "speed": -5000, "radius": 9000}]})");
     EXPECT_EQ(findingsAfterRemedies(document), 0u);
     EXPECT_EQ(document.json()["emitters"][0]["speed"], -1000);
-    EXPECT_EQ(document.json()["emitters"][0]["lifetime"], 3600);
+    EXPECT_EQ(document.json()["emitters"][0]["radius"], 1000);
 }
 
 TEST(DocumentFindings, aMisspelledChoiceIsSetToTheNearestOne)
