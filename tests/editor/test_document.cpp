@@ -110,6 +110,17 @@ TEST(Document, aDragIsOneEdit)
     EXPECT_EQ(document.json()["emitters"][1]["size"], 20);
 }
 
+TEST(Document, aDragThatAddsAMemberIsOneEdit)
+{
+    Document document = documentOf(kText);
+    for (int i = 1; i <= 20; ++i)
+        ASSERT_TRUE(document.set("/emitters/0/forces/drag", i, 9).ok());
+    EXPECT_EQ(document.json()["emitters"][0]["forces"]["drag"], 20);
+    EXPECT_EQ(document.history().edits().size(), 1u);
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.text(), kText);
+}
+
 /// One of the commands, with arguments that may be wrong.
 void editAtRandom(Document& io, std::mt19937& chance)
 {

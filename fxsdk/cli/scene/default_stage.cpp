@@ -38,19 +38,26 @@ base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scen
                     : asset::readFile(input, preset::kPresetBytes);
     if (!text.ok())
         return text.status();
-    auto loaded = fromLibrary ? preset::loadPresetText(*text, input) : preset::loadPresetFile(input);
+    return sceneOfPresetText(*text, input, outPreview);
+}
+
+base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, const std::string& input,
+                                                      scene_file::Preview* outPreview)
+{
+    const bool fromLibrary = input.rfind("library:", 0) == 0;
+    const std::string folder = fromLibrary ? std::string() : preset::folderOf(input);
+    const asset::AssetResolver resolver(folder.empty() && !fromLibrary ? "." : folder,
+                                        preset::libraryFiles());
+    auto loaded = preset::loadPresetText(text, input, nullptr, &resolver);
     if (!loaded.ok())
         return loaded.status();
     scene_file::SceneFile scene;
     scene.name = input;
     scene.warnings = loaded->warnings;
-    scene.presets.push_back({input, *text, fromLibrary ? std::string() : input, loaded->effect});
+    scene.presets.push_back({input, text, fromLibrary ? std::string() : input, loaded->effect});
     scene.instances.emplace_back();
     addDefaultStage(scene);
-    const std::string folder = fromLibrary ? std::string() : preset::folderOf(input);
-    const asset::AssetResolver resolver(folder.empty() && !fromLibrary ? "." : folder,
-                                        preset::libraryFiles());
-    const auto preview = scene_file::readPreview(*text, input, resolver, scene, &scene.warnings);
+    const auto preview = scene_file::readPreview(text, input, resolver, scene, &scene.warnings);
     if (!preview.ok())
         return preview.status();
     scene.background.hasHills = scene.mesh.isSoil; // a preview may have a mesh of its own

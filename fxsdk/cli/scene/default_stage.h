@@ -19,6 +19,12 @@ namespace fx::cli {
 base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input,
                                                   scene_file::Preview* outPreview = nullptr);
 
+/// A scene as sceneOfPreset() makes it, of a text that need not be saved.
+/// @param input name of the text: a file, in whose folder the files that the preset names are searched, or
+/// library:NAME
+base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, const std::string& input,
+                                                      scene_file::Preview* outPreview = nullptr);
+
 /// Simulates the effect and places the camera so that the effect is in the picture at all moments between
 /// the start and `until`. Does nothing if there are no elements at these moments.
 /// @param aspect width of the picture over its height

@@ -102,15 +102,31 @@ void Document::apply(const std::string& label, const std::string& pointer, Json 
 Status Document::set(const std::string& pointer, Json value, uint64_t gesture)
 {
     const Pointer target(pointer);
-    if (json_.contains(target)) {
+    if (!json_.contains(target))
+        return insertMember(target, std::move(value), gesture);
+    const std::string added = addedBy(gesture, pointer);
+    if (added.empty()) {
         apply("set " + pointer, pointer, std::move(value), gesture);
         return {};
     }
-    return insertMember(target, std::move(value));
+    Json around = json_.at(Pointer(added));
+    around[Pointer(pointer.substr(added.size()))] = std::move(value);
+    apply("add " + pointer, added, std::move(around), gesture);
+    return {};
+}
+
+/// The object around `pointer` to which the gesture has added the member before; empty if it has not.
+std::string Document::addedBy(uint64_t gesture, const std::string& pointer) const
+{
+    if (gesture == 0 || !history_.canUndo())
+        return {};
+    const Edit& last = history_.edits()[history_.done() - 1];
+    const bool isAround = last.gesture == gesture && pointer.starts_with(last.pointer + "/");
+    return isAround ? last.pointer : std::string();
 }
 
 /// Adds a member, with the objects around it that are absent, as one edit of the nearest object that exists.
-Status Document::insertMember(const Pointer& pointer, Json value)
+Status Document::insertMember(const Pointer& pointer, Json value, uint64_t gesture)
 {
     Pointer parent = pointer;
     std::string key = parent.back();
@@ -135,7 +151,7 @@ Status Document::insertMember(const Pointer& pointer, Json value)
     }
     if (index >= object.size())
         extended[key] = std::move(value);
-    apply("add " + pointer.to_string(), parent.to_string(), std::move(extended));
+    apply("add " + pointer.to_string(), parent.to_string(), std::move(extended), gesture);
     return {};
 }
 

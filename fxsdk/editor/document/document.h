@@ -72,7 +72,8 @@ public:
 private:
     Document() = default;
     void apply(const std::string& label, const std::string& pointer, Json after, uint64_t gesture = 0);
-    base::Status insertMember(const Json::json_pointer& pointer, Json value);
+    base::Status insertMember(const Json::json_pointer& pointer, Json value, uint64_t gesture = 0);
+    std::string addedBy(uint64_t gesture, const std::string& pointer) const;
     base::Status checkElement(const std::string& array, size_t index) const;
     base::Status write(const std::string& path);
 

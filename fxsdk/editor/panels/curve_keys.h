@@ -1,0 +1,40 @@
+/// @file curve_keys.h
+/// Keys of curves and gradients of presets: {"keys": [[t, value], ...]} with t from 0 to 1.
+#pragma once
+
+#include "fxsdk/editor/document/json_writer.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace fx::editor {
+
+/// Returns the keys of a member of the kind curve or color curve; a constant has one key at 0.
+Json keysOf(const Json& value);
+
+/// Returns the value of a member with these keys.
+Json curveOf(Json keys);
+
+/// Interpolated number, or channel of a color, at `t`. @param channel 0 to 2; ignored for numbers
+double curveAt(const Json& keys, double t, size_t channel = 0);
+
+/// Moves the keys `selected` together. They keep their order: none passes a key that is not moved.
+/// @param lowest, highest limits of values
+void moveKeys(Json& ioKeys, const std::vector<size_t>& selected, double time, double value, double lowest,
+              double highest);
+
+/// Adds a key at `t` on the curve. @return its index
+size_t addKey(Json& ioKeys, double t);
+
+/// Removes keys; the last one stays.
+void removeKeys(Json& ioKeys, std::vector<size_t> selected);
+
+/// Curves to begin with: "constant", "fade in", "fade out", "rise and fall", "ease in and out".
+std::vector<std::string> curvePresetNames();
+Json curvePreset(const std::string& name, double low, double high);
+
+/// Colors of a black body from `coldest` to `hottest` [K], relative to the brightest channel.
+Json temperatureRamp(double coldest, double hottest, size_t count);
+
+} // namespace fx::editor

@@ -1,0 +1,128 @@
+#include "fxsdk/editor/panels/editor_ui.h"
+
+#include "fxsdk/editor/panels/panels.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace fx::editor {
+
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+template <class Contents>
+void window(const char* title, float x, float y, float width, float height, ImGuiWindowFlags flags,
+            Contents&& contents)
+{
+    ImGui::SetNextWindowPos({x, y});
+    ImGui::SetNextWindowSize({std::max(width, 32.0f), std::max(height, 32.0f)});
+    if (ImGui::Begin(title, nullptr, kFixed | flags))
+        contents();
+    ImGui::End();
+}
+
+void tab(PanelState& state, const char* title, void (*contents)(PanelState&))
+{
+    const bool isOpen = ImGui::BeginTabItem(title);
+    state.mark(std::string("tab/") + title);
+    if (!isOpen)
+        return;
+    contents(state);
+    ImGui::EndTabItem();
+}
+
+void lowerTabs(PanelState& state)
+{
+    if (!ImGui::BeginTabBar("lower"))
+        return;
+    tab(state, "Curve", curvePanel);
+    tab(state, "Findings", findingsPanel);
+    tab(state, "Changes", changesPanel);
+    ImGui::EndTabBar();
+}
+
+void shortcuts(Session& session)
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto isPressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
+    if (io.WantTextInput)
+        return;
+    if (isPressed(ImGuiKey_Space))
+        session.playback.isPlaying = !session.playback.isPlaying;
+    if (!io.KeyCtrl)
+        return;
+    if (isPressed(ImGuiKey_Z) && !io.KeyShift)
+        session.undo();
+    else if (isPressed(ImGuiKey_Y) || (isPressed(ImGuiKey_Z) && io.KeyShift))
+        session.redo();
+#if IMGUI_VERSION_NUM >= 18700
+    else if (isPressed(ImGuiKey_S))
+        session.save();
+#else
+    else if (ImGui::IsKeyPressed('S', false)) // GLFW and scripts number letters as ASCII does
+        session.save();
+#endif
+}
+
+} // namespace
+
+void applyStyle(float scale)
+{
+    ImGui::StyleColorsDark();
+    ImGuiStyle& style = ImGui::GetStyle();
+    style.FrameRounding = style.WindowRounding = style.TabRounding = 3.0f;
+    style.WindowBorderSize = 1.0f;
+    style.CellPadding = {4.0f, 2.0f};
+    style.Colors[ImGuiCol_WindowBg] = {0.13f, 0.14f, 0.17f, 1.0f};
+    style.Colors[ImGuiCol_FrameBg] = {0.21f, 0.23f, 0.27f, 1.0f};
+    style.Colors[ImGuiCol_Button] = {0.26f, 0.30f, 0.37f, 1.0f};
+    style.Colors[ImGuiCol_Header] = {0.24f, 0.32f, 0.45f, 1.0f};
+    style.Colors[ImGuiCol_TitleBgActive] = style.Colors[ImGuiCol_TitleBg] = {0.17f, 0.19f, 0.23f, 1.0f};
+    style.ScaleAllSizes(scale);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // the layout is fixed
+    constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+                                "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
+    for (const char* font : kFonts)
+        if (std::filesystem::exists(font) && io.Fonts->AddFontFromFileTTF(font, 16.0f * scale))
+            return;
+    io.FontGlobalScale = 1.25f * scale; // the built-in font has 13 pixels
+}
+
+void drawEditor(PanelState& state)
+{
+    state.places.clear();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float line = ImGui::GetFontSize();
+    const float top = line * 2.3f;
+    const float left = std::min(size.x * 0.22f, line * 18.0f);
+    const float right = std::min(size.x * 0.36f, line * 30.0f);
+    const float middle = size.x - left - right;
+    const float time = line * 6.6f;
+    const float low = std::max(size.y * 0.26f, line * 11.0f);
+    window("Commands", 0, 0, size.x, top, ImGuiWindowFlags_NoTitleBar, [&] { topBar(state); });
+    window("Elements", 0, top, left, size.y - top, 0, [&] { outlinerPanel(state); });
+    window("Inspector", left + middle, top, right, size.y - top, 0, [&] { inspectorPanel(state); });
+    window("Picture", left, top, middle, size.y - top - time - low,
+           ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar, [&] { viewportPanel(state); });
+    window("Timeline", left, size.y - time - low, middle, time, ImGuiWindowFlags_NoTitleBar,
+           [&] { timelinePanel(state); });
+    window("Details", left, size.y - low, middle, low, ImGuiWindowFlags_NoTitleBar,
+           [&] { lowerTabs(state); });
+    if (state.session.recovery() || state.session.conflict()) {
+        ImGui::SetNextWindowPos({left + 24.0f, top + 48.0f});
+        if (ImGui::Begin("Question", nullptr,
+                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                             ImGuiWindowFlags_NoCollapse))
+            questionPanel(state);
+        ImGui::End();
+    }
+    shortcuts(state.session);
+}
+
+} // namespace fx::editor

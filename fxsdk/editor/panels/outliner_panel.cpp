@@ -1,0 +1,147 @@
+#include "fxsdk/editor/inspector/member.h"
+#include "fxsdk/editor/panels/panels.h"
+
+namespace fx::editor {
+
+namespace {
+
+void toggle(PanelState& state, const char* label, const std::string& name, bool isOn, ImU32 color,
+            void (Session::*set)(const std::string&, bool), const std::string& element)
+{
+    ImGui::PushStyleColor(ImGuiCol_Button, isOn ? color : ImGui::GetColorU32(ImGuiCol_FrameBg));
+    if (button(state, (std::string(label) + "##" + element).c_str(), name + element))
+        (state.session.*set)(element, !isOn);
+    ImGui::PopStyleColor();
+}
+
+void row(PanelState& state, const std::string& pointer)
+{
+    Session& session = state.session;
+    const SoloMute& choice = session.soloMute();
+    toggle(state, "S", "solo", choice.isSolo(pointer), IM_COL32(190, 150, 40, 255), &Session::setSolo,
+           pointer);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Solo: only what is solo is shown");
+    ImGui::SameLine(0.0f, 2.0f);
+    toggle(state, "M", "mute", choice.isMuted(pointer), IM_COL32(170, 70, 60, 255), &Session::setMuted,
+           pointer);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Mute: it is not shown");
+    ImGui::SameLine();
+    if (!choice.isShown(pointer))
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    const bool wasShown = choice.isShown(pointer);
+    ImGui::AlignTextToFramePadding();
+    if (ImGui::Selectable((elementTitle(session.document, pointer) + "##" + pointer).c_str(),
+                          session.selection == pointer))
+        session.selection = pointer;
+    state.mark("select" + pointer);
+    if (!wasShown)
+        ImGui::PopStyleColor();
+}
+
+/// Duplicate, move and remove the selected element.
+void elementButtons(PanelState& state)
+{
+    Session& session = state.session;
+    const Json::json_pointer at(session.selection);
+    const std::string array = at.empty() ? std::string() : at.parent_pointer().to_string();
+    const Json& document = session.document.json();
+    const bool isElement = !array.empty() && document.contains(Json::json_pointer(array)) &&
+                           document.at(Json::json_pointer(array)).is_array();
+    if (!isElement)
+        return;
+    const size_t index = std::stoul(at.back());
+    const size_t count = document.at(Json::json_pointer(array)).size();
+    const auto go = [&](size_t to) { session.selection = array + "/" + std::to_string(to); };
+    if (button(state, "duplicate", "outliner/duplicate")) {
+        session.run(session.document.duplicate(array, index));
+        go(index + 1);
+    }
+    ImGui::SameLine();
+    if (button(state, "up", "outliner/up") && index > 0) {
+        session.run(session.document.move(array, index, index - 1));
+        go(index - 1);
+    }
+    ImGui::SameLine();
+    if (button(state, "down", "outliner/down") && index + 1 < count) {
+        session.run(session.document.move(array, index, index + 1));
+        go(index + 1);
+    }
+    ImGui::SameLine();
+    if (button(state, "remove", "outliner/remove"))
+        session.run(session.document.erase(session.selection));
+    if (button(state, "copy", "outliner/copy") && document.contains(at))
+        ImGui::SetClipboardText(document.at(at).dump(2).c_str());
+    ImGui::SameLine();
+    if (button(state, "paste", "outliner/paste")) {
+        const char* const text = ImGui::GetClipboardText();
+        Json pasted = Json::parse(text ? text : "", nullptr, false);
+        session.run(pasted.is_object()
+                        ? session.document.insert(array, index + 1, std::move(pasted))
+                        : base::Status(base::Code::Parse, "The clipboard holds no JSON object"));
+    }
+}
+
+void addMenu(PanelState& state)
+{
+    if (button(state, "add ...", "outliner/add"))
+        ImGui::OpenPopup("add element");
+    if (!ImGui::BeginPopup("add element"))
+        return;
+    Session& session = state.session;
+    for (const Member& member : membersOf(session.document, "")) {
+        if (member.kind != MemberKind::Array)
+            continue;
+        const Json& items = (*member.schema)["items"];
+        const bool isChosen = ImGui::Selectable(items.value("title", member.title).c_str());
+        state.mark("add" + member.pointer);
+        if (!isChosen)
+            continue;
+        const Json::json_pointer at(member.pointer);
+        const size_t count = session.document.json().contains(at) ? session.document.json().at(at).size() : 0;
+        Json element = startValue(items);
+        if (items["properties"].contains("emission")) // an emitter needs births
+            element["emission"] = {{"rate", 20}};
+        session.run(session.document.insert(member.pointer, count, std::move(element)));
+        session.selection = member.pointer + "/" + std::to_string(count);
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace
+
+std::string elementTitle(const Document& document, const std::string& pointer)
+{
+    if (pointer.empty())
+        return document.kind() == DocumentKind::Preset ? "Effect" : "Scene";
+    const Json::json_pointer at(pointer);
+    const auto member = memberAt(document, pointer);
+    std::string title = member ? member->title : at.back();
+    if (document.json().contains(at)) {
+        const Json& value = document.json().at(at);
+        for (const char* name : {"name", "preset", "shape"})
+            if (value.is_object() && value.contains(name) && value[name].is_string())
+                return title + ": " + value[name].get<std::string>();
+    }
+    const bool isElement =
+        document.json().contains(at.parent_pointer()) && document.json().at(at.parent_pointer()).is_array();
+    return isElement ? title + " " + at.back() : title;
+}
+
+void outlinerPanel(PanelState& state)
+{
+    Session& session = state.session;
+    if (ImGui::Selectable(elementTitle(session.document, "").c_str(), session.selection.empty()))
+        session.selection.clear();
+    state.mark("select");
+    ImGui::Separator();
+    if (session.document.kind() == DocumentKind::Preset)
+        for (const std::string& pointer : soloElements(session.document.json(), session.document.schema()))
+            row(state, pointer);
+    ImGui::Separator();
+    addMenu(state);
+    elementButtons(state);
+}
+
+} // namespace fx::editor

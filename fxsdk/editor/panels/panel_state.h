@@ -1,0 +1,66 @@
+/// @file panel_state.h
+/// What panels share in a frame: the session, the places of widgets, and what is being typed or dragged.
+#pragma once
+
+#include "fxsdk/editor/session/session.h"
+
+#include <imgui.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fx::editor {
+
+/// What the host of the panels tells them about the picture.
+struct PictureState
+{
+    uint32_t texture = 0;       ///< GL name; 0: no picture
+    uint32_t particles = 0;     ///< alive
+    double milliseconds = 0.0;  ///< [ms] of the last picture: seek and drawing
+    float exposureEv100 = 0.0f; ///< [EV100] of the scene
+    std::string failure;        ///< why the picture does not show the document; empty: it does
+};
+
+/// A rectangle on the screen [pixel].
+struct Place
+{
+    ImVec2 low;
+    ImVec2 high;
+};
+
+struct PanelState
+{
+    explicit PanelState(Session& shown) : session(shown) {}
+
+    Session& session;
+    PictureState picture;
+    /// Places of the widgets of this frame by name, for scripts and tests.
+    std::map<std::string, Place> places;
+    ImVec2 pictureSize{640.0f, 360.0f}; ///< [pixel] wanted for the next picture
+
+    ImGuiID typedField = 0;    ///< field that is being typed into
+    std::string typed;         ///< its text
+    uint64_t gesture = 0;      ///< number of the last drag
+    std::vector<size_t> keys;  ///< selected keys of the curve
+    double curveHighest = 1.0; ///< upper end of the scale of the curve
+    std::string search;        ///< text of the search over members
+    std::string saveAs;        ///< name in the dialog "save as"
+    bool wantsClose = false;
+    std::string renderTo; ///< file to which the host shall write the picture; empty: none
+    std::string why;      ///< answer to "why is nothing visible"
+
+    /// Keeps the place of the last widget under a name.
+    void mark(const std::string& name) { places[name] = {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()}; }
+
+    /// Number of the drag of the last widget: the same while it is active.
+    uint64_t dragOf()
+    {
+        if (ImGui::IsItemActivated())
+            ++gesture;
+        return gesture;
+    }
+};
+
+} // namespace fx::editor

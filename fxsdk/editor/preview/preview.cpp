@@ -1,0 +1,283 @@
+#include "fxsdk/editor/preview/preview.h"
+
+#include "fxsdk/assets/asset_resolver.h"
+#include "fxsdk/assets/read_file.h"
+#include "fxsdk/cli/scene/default_stage.h"
+#include "fxsdk/cli/scene/view_settings.h"
+#include "fxsdk/presets/preset_loader.h"
+
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <memory_resource>
+
+namespace fx::editor {
+
+namespace {
+
+constexpr double kStep = 1.0 / 60.0;                   // [s] of the scene
+constexpr const char* kEdited = "edited-text.fx.json"; // the name by which the context reads an edited text
+constexpr double kFramedSeconds = 4.0;                 // longest time simulated to place a camera
+
+base::Status statusOf(const fxsdk::Error& error)
+{
+    return {base::Code(error.code()), error.what()};
+}
+
+/// What stage and camera depend on.
+std::string stageKeyOf(const std::string& text, DocumentKind kind)
+{
+    if (kind == DocumentKind::Scene)
+        return text;
+    const Json preset = Json::parse(text, nullptr, false);
+    return preset.is_object() && preset.contains("preview") ? preset["preview"].dump() : std::string("none");
+}
+
+} // namespace
+
+base::Result<std::unique_ptr<Preview>> Preview::create(const render::GlLoader& loader)
+{
+    std::unique_ptr<Preview> preview(new Preview);
+    if (base::Status status = preview->start(loader); !status)
+        return status;
+    return preview;
+}
+
+Preview::~Preview()
+{
+    view_.reset();
+    fxScene_.reset();
+    context_.reset();
+    stage_.reset();
+}
+
+base::Status Preview::start(const render::GlLoader& loader)
+{
+    auto device = render::GlDevice::create(loader, std::pmr::get_default_resource());
+    if (!device)
+        return device.status();
+    device_ = std::move(*device);
+    stage_ = std::make_unique<render::StageRenderer>(device_.get());
+    try {
+        FxContextDef def = fxDefaultContextDef();
+        def.gl = {loader.user, loader.getProcAddress};
+        def.assets = {this, &openAsset, &closeAsset};
+        def.flags = FX_CONTEXT_PLACEHOLDERS;
+        context_ = std::make_unique<fxsdk::Context>(def);
+        context_->warmUp();
+        FxSceneDef sceneDef = fxDefaultSceneDef();
+        sceneDef.workBudget = 0; // a seek ends before the picture
+        fxScene_ = std::make_unique<fxsdk::Scene>(*context_, sceneDef);
+        view_ = std::make_unique<fxsdk::View>(*context_, *fxScene_);
+    } catch (const fxsdk::Error& error) {
+        return statusOf(error);
+    }
+    return {};
+}
+
+const void* Preview::openAsset(void* user, const char* name, size_t* outSize)
+{
+    const auto& self = *static_cast<const Preview*>(user);
+    auto bytes = std::string_view(name) == kEdited
+                     ? base::Result<std::string>(self.assetText_)
+                     : asset::readFile(self.assetFolder_ + name, scene_file::kImageBytes);
+    if (!bytes)
+        return nullptr;
+    *outSize = bytes->size();
+    auto copy = std::make_unique_for_overwrite<char[]>(bytes->size() + 1);
+    std::copy(bytes->begin(), bytes->end(), copy.get());
+    return copy.release();
+}
+
+void Preview::closeAsset(void*, const void* data, size_t)
+{
+    delete[] static_cast<const char*>(data);
+}
+
+/// Reads stage, camera and instances, and places the camera of a preset without one.
+base::Status Preview::readScene(const std::string& text, const std::string& name, DocumentKind kind)
+{
+    const std::string folder = preset::folderOf(name);
+    const asset::AssetResolver resolver(folder.empty() ? "." : folder, preset::libraryFiles());
+    scene_file::Preview preview;
+    auto file = kind == DocumentKind::Scene ? scene_file::loadSceneText(text, name, resolver)
+                                            : cli::sceneOfPresetText(text, name, &preview);
+    if (!file)
+        return file.status();
+    hasCamera_ = kind == DocumentKind::Scene || preview.hasCamera;
+    if (!hasCamera_ && isFirst_)
+        if (base::Status status = cli::frameEffect(*file, base::toTicks(kFramedSeconds), {}); !status)
+            return status;
+    file_ = std::move(*file);
+    file_.view.composition = render::Composition::Automatic;
+    file_.view.slices.automatic = true;
+    if (base::Status status = stage_->setMesh(file_.mesh); !status)
+        return status;
+    return stage_->setBackground(file_.background);
+}
+
+base::Status Preview::loadPresets()
+{
+    std::vector<FxPresetId> loaded;
+    try {
+        for (const scene_file::ScenePreset& preset : file_.presets) {
+            assetText_ = preset.text;
+            assetFolder_ = preset::folderOf(preset.file);
+            loaded.push_back(context_->loadFile(kEdited));
+        }
+        for (const FxPresetId preset : presets_)
+            context_->unload(preset);
+    } catch (const fxsdk::Error& error) {
+        for (const FxPresetId preset : loaded)
+            (void)fxUnloadPreset(context_->get(), preset);
+        return statusOf(error);
+    }
+    presets_ = std::move(loaded);
+    return {};
+}
+
+base::Status Preview::show(const std::string& text, const std::string& name, DocumentKind kind)
+{
+    std::string key = stageKeyOf(text, kind);
+    if (key != stageKey_ || isFirst_) {
+        if (base::Status status = readScene(text, name, kind); !status)
+            return status;
+        stageKey_ = std::move(key);
+        isFirst_ = false;
+    }
+    std::string before;
+    if (kind == DocumentKind::Preset) {
+        before = std::move(file_.presets[0].text);
+        file_.presets[0].text = text;
+    }
+    if (base::Status status = loadPresets(); !status) {
+        if (kind == DocumentKind::Preset)
+            file_.presets[0].text = std::move(before);
+        return status;
+    }
+    for (const Shown& shown : shown_)
+        if (shown.id && fxScene_->isValid(*shown.id))
+            fxScene_->destroy(*shown.id);
+    shown_.assign(file_.instances.size(), {});
+    return seek(time_);
+}
+
+/// A new instance begins with the next step.
+void Preview::create(size_t index)
+{
+    const scene_file::SceneInstance& instance = file_.instances[index];
+    FxInstanceDef def = fxsdk::instanceOf(presets_[instance.preset]);
+    const base::Placement place = instance.placementAt(instance.start + time_);
+    for (int i = 0; i < 3; ++i) {
+        def.position[i] = place.position[i];
+        def.wind[i] = instance.parameters.wind[i];
+    }
+    def.rotation[0] = place.rotation.x;
+    def.rotation[1] = place.rotation.y;
+    def.rotation[2] = place.rotation.z;
+    def.rotation[3] = place.rotation.w;
+    def.scale = instance.scale;
+    def.seed = instance.seed;
+    def.intensity = instance.parameters.intensity;
+    shown_[index] = {fxScene_->create(def), -1.0};
+}
+
+/// Seeks one instance. One that has ended by then is not shown.
+void Preview::place(size_t index, double seconds)
+{
+    Shown& shown = shown_[index];
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        if (!shown.id) {
+            create(index);
+            fxScene_->update(kStep);
+        }
+        if (fxScene_SeekInstance(fxScene_->get(), *shown.id, seconds) == FX_OK) {
+            shown.at = seconds;
+            return;
+        }
+        fxScene_->destroy(*shown.id);
+        shown.id.reset();
+    }
+}
+
+base::Status Preview::seek(double seconds)
+{
+    time_ = seconds;
+    try {
+        for (size_t i = 0; i < shown_.size(); ++i) {
+            const double local = seconds - file_.instances[i].start;
+            if (local < 0.0 && shown_[i].id) {
+                fxScene_->destroy(*shown_[i].id);
+                shown_[i].id.reset();
+            }
+            if (local >= 0.0 && (!shown_[i].id || shown_[i].at != local))
+                place(i, local);
+        }
+        fxScene_->update(0.0);
+    } catch (const fxsdk::Error& error) {
+        return statusOf(error);
+    }
+    return {};
+}
+
+uint32_t Preview::particles()
+{
+    uint32_t sum = 0;
+    for (const Shown& shown : shown_) {
+        uint32_t count = 0;
+        if (shown.id && fxScene_GetInstanceState(fxScene_->get(), *shown.id, nullptr, &count) == FX_OK)
+            sum += count;
+    }
+    return sum;
+}
+
+FxViewSettings Preview::settingsOf(const PreviewFrame& frame) const
+{
+    FxViewSettings settings = cli::toApi(file_.view);
+    settings.exposureEv100 = frame.exposureEv100.value_or(settings.exposureEv100);
+    settings.toneMap = 1;
+    settings.dazzleRiseTime = settings.dazzleFallTime = 0.0f; // a still has no history
+    return settings;
+}
+
+FxFrameDef Preview::frameOf(const render::CameraView& camera, const PreviewFrame& frame) const
+{
+    FxFrameDef def = fxDefaultFrameDef();
+    for (int i = 0; i < 3; ++i)
+        def.origin[i] = camera.origin[i];
+    std::copy_n(glm::value_ptr(camera.view), 16, def.view);
+    std::copy_n(glm::value_ptr(camera.projection), 16, def.projection);
+    def.width = frame.width;
+    def.height = frame.height;
+    def.resetHistory = 1;
+    return def;
+}
+
+base::Status Preview::render(const PreviewFrame& frame)
+{
+    const float aspect = float(frame.width) / float(frame.height);
+    const render::CameraView camera =
+        render::perspectiveView(frame.pose, glm::radians(frame.fovYDegrees), aspect, 0.05f);
+    const FxViewSettings settings = settingsOf(frame);
+    if (base::Status status = stage_->render(camera, file_.view.lighting, {}, settings.exposureEv100,
+                                             frame.width, frame.height);
+        !status)
+        return status;
+    try {
+        view_->setSettings(settings);
+        FxFrameDef def = frameOf(camera, frame);
+        def.colorTexture = stage_->colorTexture();
+        def.depthTexture = stage_->depthTexture();
+        const render::HostShadowMap map = stage_->sunShadow(camera.origin);
+        def.sunShadowTexture = map.texture;
+        std::copy_n(glm::value_ptr(map.fromWorld), 16, def.sunShadowMatrix);
+        def.sunShadowEdge = map.edge;
+        view_->render(def);
+    } catch (const fxsdk::Error& error) {
+        return statusOf(error);
+    }
+    return {};
+}
+
+} // namespace fx::editor

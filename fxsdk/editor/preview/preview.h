@@ -1,0 +1,94 @@
+/// @file preview.h
+/// Shows a preset or scene at a moment, as a game does: through the C API, over an opaque stage.
+///
+/// Threads: only the thread that created the object, which is its GL thread.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/editor/document/schema_tree.h"
+#include "fxsdk/fxsdk.hpp"
+#include "fxsdk/scene_file/scene_file.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/stage/stage_camera.h"
+#include "rendering/stage/stage_renderer.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fx::editor {
+
+/// Camera and size of a picture.
+struct PreviewFrame
+{
+    render::CameraPose pose;
+    float fovYDegrees = 50.0f;          ///< [degree]
+    int width = 640;                    ///< [pixel]
+    int height = 360;                   ///< [pixel]
+    std::optional<float> exposureEv100; ///< [EV100] empty: that of the scene
+};
+
+class Preview
+{
+public:
+    /// @param loader functions of the current OpenGL context
+    static base::Result<std::unique_ptr<Preview>> create(const render::GlLoader& loader);
+    ~Preview();
+    Preview(const Preview&) = delete;
+    Preview& operator=(const Preview&) = delete;
+
+    /// Shows another text at the present time. On failure the picture stays as it was.
+    /// @param name file of the text, for messages and to find the files that it names
+    base::Status show(const std::string& text, const std::string& name, DocumentKind kind);
+    /// Goes to a time, a whole number of steps of 1/60 s. Before its start an instance is not shown.
+    base::Status seek(double seconds);
+    /// Draws stage and effects. @return an error of GL
+    base::Status render(const PreviewFrame& frame);
+
+    /// GL name of the picture, display-referred RGBA32F, lower row first; 0 before the first picture.
+    uint32_t texture() const { return stage_ ? stage_->colorTexture() : 0; }
+    const scene_file::SceneFile& scene() const { return file_; }
+    /// Whether the preset states its camera; otherwise scene().camera shows the effect at several moments.
+    bool hasCamera() const { return hasCamera_; }
+    /// Particles alive of all instances.
+    uint32_t particles();
+    FxViewStatistics statistics() { return view_->statistics(); }
+    render::GlDevice& device() { return *device_; }
+
+private:
+    /// An instance of the file, and the one of the scene that shows it.
+    struct Shown
+    {
+        std::optional<FxInstanceId> id;
+        double at = -1.0; ///< [s] local time
+    };
+
+    Preview() = default;
+    base::Status start(const render::GlLoader& loader);
+    base::Status readScene(const std::string& text, const std::string& name, DocumentKind kind);
+    base::Status loadPresets();
+    void place(size_t index, double seconds);
+    void create(size_t index);
+    FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame) const;
+    FxViewSettings settingsOf(const PreviewFrame& frame) const;
+    static const void* openAsset(void* user, const char* name, size_t* outSize);
+    static void closeAsset(void* user, const void* data, size_t size);
+
+    std::unique_ptr<render::GlDevice> device_;
+    std::unique_ptr<render::StageRenderer> stage_;
+    std::unique_ptr<fxsdk::Context> context_;
+    std::unique_ptr<fxsdk::Scene> fxScene_;
+    std::unique_ptr<fxsdk::View> view_;
+    scene_file::SceneFile file_;
+    std::string stageKey_;    ///< the part of the text by which stage and camera were made
+    std::string assetText_;   ///< the preset that the context is about to read
+    std::string assetFolder_; ///< folder of its files
+    std::vector<FxPresetId> presets_;
+    std::vector<Shown> shown_;
+    double time_ = 0.0;
+    bool hasCamera_ = false;
+    bool isFirst_ = true;
+};
+
+} // namespace fx::editor

@@ -1,0 +1,189 @@
+#include "fxsdk/editor/session/session.h"
+
+#include <utility>
+
+namespace fx::editor {
+
+namespace {
+
+/// Length of the timeline [s] of a preset: its duration, otherwise twice the time of its preview.
+double timelineOf(const Json& preset)
+{
+    const double duration =
+        preset.value("duration", Json(0.0)).is_number() ? preset.value("duration", 0.0) : 0.0;
+    if (duration > 0.0)
+        return duration;
+    const Json::json_pointer still("/preview/time");
+    const double time =
+        preset.contains(still) && preset[still].is_number() ? preset[still].get<double>() : 0.0;
+    return time > 2.5 ? 2.0 * time : 5.0;
+}
+
+} // namespace
+
+base::Result<std::unique_ptr<Session>> Session::open(const std::string& input, std::filesystem::path recovery)
+{
+    auto document = Document::open(input);
+    if (!document)
+        return document.status();
+    return std::unique_ptr<Session>(new Session(std::move(*document), input, std::move(recovery)));
+}
+
+Session::Session(Document opened, std::string name, std::filesystem::path recovery)
+    : document(std::move(opened)), name_(std::move(name)), recoveryFolder_(std::move(recovery)),
+      autosave_(name_, recoveryFolder_), watch_(document.path()), recovery_(autosave_.recoverable())
+{
+    playback.end = timelineOf(document.json());
+    playback.scrub(0.2 * playback.end);
+    const Json::json_pointer still("/preview/time");
+    if (document.json().contains(still) && document.json().at(still).is_number())
+        playback.scrub(document.json().at(still).get<double>());
+    if (autosave_.isOpenElsewhere())
+        message = "Another running editor has unsaved changes of this file.";
+    if (recovery_ && *recovery_ == document.text())
+        discardRecovery();
+    if (const auto elements = soloElements(document.json(), document.schema()); !elements.empty())
+        selection = elements.front();
+}
+
+void Session::setSolo(const std::string& element, bool isSolo)
+{
+    soloMute_.setSolo(element, isSolo);
+    ++choice_;
+}
+
+void Session::setMuted(const std::string& element, bool isMuted)
+{
+    soloMute_.setMuted(element, isMuted);
+    ++choice_;
+}
+
+void Session::run(const base::Status& status)
+{
+    message = status.ok() ? std::string() : status.message();
+    mendSelection();
+}
+
+void Session::mendSelection()
+{
+    const auto exists = [&](const std::string& pointer) {
+        return document.json().contains(Json::json_pointer(pointer));
+    };
+    while (!selection.empty() && !exists(selection))
+        selection = Json::json_pointer(selection).parent_pointer().to_string();
+    if (!curve.empty() && !exists(curve))
+        curve.clear();
+}
+
+void Session::undo()
+{
+    message = document.undo() ? std::string() : "There is nothing to undo.";
+    mendSelection();
+}
+
+void Session::redo()
+{
+    message = document.redo() ? std::string() : "There is nothing to redo.";
+    mendSelection();
+}
+
+void Session::save(bool force)
+{
+    run(document.save(force));
+    if (!message.empty())
+        return;
+    conflict_.reset();
+    watch_ = FileWatch(document.path());
+    message = "Saved " + document.path();
+}
+
+void Session::saveAs(const std::string& path)
+{
+    run(document.saveAs(path));
+    if (!message.empty())
+        return;
+    autosave_.discard();
+    name_ = path;
+    autosave_ = Autosave(path, recoveryFolder_);
+    watch_ = FileWatch(path);
+    conflict_.reset();
+    message = "Saved " + path;
+}
+
+std::string Session::shownText() const
+{
+    if (!soloMute_.isActive() || document.kind() == DocumentKind::Scene)
+        return document.text();
+    return writeJson(soloMute_.shown(document.json(), document.schema()));
+}
+
+const std::vector<DocumentFinding>& Session::findings()
+{
+    if (findingsRevision_ != document.revision()) {
+        findings_ = findingsOf(document);
+        findingsRevision_ = document.revision();
+    }
+    return findings_;
+}
+
+void Session::takeTheirs()
+{
+    if (!conflict_)
+        return;
+    run(document.reload(*conflict_));
+    conflict_.reset();
+}
+
+void Session::keepMine()
+{
+    if (!conflict_)
+        return;
+    run(document.acceptFileText(*conflict_));
+    if (message.empty())
+        conflict_.reset();
+}
+
+void Session::recover()
+{
+    if (!recovery_)
+        return;
+    const Json recovered = Json::parse(*recovery_, nullptr, false);
+    if (recovered.is_object())
+        document.replace(recovered, "recover");
+    else
+        message = "The recovered text is not JSON.";
+    recovery_.reset();
+    mendSelection();
+}
+
+void Session::discardRecovery()
+{
+    recovery_.reset();
+    autosave_.discard();
+}
+
+/// A document without edits follows its file at once.
+void Session::watchFile()
+{
+    auto text = watch_.changedText(document.savedText());
+    if (!text)
+        return;
+    if (document.isDirty()) {
+        conflict_ = std::move(text);
+        return;
+    }
+    run(document.reload(*text));
+    if (message.empty())
+        message = "The file has changed outside of the editor and was read again.";
+}
+
+void Session::update(double seconds)
+{
+    watchFile();
+    if (!recovery_)
+        if (const base::Status status = autosave_.update(document); !status)
+            message = status.message();
+    playback.advance(seconds);
+}
+
+} // namespace fx::editor

@@ -1,0 +1,96 @@
+/// @file session.h
+/// Everything that the editor knows about one document: what is edited, selected, shown and played. Panels
+/// show a session and change it; nothing here draws.
+#pragma once
+
+#include "fxsdk/editor/document/autosave.h"
+#include "fxsdk/editor/document/document_findings.h"
+#include "fxsdk/editor/document/file_watch.h"
+#include "fxsdk/editor/document/snapshots.h"
+#include "fxsdk/editor/document/solo_mute.h"
+#include "fxsdk/editor/session/orbit_camera.h"
+#include "fxsdk/editor/session/playback.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fx::editor {
+
+class Session
+{
+public:
+    /// Opens a preset, a scene, or a preset of the library.
+    /// @param recovery folder of recovery files
+    static base::Result<std::unique_ptr<Session>> open(const std::string& input,
+                                                       std::filesystem::path recovery = recoveryFolder());
+    ~Session() = default;
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    Document document;
+    Snapshots snapshots;
+    Playback playback;
+    OrbitCamera camera;
+    std::optional<float> exposureEv100; ///< [EV100] empty: that of the preview
+    std::string selection;              ///< JSON pointer of the object in the inspector; "" is the document
+    std::string curve;                  ///< JSON pointer of the curve that is edited; empty: none
+    std::string message;                ///< result of the last command, for people
+
+    const SoloMute& soloMute() const { return soloMute_; }
+    void setSolo(const std::string& element, bool isSolo);
+    void setMuted(const std::string& element, bool isMuted);
+
+    /// Runs a command, keeps its failure as message(), and mends the selection.
+    void run(const base::Status& status);
+    void undo();
+    void redo();
+    void save(bool force = false);
+    void saveAs(const std::string& path);
+
+    /// Name of the document for people and messages.
+    const std::string& name() const { return name_; }
+    /// Changes with what is to be shown: document, solo and mute.
+    uint64_t shownRevision() const { return document.revision() + choice_; }
+    /// Text to be shown instead of the document.
+    std::string shownText() const;
+
+    /// Errors and warnings of the document; computed when the document has changed.
+    const std::vector<DocumentFinding>& findings();
+
+    /// Text of the file that has changed outside while the document is edited; empty: no conflict.
+    const std::optional<std::string>& conflict() const { return conflict_; }
+    void takeTheirs(); ///< resolves a conflict by the text of the file
+    void keepMine();   ///< resolves a conflict: the next save overwrites the file
+
+    /// Text that a crash has left; empty: none.
+    const std::optional<std::string>& recovery() const { return recovery_; }
+    void recover();         ///< takes the text over, as an edit that can be undone
+    void discardRecovery(); ///< deletes the text
+
+    /// Looks at the file, writes the recovery file, advances the timeline. Call it once a frame.
+    /// @param seconds [s] real time since the last call
+    void update(double seconds);
+    /// Ends the session: no recovery file is left.
+    void close() { autosave_.discard(); }
+
+private:
+    Session(Document opened, std::string name, std::filesystem::path recovery);
+    void mendSelection();
+    void watchFile();
+
+    std::string name_;
+    std::filesystem::path recoveryFolder_;
+    SoloMute soloMute_;
+    uint64_t choice_ = 0; ///< changes of solo and mute
+    Autosave autosave_;
+    FileWatch watch_;
+    std::optional<std::string> conflict_;
+    std::optional<std::string> recovery_;
+    std::vector<DocumentFinding> findings_;
+    uint64_t findingsRevision_ = 0;
+};
+
+} // namespace fx::editor
