@@ -2,6 +2,7 @@
 FX_COMMAND(Render)     // fxsdk/cli/render
 FX_COMMAND(Export)     // fxsdk/cli/export
 FX_COMMAND(Import)     // fxsdk/cli/import
+FX_COMMAND(Edit)       // fxsdk/editor/program
 FX_COMMAND(Validate)   // fxsdk/cli/inspect
 FX_COMMAND(Doctor)     // fxsdk/cli/inspect
 FX_COMMAND(Parameters) // fxsdk/cli/inspect

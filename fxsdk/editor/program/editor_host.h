@@ -1,0 +1,49 @@
+/// @file editor_host.h
+/// Runs the editor in an OpenGL context: a session, its picture and its panels, frame by frame. The window
+/// and the program without a display use the same frames.
+///
+/// Threads: [GL thread].
+#pragma once
+
+#include "fxsdk/editor/panels/editor_ui.h"
+#include "fxsdk/editor/preview/preview.h"
+
+#include <memory>
+#include <string>
+
+namespace fx::editor {
+
+class EditorHost
+{
+public:
+    /// Needs a current context of OpenGL and of ImGui.
+    static base::Result<std::unique_ptr<EditorHost>> create(std::unique_ptr<Session> session,
+                                                            const render::GlLoader& loader);
+    ~EditorHost();
+    EditorHost(const EditorHost&) = delete;
+    EditorHost& operator=(const EditorHost&) = delete;
+
+    /// Draws a frame to a framebuffer of the size that ImGui's io.DisplaySize states. ImGui::NewFrame() is
+    /// called within. @param seconds [s] real time since the last frame
+    base::Status frame(double seconds, uint32_t framebuffer);
+
+    PanelState& state() { return *state_; }
+    Session& session() { return *session_; }
+    Preview& preview() { return *preview_; }
+    /// Revision of the session that the picture of the last frame shows.
+    uint64_t pictureRevision() const { return shownRevision_; }
+
+private:
+    EditorHost() = default;
+    void updatePicture();
+    base::Status writePicture(const std::string& file);
+    void answerWhy();
+
+    std::unique_ptr<Session> session_;
+    std::unique_ptr<Preview> preview_;
+    std::unique_ptr<PanelState> state_;
+    uint64_t shownRevision_ = 0;
+    std::string pictureKey_; ///< what the last picture depended on
+};
+
+} // namespace fx::editor

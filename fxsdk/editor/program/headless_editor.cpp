@@ -1,0 +1,283 @@
+#include "fxsdk/editor/program/headless_editor.h"
+
+#include "fxsdk/assets/read_file.h"
+#include "fxsdk/cli/scene/picture.h"
+#include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/editor/inspector/member.h"
+#include "fxsdk/editor/program/editor_host.h"
+#include "fxsdk/editor/program/input.h"
+#include "rendering/gl/gl_read_texture.h"
+#include "rendering/image/image.h"
+#include "rendering/platform/gl_context.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <sstream>
+
+namespace fx::editor {
+
+namespace {
+
+constexpr uint64_t kScriptBytes = uint64_t(1) << 20;
+constexpr double kFrameSeconds = 1.0 / 60.0;
+
+struct ImGuiOwner
+{
+    ImGuiOwner() { ImGui::CreateContext(); }
+    ~ImGuiOwner() { ImGui::DestroyContext(); }
+    ImGuiOwner(const ImGuiOwner&) = delete;
+    ImGuiOwner& operator=(const ImGuiOwner&) = delete;
+};
+
+class Runner
+{
+public:
+    Runner(EditorHost& host, const HeadlessOptions& options) : host_(host), options_(options)
+    {
+        render::GlFunctions& gl = host_.preview().device().gl;
+        gl.CreateTextures(GL_TEXTURE_2D, 1, &texture_);
+        gl.TextureStorage2D(texture_, 1, GL_RGBA8, options.width, options.height);
+        gl.CreateFramebuffers(1, &framebuffer_);
+        gl.NamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, texture_, 0);
+    }
+    ~Runner()
+    {
+        render::GlFunctions& gl = host_.preview().device().gl;
+        gl.DeleteFramebuffers(1, &framebuffer_);
+        gl.DeleteTextures(1, &texture_);
+    }
+    Runner(const Runner&) = delete;
+    Runner& operator=(const Runner&) = delete;
+
+    base::Status frames(int count)
+    {
+        for (int i = 0; i < count; ++i) {
+            ImGui::GetIO().DisplaySize = {float(options_.width), float(options_.height)};
+            ImGui::GetIO().DeltaTime = float(kFrameSeconds);
+            if (base::Status status = host_.frame(kFrameSeconds, framebuffer_); !status)
+                return status;
+        }
+        return {};
+    }
+
+    base::Status shot(const std::string& file)
+    {
+        const cli::Picture picture = cli::fromBottomUp(
+            options_.width, options_.height, 3,
+            render::readTexture(host_.preview().device(), texture_, options_.width, options_.height, 3));
+        const auto png = image::writePng({picture.width, picture.height, picture.channels, picture.pixels});
+        if (!png)
+            return png.status();
+        return cli::writeFileAtomically(file, {reinterpret_cast<const char*>(png->data()), png->size()});
+    }
+
+    base::Status command(const std::string& line)
+    {
+        std::istringstream words(line);
+        std::string verb;
+        words >> verb;
+        if (verb.empty() || verb[0] == '#')
+            return {};
+        if (verb == "frames") {
+            int count = 1;
+            words >> count;
+            return frames(std::clamp(count, 0, 100000));
+        }
+        if (verb == "click" || verb == "doubleclick" || verb == "rightclick" || verb == "drag" ||
+            verb == "at")
+            return onWidget(verb, words);
+        if (verb == "shot" || verb == "text")
+            return write(verb, words);
+        if (verb == "places")
+            return listPlaces();
+        return input(verb, words, line);
+    }
+
+    base::Status measure(int edits);
+
+private:
+    base::Status click(ImVec2 at, int button, int times)
+    {
+        moveMouse(at.x, at.y);
+        base::Status status = frames(1);
+        for (int i = 0; i < times && status.ok(); ++i) {
+            pressMouse(button, true);
+            status = frames(1);
+            pressMouse(button, false);
+            if (status.ok())
+                status = frames(1);
+        }
+        return status.ok() ? frames(1) : status;
+    }
+
+    base::Status drag(ImVec2 from, ImVec2 way)
+    {
+        moveMouse(from.x, from.y);
+        base::Status status = frames(1);
+        pressMouse(0, true);
+        for (int i = 0; i <= 8 && status.ok(); ++i) {
+            moveMouse(from.x + way.x * float(i) / 8.0f, from.y + way.y * float(i) / 8.0f);
+            status = frames(1);
+        }
+        pressMouse(0, false);
+        return status.ok() ? frames(2) : status;
+    }
+
+    /// Names with blanks are those of tabs, buttons and choices; the longest name that exists is taken.
+    base::Status onWidget(const std::string& verb, std::istringstream& words)
+    {
+        std::string name;
+        std::getline(words >> std::ws, name);
+        float x = 0.5f;
+        float y = 0.5f;
+        if (verb == "drag" || verb == "at") {
+            const size_t second = name.find_last_of(' ');
+            const size_t first = second == std::string::npos ? second : name.find_last_of(' ', second - 1);
+            if (first == std::string::npos || std::sscanf(name.c_str() + first, "%f %f", &x, &y) != 2)
+                return {base::Code::InvalidArgument, verb + " needs a name and two numbers"};
+            name.resize(first);
+        }
+        const auto& places = host_.state().places;
+        const auto found = places.find(name);
+        if (found == places.end())
+            return {base::Code::NotFound,
+                    "no widget has the name \"" + name + "\"; the command places lists names"};
+        const Place place = found->second;
+        const ImVec2 middle(0.5f * (place.low.x + place.high.x), 0.5f * (place.low.y + place.high.y));
+        if (verb == "drag")
+            return drag(middle, {x, y});
+        if (verb == "at")
+            return click({place.low.x + x * (place.high.x - place.low.x),
+                          place.low.y + y * (place.high.y - place.low.y)},
+                         0, 1);
+        return click(middle, verb == "rightclick" ? 1 : 0, verb == "doubleclick" ? 2 : 1);
+    }
+
+    base::Status write(const std::string& verb, std::istringstream& words)
+    {
+        std::string file;
+        std::getline(words >> std::ws, file);
+        return verb == "shot" ? shot(file) : cli::writeFileAtomically(file, host_.session().document.text());
+    }
+
+    base::Status listPlaces()
+    {
+        for (const auto& [name, place] : host_.state().places)
+            std::printf("%s %.0f %.0f %.0f %.0f\n", name.c_str(), double(place.low.x), double(place.low.y),
+                        double(place.high.x), double(place.high.y));
+        return {};
+    }
+
+    base::Status input(const std::string& verb, std::istringstream& words, const std::string& line)
+    {
+        float x = 0.0f;
+        float y = 0.0f;
+        if (verb == "type") {
+            typeText(line.size() > 5 ? line.substr(line.find("type") + 5) : std::string());
+            return frames(2);
+        }
+        if (verb == "key") {
+            std::string key;
+            words >> key;
+            if (!pressKey(key, true))
+                return {base::Code::InvalidArgument, "the key \"" + key + "\" is unknown"};
+            const base::Status status = frames(1);
+            (void)pressKey(key, false);
+            return status.ok() ? frames(2) : status;
+        }
+        words >> x;
+        if (verb == "time")
+            host_.session().playback.scrub(double(x));
+        else if (verb == "wheel")
+            turnWheel(x);
+        else if (verb == "move" && words >> y)
+            moveMouse(x, y);
+        else if ((verb == "press" || verb == "release") && x >= 0.0f && x <= 2.0f)
+            pressMouse(int(x), verb == "press");
+        else
+            return {base::Code::InvalidArgument, "\"" + line + "\" is no command; see docs/howto/editor.md"};
+        return frames(1);
+    }
+
+    EditorHost& host_;
+    const HeadlessOptions& options_;
+    uint32_t texture_ = 0;
+    uint32_t framebuffer_ = 0;
+};
+
+/// Changes a number again and again, and takes the time until a frame shows it.
+base::Status Runner::measure(int edits)
+{
+    Session& session = host_.session();
+    const auto elements = soloElements(session.document.json(), session.document.schema());
+    const std::string pointer = elements.empty() ? "/wind" : elements.front() + "/position";
+    std::vector<double> milliseconds;
+    int mostFrames = 0;
+    const uint32_t compiled = host_.preview().statistics().programsCompiled;
+    for (int i = 0; i < edits; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        if (base::Status status = session.document.set(pointer, Json::array({0.01 * (i % 7), 0.5, 0}));
+            !status)
+            return status;
+        int count = 0;
+        while (count == 0 || host_.pictureRevision() != session.shownRevision()) {
+            if (base::Status status = frames(1); !status)
+                return status;
+            ++count;
+        }
+        host_.preview().device().gl.Finish();
+        milliseconds.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        mostFrames = std::max(mostFrames, count);
+    }
+    std::sort(milliseconds.begin(), milliseconds.end());
+    std::printf("%d edits of %s: median %.1f ms, p95 %.1f ms from the edit to the picture; at most %d "
+                "frames; %u late compiles\n",
+                edits, pointer.c_str(), milliseconds[milliseconds.size() / 2],
+                milliseconds[milliseconds.size() * 95 / 100], mostFrames,
+                host_.preview().statistics().programsCompiled - compiled);
+    return {};
+}
+
+base::Status runScript(Runner& runner, const std::string& file)
+{
+    const auto script = asset::readFile(file, kScriptBytes);
+    if (!script)
+        return script.status();
+    std::istringstream lines(*script);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number)
+        if (base::Status status = runner.command(line); !status)
+            return {status.code(), file + ":" + std::to_string(number) + ": " + status.message()};
+    return {};
+}
+
+} // namespace
+
+base::Status runHeadless(std::unique_ptr<Session> session, const HeadlessOptions& options)
+{
+    auto context = render::createEglContext({});
+    if (!context)
+        return context.status();
+    const ImGuiOwner imgui;
+    applyStyle(options.scale);
+    startInput();
+    auto host = EditorHost::create(std::move(session), (*context)->loader());
+    if (!host)
+        return host.status();
+    Runner runner(**host, options);
+    base::Status status = runner.frames(3);
+    if (status.ok() && !options.script.empty())
+        status = runScript(runner, options.script);
+    if (status.ok() && options.measuredEdits > 0)
+        status = runner.measure(options.measuredEdits);
+    if (status.ok() && !options.output.empty())
+        status = runner.shot(options.output);
+    (*host)->session().close();
+    return status;
+}
+
+} // namespace fx::editor
