@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 namespace fx::editor {
@@ -55,10 +56,11 @@ void drawCurve(const Canvas& canvas, const Json& keys)
     ImDrawList* const draw = ImGui::GetWindowDrawList();
     for (int i = 0; i <= 4; ++i) {
         const double value = canvas.lowest + (canvas.highest - canvas.lowest) * i / 4.0;
+        char label[24];
+        std::snprintf(label, sizeof label, "%.3g", value);
         const ImVec2 left = canvas.at(0.0, value);
         draw->AddLine(left, canvas.at(1.0, value), IM_COL32(255, 255, 255, 24));
-        draw->AddText({left.x + 4, left.y - (i == 0 ? 18.0f : 0.0f)}, IM_COL32(160, 165, 175, 255),
-                      numberText(value).c_str());
+        draw->AddText({left.x + 4, left.y - (i == 0 ? 18.0f : 0.0f)}, IM_COL32(160, 165, 175, 255), label);
         draw->AddLine(canvas.at(i / 4.0, canvas.lowest), canvas.at(i / 4.0, canvas.highest),
                       IM_COL32(255, 255, 255, 24));
     }

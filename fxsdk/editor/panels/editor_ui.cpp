@@ -105,7 +105,8 @@ void drawEditor(PanelState& state)
     const float middle = size.x - left - right;
     const float time = line * 6.6f;
     const float low = std::max(size.y * 0.26f, line * 11.0f);
-    window("Commands", 0, 0, size.x, top, ImGuiWindowFlags_NoTitleBar, [&] { topBar(state); });
+    window("Commands", 0, 0, size.x, top, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar,
+           [&] { topBar(state); });
     window("Elements", 0, top, left, size.y - top, 0, [&] { outlinerPanel(state); });
     window("Inspector", left + middle, top, right, size.y - top, 0, [&] { inspectorPanel(state); });
     window("Picture", left, top, middle, size.y - top - time - low,

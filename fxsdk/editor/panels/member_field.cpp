@@ -55,8 +55,9 @@ void textField(PanelState& state, const Member& member, const Json& value)
     const std::string label = "##" + member.pointer;
     const ImGuiID id = ImGui::GetID(label.c_str());
     char buffer[4097];
-    const std::string text =
-        state.typedField == id ? state.typed : (value.is_string() ? value.get<std::string>() : "");
+    const std::string text = state.typedField == id
+                                 ? state.typed
+                                 : (member.isPresent && value.is_string() ? value.get<std::string>() : "");
     std::snprintf(buffer, sizeof buffer, "%s", text.c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     ImGui::InputText(label.c_str(), buffer, sizeof buffer);

@@ -1,0 +1,44 @@
+#include "fxsdk/editor/panels/curve_keys.h"
+
+#include <gtest/gtest.h>
+
+namespace fx::editor {
+namespace {
+
+TEST(CurveKeys, keysThatMoveTogetherKeepTheirDistanceAndOrder)
+{
+    Json keys = Json::parse("[[0, 0], [0.2, 1], [0.4, 2], [1, 3]]");
+    moveKeys(keys, {1, 2}, 0.1, 0.5, 0.0, 10.0);
+    EXPECT_EQ(keys, Json::parse("[[0, 0], [0.3, 1.5], [0.5, 2.5], [1, 3]]"));
+    moveKeys(keys, {1, 2}, 5.0, 0.0, 0.0, 10.0);
+    EXPECT_NEAR(keys[2][0].get<double>(), 1.0 - 1e-4, 1e-6);
+    EXPECT_NEAR(keys[2][0].get<double>() - keys[1][0].get<double>(), 0.2, 1e-5);
+}
+
+TEST(CurveKeys, valuesStayInTheirRange)
+{
+    Json keys = Json::parse("[[0, 0.5]]");
+    moveKeys(keys, {0}, 0.0, 9.0, 0.0, 1.0);
+    EXPECT_EQ(keys[0][1], 1);
+}
+
+TEST(CurveKeys, anAddedKeyDoesNotChangeTheCurve)
+{
+    Json keys = Json::parse("[[0, 0], [1, 4]]");
+    EXPECT_EQ(addKey(keys, 0.25), 1u);
+    EXPECT_EQ(keys[1], Json::parse("[0.25, 1]"));
+    EXPECT_DOUBLE_EQ(curveAt(keys, 0.625), 2.5);
+    removeKeys(keys, {0, 1, 2});
+    EXPECT_EQ(keys.size(), 1u);
+}
+
+TEST(CurveKeys, hotterBodiesAreBluer)
+{
+    const Json ramp = temperatureRamp(1000.0, 10000.0, 4);
+    for (size_t i = 1; i < ramp.size(); ++i)
+        EXPECT_GT(ramp[i][1][2].get<double>() / ramp[i][1][0].get<double>(),
+                  ramp[i - 1][1][2].get<double>() / ramp[i - 1][1][0].get<double>());
+}
+
+} // namespace
+} // namespace fx::editor

@@ -1,0 +1,82 @@
+#include "fxsdk/editor/session/session.h"
+
+#include "tests/tool/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace fx::editor {
+namespace {
+
+const std::string kText =
+    R"({"version": 1, "duration": 4, "emitters": [{"name": "a", "emission": {"rate": 5}}]})";
+
+TEST(Session, aFileThatChangesUnderEditsIsAConflict)
+{
+    test::TemporaryFolder folder;
+    const std::string path = (folder / "a.fx.json").string();
+    test::writeText(path, kText);
+    auto session = Session::open(path, folder / "state");
+    ASSERT_TRUE(session.ok());
+    Session& open = **session;
+    open.run(open.document.set("/name", "mine"));
+    test::writeText(path, R"({"version": 1, "name": "theirs"})");
+    open.update(0.01);
+    ASSERT_TRUE(open.conflict().has_value());
+    open.takeTheirs();
+    EXPECT_EQ(open.document.json()["name"], "theirs");
+    EXPECT_EQ(open.selection, ""); // the emitter is gone
+    open.undo();
+    EXPECT_EQ(open.document.json()["name"], "mine");
+}
+
+TEST(Session, whatASessionDidNotSaveIsOfferedToTheNext)
+{
+    test::TemporaryFolder folder;
+    const std::string path = (folder / "a.fx.json").string();
+    test::writeText(path, kText);
+    {
+        auto session = Session::open(path, folder / "state");
+        ASSERT_TRUE(session.ok());
+        (*session)->run((*session)->document.set("/name", "mine"));
+        (*session)->update(0.01);
+    }
+    auto next = Session::open(path, folder / "state");
+    ASSERT_TRUE(next.ok());
+    ASSERT_TRUE((*next)->recovery().has_value());
+    (*next)->recover();
+    EXPECT_EQ((*next)->document.json()["name"], "mine");
+    EXPECT_TRUE((*next)->document.isDirty());
+    (*next)->close();
+    EXPECT_FALSE((*Session::open(path, folder / "state"))->recovery().has_value());
+}
+
+TEST(Playback, timesAreWholeSteps)
+{
+    Playback playback;
+    playback.end = 2.0;
+    playback.scrub(1.003);
+    EXPECT_EQ(playback.step(), 60);
+    playback.isPlaying = true;
+    for (int i = 0; i < 144; ++i)
+        playback.advance(1.0 / 144.0);
+    EXPECT_NEAR(playback.time(), 2.0, 1.01 / 60.0);
+    playback.isLooping = false;
+    playback.advance(5.0);
+    EXPECT_EQ(playback.step(), 120);
+    EXPECT_FALSE(playback.isPlaying);
+}
+
+TEST(OrbitCamera, orbitKeepsTargetAndDistance)
+{
+    OrbitCamera camera;
+    camera.look({3.0, 4.0, 12.0}, {0.0, 0.0, 0.0});
+    EXPECT_NEAR(glm::distance(camera.position(), glm::dvec3(3.0, 4.0, 12.0)), 0.0, 1e-9);
+    camera.orbit(1.0, 9.0);
+    EXPECT_NEAR(glm::length(camera.position()), 13.0, 1e-9);
+    camera.zoom(0.5);
+    EXPECT_NEAR(glm::length(camera.position()), 6.5, 1e-9);
+}
+
+} // namespace
+} // namespace fx::editor
