@@ -19,9 +19,10 @@ namespace fx::render {
 constexpr int kMinTile = 16;
 constexpr int kMaxTile = 128;
 constexpr size_t kTileSizes = 4;
-constexpr int kTilePageColumns = 16;      ///< pages of kMaxTile^2 texels side by side in the atlas
-constexpr int kMaxTilePageRows = 8;       ///< 2048 x 1024 texels
-constexpr uint32_t kMaxTileBalls = 65536; ///< content with more balls gets no tiles
+constexpr int kTilePageColumns = 16; ///< pages of kMaxTile^2 texels side by side in the atlas
+constexpr int kMaxTilePageRows = 8;  ///< 2048 x 1024 texels
+constexpr uint32_t kMaxTileBalls =
+    61440; ///< content with more balls gets no tiles; software renderers end loops after 65,535 turns
 
 /// A tile that is to be drawn in this frame.
 struct TileJob

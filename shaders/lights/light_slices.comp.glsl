@@ -13,8 +13,8 @@ struct MediumCaster
 };
 layout(std430, binding = 0) readonly buffer Casters { MediumCaster casters[]; };
 layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
-layout(rg32f, binding = 0) uniform writeonly image2D slices; // r optical depth up to a plane; g from it to the next
-layout(std140, binding = 0) uniform SliceBlock { ivec4 casterCount; };
+layout(rg32f, binding = 0) uniform image2D slices; // r optical depth up to a plane; g from it to the next
+layout(std140, binding = 0) uniform SliceBlock { ivec4 casterRange; }; // x first; y end; 0 as x: what is there is replaced
 
 const int kMaxPlanes = 128;
 shared uint met[2]; // one bit a ball of the batch of 64
@@ -51,13 +51,13 @@ void main()
     float between[kMaxPlanes];
     for (int k = 0; k < planes; ++k)
         between[k] = 0.0;
-    for (int batch = 0; batch < casterCount.x; batch += 64) {
+    for (int batch = casterRange.x; batch < casterRange.y; batch += 64) {
         uint lane = gl_LocalInvocationIndex;
         if (lane < 2u)
             met[lane] = 0u;
         barrier();
         int mine = batch + int(lane);
-        if (mine < casterCount.x && canMeet(casters[mine].centerRadius, middleStart, middle, reach, isParallel))
+        if (mine < casterRange.y && canMeet(casters[mine].centerRadius, middleStart, middle, reach, isParallel))
             atomicOr(met[lane >> 5], 1u << (lane & 31u));
         barrier();
         for (int word = 0; word < 2; ++word) {
@@ -91,6 +91,10 @@ void main()
     for (int k = 0; k < planes; ++k) {
         depth += between[k];
         float next = k + 1 < planes ? between[k + 1] : 0.0;
-        imageStore(slices, tile + side * ivec2(k % kTileColumns, k / kTileColumns), vec4(depth, next, 0.0, 0.0));
+        ivec2 texel = tile + side * ivec2(k % kTileColumns, k / kTileColumns);
+        vec2 others = vec2(0.0); // of the casters of earlier passes
+        for (int i = 0; i < (casterRange.x > 0 ? 1 : 0); ++i)
+            others = imageLoad(slices, texel).rg;
+        imageStore(slices, texel, vec4(others + vec2(depth, next), 0.0, 0.0));
     }
 }

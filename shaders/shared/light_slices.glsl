@@ -1,5 +1,6 @@
 // The optical depth of all media between the lights of a view and a point.
 #include "shared/light_block.glsl"
+#include "formulas/slice_depth.fx.h"
 layout(binding = 7) uniform sampler2D lightSlices;   // r optical depth up to a plane; g between it and the next plane
 layout(binding = 6) uniform sampler2D hostShadowMap; // depth of the host's surfaces as the sun sees them
 
@@ -34,8 +35,10 @@ vec2 depthAtPlace(vec4 tiles, vec3 place)
     int last = int(tiles.w) - 1;
     float plane = clamp(place.z, 0.0, float(last));
     int lower = min(int(plane), last - 1);
-    vec2 before = slicePlane(tiles, lower, texel);
-    return vec2(before.r + (plane - float(lower)) * before.g, slicePlane(tiles, last, texel).r);
+    vec2 slab = slicePlane(tiles, lower, texel);
+    float before = lower > 0 ? slicePlane(tiles, max(lower - 1, 0), texel).g : slab.g;
+    float behind = slicePlane(tiles, lower + 1, texel).g;
+    return vec2(slab.r + fxSliceDepth(before, slab.g, behind, plane - float(lower)), slicePlane(tiles, last, texel).r);
 }
 
 // Optical depth between parallel light number i and p [m, relative to the eye], and of all media on its line through p.

@@ -19,14 +19,26 @@ vec2 fxMediaPlane(sampler2D planes, vec4 tiles, int plane, vec2 texel)
     return textureLod(planes, (tile + texel) / vec2(textureSize(planes, 0)), 0.0).rg;
 }
 
-// Optical depth up to a place: texel x, texel y, plane. Linear between texels and between planes.
+// Optical depth within a slab between two planes up to `share` of its length, from those of the slabs before, between and
+// behind: a cubic whose slope at a plane is the harmonic mean of the slabs on both sides.
+float fxMediaSlab(float before, float between, float behind, float share)
+{
+    float first = 2.0 * before * between / max(before + between, 1e-30);
+    float last = 2.0 * between * behind / max(between + behind, 1e-30);
+    float rest = 1.0 - share;
+    return share * rest * rest * first + share * share * ((3.0 - 2.0 * share) * between - rest * last);
+}
+
+// Optical depth up to a place: texel x, texel y, plane. Linear between texels.
 float fxMediaDepth(sampler2D planes, vec4 tiles, vec3 place)
 {
     vec2 texel = clamp(place.xy, vec2(0.5), vec2(tiles.z - 0.5));
     float plane = clamp(place.z, 0.0, tiles.w - 1.0);
     int lower = min(int(plane), int(tiles.w) - 2);
-    vec2 depth = fxMediaPlane(planes, tiles, lower, texel);
-    return depth.x + (plane - float(lower)) * depth.y;
+    vec2 slab = fxMediaPlane(planes, tiles, lower, texel);
+    float before = lower > 0 ? fxMediaPlane(planes, tiles, max(lower - 1, 0), texel).y : slab.y;
+    float behind = fxMediaPlane(planes, tiles, lower + 1, texel).y;
+    return slab.x + fxMediaSlab(before, slab.y, behind, plane - float(lower));
 }
 
 // Where a direction from a light at a point lies among `texels` of a plane along a side: an octahedral map.

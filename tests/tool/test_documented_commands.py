@@ -42,6 +42,9 @@ EXCEPTIONS = {
 
 # Of which only the options are looked at, because a program of their own runs them.
 TESTED_ELSEWHERE = {
+    ("fx", "edit", "FILE"): "opens a window; without one, tool.fx_edit",
+    ("fx", "edit", "my-effect.fx.json"): "opens a window",
+    ("fx", "edit", "library:sparks"): "opens a window",
     ("fx", "bench", "idle"): "counts instructions with valgrind; tool.idle_cost, tool.idle_cost_gl",
     ("fx", "bench", "soak"): "counts instructions with valgrind; tool.soak",
     ("fx", "accuracy", "all"): "takes minutes; each technique is run by itself",
@@ -97,6 +100,7 @@ class Workplace:
         subprocess.run([sys.executable, ROOT / "scripts/make_courtyard.py", self.root / "examples/scenes"], check=True,
                        stdout=subprocess.DEVNULL)
         (self.root / "tiny.fx.json").write_text(TINY)
+        (self.root / "edit.txt").write_text("click /emitters/0/maxParticles\ntype 2*100\nkey enter\nshot editor.png\n")
         (self.root / "points.csv").write_text("x,y,z,value\n" + "".join(
             f"{x},{y},{z},1\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)))
         (self.root / "numbers.raw").write_bytes(struct.pack("<8f", *range(8)))

@@ -14,7 +14,7 @@ extern const ProgramDesc kLightSlicesProgram;
 ///         stacks   buffer of SliceStackBlock
 /// writes  atlas    RG32F: optical depth up to the plane, and from the plane to the next plane
 /// Each texel is written by one invocation, which adds casters in the order of the list. Therefore equal
-/// inputs give bit-identical results.
+/// inputs give bit-identical results. Many casters are added by several passes, one after the other.
 class LightSlicesPass
 {
 public:

@@ -89,7 +89,11 @@ SliceDepth SliceDepths::depthAt(const glm::vec3& position) const
     const int last = stack_.resolution.planes - 1;
     const float plane = std::clamp(place.plane, 0.0f, float(last));
     const int lower = std::min(int(plane), last - 1);
-    return {glm::mix(planeAt(lower, x, y), planeAt(lower + 1, x, y), plane - float(lower)),
+    const float front = planeAt(lower, x, y);
+    const float between = planeAt(lower + 1, x, y) - front;
+    const float before = lower > 0 ? front - planeAt(lower - 1, x, y) : between;
+    const float behind = lower + 2 <= last ? planeAt(lower + 2, x, y) - planeAt(lower + 1, x, y) : 0.0f;
+    return {front + formula::fxSliceDepth(before, between, behind, plane - float(lower)),
             planeAt(last, x, y)};
 }
 

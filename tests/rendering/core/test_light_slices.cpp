@@ -161,7 +161,7 @@ TEST(SliceDepths, beforeAllMediaNothingIsDarkBehindThemTheWholeDepthCounts)
         EXPECT_EQ(depths.depthAt(away * depths.stack().right).total, 0.0f);
 }
 
-TEST(SliceDepths, errorsBetweenPlanesFallWithTheSquareOfTheirDistance)
+TEST(SliceDepths, errorsBetweenPlanesFallFasterThanWithTheSquareOfTheirDistance)
 {
     const auto casters = cloud(30, 3.0f);
     for (const bool isParallel : {true, false}) {
@@ -180,7 +180,7 @@ TEST(SliceDepths, errorsBetweenPlanesFallWithTheSquareOfTheirDistance)
             sxx += logSpacing[i] * logSpacing[i];
             sxy += logSpacing[i] * logError[i];
         }
-        EXPECT_NEAR((n * sxy - sx * sy) / (n * sxx - sx * sx), 2.0, 0.2) << isParallel;
+        EXPECT_GT((n * sxy - sx * sy) / (n * sxx - sx * sx), 2.2) << isParallel;
     }
 }
 

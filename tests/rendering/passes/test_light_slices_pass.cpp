@@ -134,6 +134,17 @@ TEST_F(LightSlicesPassTest, farBallsAndCoincidentOnesAreIntegratedAsWell)
     (void)compare(drawn(casters), casters);
 }
 
+TEST_F(LightSlicesPassTest, manyBallsInOneColumnAllCount)
+{
+    std::vector<MediumCaster> casters; // more turns of a loop than software renderers take
+    for (uint32_t i = 0; i < 10000; ++i) {
+        const auto u = base::randomUnit4(5, 0, i, base::RandomPurpose::Position);
+        casters.push_back({{u[0], u[1], u[2]}, 0.6f, 5e-4f * u[3]});
+    }
+    light({64, 16}, casters);
+    (void)compare(drawn(casters), casters);
+}
+
 TEST_F(LightSlicesPassTest, equalInputsGiveEqualBits)
 {
     const auto casters = cloud(1000);
