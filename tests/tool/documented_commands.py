@@ -151,7 +151,7 @@ HAVE_SMALL = ("paper-frame", "billboards", "blocks", "composition", "detail", "l
 # Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
     Small(("fx", "render"), {"--size": "48x32"}, {"--frames": "0:1", "--time": "0.1"}),
-    Small(("fx", "edit"), {"--width": "640", "--height": "400"}, {"--measure": "2"}),
+    Small(("fx", "edit"), {"--width": "640", "--height": "480"}, {"--measure": "2"}),
     Small(("fx", "export"), {"--quality": "low"}, {"--frames": "0:1", "--time": "0.1", "--voxel-size": "0.5"}, {"--voxels": "100000"}),
     Small(("fx", "bench", "particles"), FEW),
     Small(("fx", "bench", "many-small"), FEW),
