@@ -36,8 +36,9 @@ public:
                bool castsShadows = true, bool isSorted = true, std::span<const LateBalls> late = {},
                const CameraGeometry* otherEye = nullptr);
 
-    /// Shows the blobs of the last build() to the camera that was its `otherEye`. Blobs are moved and sorted
-    /// anew, not gathered and shaded. Impostors are not supported.
+    /// Shows the blobs of the last build() to the camera that was its `otherEye`. This function moves and
+    /// sorts them; it does not gather or shade them again. It does not support effects that are drawn as
+    /// impostors.
     void turnTo(const CameraGeometry& camera);
 
     /// Blobs, sorted by decreasing distance. If build() had isSorted = false, blobs are sorted by group and

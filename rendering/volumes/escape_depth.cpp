@@ -1,5 +1,7 @@
 #include "rendering/volumes/escape_depth.h"
 
+#include "rendering/volumes/block_table.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <tuple>
 
 namespace fx::render {
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr int kSide = 8;
 constexpr size_t kVoxels = 512;
-constexpr uint32_t kNone = ~0u;
 constexpr int kAround = 27; // a block and its neighbors
 constexpr double kAxisWeight = 1.0 / 15.0, kCornerWeight = 3.0 / 40.0;
 
@@ -24,30 +24,6 @@ int aroundOf(const glm::ivec3& step)
     return step.x + 1 + 3 * (step.y + 1) + 9 * (step.z + 1);
 }
 
-/// Finds the neighbors of blocks.
-class Neighbors
-{
-public:
-    explicit Neighbors(std::span<const glm::ivec3> blocks) : blocks_(blocks), order_(blocks.size())
-    {
-        std::iota(order_.begin(), order_.end(), 0u);
-        std::ranges::sort(order_, {}, [&](uint32_t i) { return keyOf(blocks_[i]); });
-    }
-
-    uint32_t find(const glm::ivec3& block) const
-    {
-        const auto found =
-            std::ranges::lower_bound(order_, keyOf(block), {}, [&](uint32_t i) { return keyOf(blocks_[i]); });
-        return found != order_.end() && blocks_[*found] == block ? *found : kNone;
-    }
-
-private:
-    static std::tuple<int, int, int> keyOf(const glm::ivec3& b) { return {b.x, b.y, b.z}; }
-
-    std::span<const glm::ivec3> blocks_;
-    std::vector<uint32_t> order_;
-};
-
 class Sweep
 {
 public:
@@ -55,11 +31,10 @@ public:
         : lattice_(lattice), around_(lattice.blocks.size()), order_(lattice.blocks.size()),
           depth_(lattice.extinction.size()), seen_(lattice.extinction.size())
     {
-        const Neighbors neighbors(lattice.blocks);
         for (size_t b = 0; b < around_.size(); ++b)
             for (int k = 0; k < kAround; ++k)
-                around_[b][size_t(k)] =
-                    neighbors.find(lattice.blocks[b] + glm::ivec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+                around_[b][size_t(k)] = findBlock(
+                    lattice.blocks, lattice.blocks[b] + glm::ivec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
     }
 
     /// @param d each component -1 to 1
@@ -95,11 +70,11 @@ private:
                 for (int i = 0; i < kSide; ++i) {
                     const glm::ivec3 own(placeOf(i, d.x), placeOf(j, d.y), placeOf(k, d.z));
                     const glm::ivec3 next = own + d, step(next.x >> 3, next.y >> 3, next.z >> 3);
-                    const uint32_t other = around_[block][size_t(aroundOf(step))];
+                    const size_t other = around_[block][size_t(aroundOf(step))];
                     const size_t v = size_t(block) * kVoxels + indexOf(own, strides);
                     float depth = half_ * lattice_.extinction[v];
-                    if (other != kNone) {
-                        const size_t u = size_t(other) * kVoxels + indexOf(next - kSide * step, strides);
+                    if (other != kNoBlock) {
+                        const size_t u = other * kVoxels + indexOf(next - kSide * step, strides);
                         depth += half_ * lattice_.extinction[u] + depth_[u]; // (1)
                     }
                     depth_[v] = depth;
@@ -112,7 +87,7 @@ private:
     }
 
     const BlockLattice& lattice_;
-    std::vector<std::array<uint32_t, kAround>> around_;
+    std::vector<std::array<size_t, kAround>> around_;
     std::vector<uint32_t> order_;
     std::vector<float> depth_, seen_;
     float half_ = 0.0f; ///< [m]

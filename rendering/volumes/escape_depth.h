@@ -15,10 +15,11 @@ constexpr float kMostEscapeDepth = 64.0f; ///< [1]
 /// Voxels in blocks of 8 x 8 x 8, each of which has 512 values.
 struct BlockLattice
 {
-    std::span<const glm::ivec3> blocks; ///< [block] coordinates, without duplicates, in any order
-    glm::ivec3 strides{1, 8, 64};       ///< between the values of neighbors in a block along x, y, z
-    std::span<const float> extinction;  ///< [1/m] of all voxels
-    double side = 1.0;                  ///< [m] of a voxel
+    std::span<const glm::ivec3>
+        blocks;                        ///< [block] coordinates, rising as for findBlock(), without duplicates
+    glm::ivec3 strides{1, 8, 64};      ///< between the values of neighbors in a block along x, y, z
+    std::span<const float> extinction; ///< [1/m] of all voxels
+    double side = 1.0;                 ///< [m] of a voxel
 };
 
 /// @formula escape-depth

@@ -1,8 +1,9 @@
 #include "rendering/voxelization/ball_voxelizer.h"
 
 #include "rendering/optics/color_temperature.h"
+#include "rendering/volumes/block_table.h"
 #include "rendering/volumes/escape_depth.h"
-#include "rendering/voxelization/block_table.h"
+#include "rendering/voxelization/medium_grid.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "rendering/voxelization/medium_fit.h"
 
-#include "rendering/voxelization/block_table.h"
+#include "rendering/volumes/block_table.h"
 #include "rendering/voxelization/medium_cells.h"
 
 #include <glm/common.hpp>

@@ -1,6 +1,6 @@
 #include "rendering/voxelization/opacity_view.h"
 
-#include "rendering/voxelization/block_table.h"
+#include "rendering/volumes/block_table.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

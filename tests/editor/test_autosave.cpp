@@ -64,9 +64,15 @@ TEST(Autosave, theTextOfARunningProgramIsNotRecovered)
     const Autosave autosave(path, folder / "state");
     EXPECT_FALSE(autosave.recoverable().has_value());
     EXPECT_TRUE(autosave.isOpenElsewhere());
+    Document document = documentAt(path);
+    ASSERT_TRUE(document.set("/name", "mine").ok());
+    Autosave second(path, folder / "state");
+    EXPECT_FALSE(second.update(document, kAtOnce).ok()); // the text of the other is not overwritten,
+    second.discard();                                    // nor removed
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    EXPECT_TRUE(autosave.recoverable().has_value());
+    EXPECT_FALSE(autosave.isOpenElsewhere());
+    EXPECT_NE(autosave.recoverable().value_or("").find("new"), std::string::npos);
 }
 
 TEST(Autosave, aSavedDocumentLeavesNothing)
@@ -90,7 +96,7 @@ TEST(Autosave, aDamagedFileIsIgnored)
 {
     test::TemporaryFolder folder;
     const Autosave autosave("a.fx.json", folder.path());
-    for (const char* text : {"", "{", "[]", R"({"process": 1})", R"({"process": "x", "text": 1})"}) {
+    for (const char* text : {"", "{", "[]", R"({"path": "a"})", R"({"text": 1})"}) {
         test::writeText(autosave.file(), text);
         EXPECT_FALSE(autosave.recoverable().has_value()) << text;
     }

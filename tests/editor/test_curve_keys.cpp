@@ -15,6 +15,24 @@ TEST(CurveKeys, keysThatMoveTogetherKeepTheirDistanceAndOrder)
     EXPECT_NEAR(keys[2][0].get<double>() - keys[1][0].get<double>(), 0.2, 1e-5);
 }
 
+TEST(CurveKeys, whatIsNoCurveIsFound)
+{
+    for (const char* text :
+         {"1", "[1, 0.5, 0]", R"({"keys": [[0, 1]]})", R"({"keys": [[0, [1, 0, 0]], [1, [0, 0, 1]]]})"})
+        EXPECT_TRUE(isCurve(Json::parse(text))) << text;
+    for (const char* text : {"null", "\"a\"", "[1, 0]", "{}", R"({"keys": []})", R"({"keys": [[0]]})",
+                             R"({"keys": [["a", 1]]})", R"({"keys": [[0, "a"]]})", R"({"keys": [7]})",
+                             R"({"keys": [[0, 1], [1, [0, 0, 1]]]})", R"({"keys": [[0, [1, 0]]]})"})
+        EXPECT_FALSE(isCurve(Json::parse(text))) << text;
+}
+
+TEST(CurveKeys, otherMembersOfACurveAreKept)
+{
+    const Json curve = curveOf(Json::parse(R"({"note": "mine", "keys": [[0, 1]]})"), Json::parse("[[0, 2]]"));
+    EXPECT_EQ(curve, Json::parse(R"({"note": "mine", "keys": [[0, 2]]})"));
+    EXPECT_EQ(curveOf(3, Json::parse("[[0, 2]]")), Json::parse(R"({"keys": [[0, 2]]})"));
+}
+
 TEST(CurveKeys, valuesStayInTheirRange)
 {
     Json keys = Json::parse("[[0, 0.5]]");

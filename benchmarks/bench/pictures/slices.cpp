@@ -121,10 +121,10 @@ private:
         const auto stacks = graph_.importBuffer({"stacks", stacks_.bytes()}, stacks_.name());
         const auto atlas = graph_.importTexture(
             {"planes", atlas_.width(), atlas_.height(), render::Format::RG32F}, atlas_.name());
-        graph_.keep(
-            render::LightSlicesPass::addTo(graph_, {casters, stacks, atlas, count,
-                                                    uint32_t(list.stackBlocks().size()), list.mostTexels()})
-                .atlas);
+        graph_.keep(render::LightSlicesPass::addTo(graph_, {casters, stacks, atlas, count,
+                                                            uint32_t(list.stackBlocks().size()),
+                                                            list.mostTexels(), list.mostPlanes()})
+                        .atlas);
         graph_.compile();
         device_->gl.Finish();
         const auto start = std::chrono::steady_clock::now();

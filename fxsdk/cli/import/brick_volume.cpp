@@ -8,7 +8,7 @@
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/presets/preset_loader.h"
 #include "rendering/optics/color_temperature.h"
-#include "rendering/voxelization/block_table.h"
+#include "rendering/volumes/block_table.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

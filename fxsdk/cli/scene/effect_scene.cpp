@@ -8,6 +8,7 @@
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/scene/field_cache.h"
+#include "fxsdk/cli/scene/instance_definition.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/techniques.h"
 #include "rendering/volumes/volume_place.h"
@@ -20,27 +21,6 @@
 
 namespace fx::cli {
 namespace {
-
-FxInstanceDef definitionOf(const scene_file::SceneInstance& instance, FxPresetId preset)
-{
-    FxInstanceDef def = fxDefaultInstanceDef();
-    const base::Placement place = instance.placementAt(instance.start);
-    def.preset = preset;
-    def.scale = instance.scale;
-    for (int i = 0; i < 3; ++i) {
-        def.position[i] = place.position[i];
-        def.wind[i] = instance.parameters.wind[i];
-    }
-    def.rotation[0] = place.rotation.x;
-    def.rotation[1] = place.rotation.y;
-    def.rotation[2] = place.rotation.z;
-    def.rotation[3] = place.rotation.w;
-    def.startTick = base::toTicks(instance.start);
-    def.seed = instance.seed;
-    def.intensity = instance.parameters.intensity;
-    def.emitting = scene_file::valueAt(instance.play.emitting, instance.start, 1.0) > 0.0 ? 1 : 0;
-    return def;
-}
 
 /// Copies one group of blobs or lights that the C API hands out.
 base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uint32_t index,
@@ -200,7 +180,8 @@ base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const 
         hasSequences_ = hasSequences_ || assets().sequence(id) != nullptr;
     uint64_t index = 0;
     for (const scene_file::SceneInstance& instance : file.instances) {
-        FxInstanceDef def = definitionOf(instance, presets[instance.preset]);
+        FxInstanceDef def = instanceDefinition(instance, presets[instance.preset], instance.start);
+        def.startTick = base::toTicks(instance.start);
         if (options.seed)
             def.seed = *options.seed + index;
         ++index;

@@ -5,39 +5,24 @@
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/scene_file/scene_file.h"
 
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <unistd.h>
 #include <utility>
 
 namespace fx::editor {
 
 namespace {
 
-/// What a recovery file holds.
-struct Kept
-{
-    int64_t process = 0;
-    std::string text;
-};
-
-std::optional<Kept> readKept(const std::filesystem::path& file)
+/// The text in a recovery file.
+std::optional<std::string> readKept(const std::filesystem::path& file)
 {
     const auto bytes = asset::readFile(file.string(), 2 * scene_file::kSceneBytes);
     if (!bytes)
         return std::nullopt;
     const Json kept = Json::parse(*bytes, nullptr, false);
-    if (!kept.is_object() || !kept.contains("text") || !kept["text"].is_string() ||
-        !kept.contains("process") || !kept["process"].is_number_integer())
+    if (!kept.is_object() || !kept.contains("text") || !kept["text"].is_string())
         return std::nullopt;
-    return Kept{kept["process"].get<int64_t>(), kept["text"].get<std::string>()};
-}
-
-bool isRunning(int64_t process)
-{
-    return process > 0 && (kill(pid_t(process), 0) == 0 || errno == EPERM);
+    return kept["text"].get<std::string>();
 }
 
 } // namespace
@@ -61,18 +46,20 @@ Autosave::Autosave(const std::string& path, std::filesystem::path folder)
     file_ = std::move(folder) / (std::string(name) + ".json");
 }
 
+std::filesystem::path Autosave::lockFile() const
+{
+    return std::filesystem::path(file_).replace_extension(".lock");
+}
+
 std::optional<std::string> Autosave::recoverable() const
 {
-    std::optional<Kept> kept = readKept(file_);
-    if (!kept || (kept->process != getpid() && isRunning(kept->process)))
-        return std::nullopt;
-    return std::move(kept->text);
+    return isOpenElsewhere() ? std::nullopt : readKept(file_);
 }
 
 bool Autosave::isOpenElsewhere() const
 {
-    const std::optional<Kept> kept = readKept(file_);
-    return kept && kept->process != getpid() && isRunning(kept->process);
+    std::error_code ignored;
+    return !lock_.isHeld() && std::filesystem::exists(lockFile(), ignored) && !FileLock().take(lockFile());
 }
 
 base::Status Autosave::update(const Document& document, std::chrono::milliseconds interval)
@@ -90,7 +77,11 @@ base::Status Autosave::update(const Document& document, std::chrono::millisecond
         return {};
     std::error_code error;
     std::filesystem::create_directories(file_.parent_path(), error);
-    const Json kept{{"path", path_}, {"process", int64_t(getpid())}, {"text", document.text()}};
+    if (!lock_.take(lockFile()))
+        return {base::Code::Io,
+                path_ + ": edits are not kept for a crash: another editor has unsaved ones of it, or " +
+                    lockFile().string() + " cannot be written"};
+    const Json kept{{"path", path_}, {"text", document.text()}};
     const std::string bytes = kept.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (base::Status status = cli::writeFileAtomically(file_, bytes); !status)
         return status;
@@ -102,8 +93,12 @@ base::Status Autosave::update(const Document& document, std::chrono::millisecond
 
 void Autosave::discard()
 {
+    if (isOpenElsewhere())
+        return; // the file is the other's
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);
+    std::filesystem::remove(lockFile(), ignored);
+    lock_.release();
     isWritten_ = false;
 }
 

@@ -2,11 +2,13 @@
 /// Keeps the text of an edited document in a file of its own, so that it can be recovered after a crash.
 ///
 /// A recovery file is written atomically, and removed when the document is saved or closed. One that exists
-/// when a document is opened is left from a program that ended without closing it.
+/// when a document is opened is left from a program that ended without closing it, unless a program holds its
+/// lock.
 #pragma once
 
 #include "foundation/result/status.h"
 #include "fxsdk/editor/document/document.h"
+#include "fxsdk/editor/document/file_lock.h"
 
 #include <chrono>
 #include <cstdint>
@@ -44,7 +46,10 @@ public:
     const std::filesystem::path& file() const { return file_; }
 
 private:
+    std::filesystem::path lockFile() const;
+
     std::filesystem::path file_;
+    FileLock lock_; ///< held while there is a recovery file of this object
     std::string path_;
     uint64_t revision_ = 0; ///< of the document when it was last written
     bool isWritten_ = false;

@@ -1,5 +1,7 @@
 #include "fxsdk/editor/panels/panels.h"
 
+#include <utility>
+
 namespace fx::editor {
 
 namespace {
@@ -25,7 +27,15 @@ void changesPanel(PanelState& state)
     slotButtons(state, 1, "B");
     ImGui::Text("%zu edits, difference from the saved file:", session.document.history().done());
     ImGui::BeginChild("difference");
-    for (const DifferenceLine& line : difference(session.document.savedText(), session.document.text())) {
+    ShownDifference& shown = state.difference;
+    if (std::string text = session.document.text();
+        text != shown.after || session.document.savedText() != shown.before)
+    {
+        shown.before = session.document.savedText();
+        shown.after = std::move(text);
+        shown.lines = difference(shown.before, shown.after);
+    }
+    for (const DifferenceLine& line : shown.lines) {
         const ImVec4 color = line.mark == '+'   ? ImVec4(0.55f, 0.85f, 0.50f, 1.0f)
                              : line.mark == '-' ? ImVec4(0.95f, 0.50f, 0.45f, 1.0f)
                                                 : ImVec4(0.62f, 0.65f, 0.70f, 1.0f);

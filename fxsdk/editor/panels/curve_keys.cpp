@@ -9,6 +9,12 @@ namespace {
 
 constexpr double kCloser = 1e-4; // smallest distance in time of two keys
 
+bool isColor(const Json& value)
+{
+    return value.is_array() && value.size() == 3 &&
+           std::all_of(value.begin(), value.end(), [](const Json& channel) { return channel.is_number(); });
+}
+
 double channelOf(const Json& value, size_t channel)
 {
     if (value.is_array())
@@ -36,6 +42,20 @@ double planckRatio(double wavelength, double kelvin)
 
 } // namespace
 
+bool isCurve(const Json& value)
+{
+    if (!value.is_object())
+        return value.is_number() || isColor(value);
+    if (!value.contains("keys") || !value["keys"].is_array() || value["keys"].empty())
+        return false;
+    const Json& keys = value["keys"];
+    const bool ofColors = keys[0].is_array() && keys[0].size() == 2 && keys[0][1].is_array();
+    return std::all_of(keys.begin(), keys.end(), [&](const Json& key) {
+        return key.is_array() && key.size() == 2 && key[0].is_number() &&
+               (ofColors ? isColor(key[1]) : key[1].is_number());
+    });
+}
+
 Json keysOf(const Json& value)
 {
     if (value.is_object() && value.contains("keys") && value["keys"].is_array() && !value["keys"].empty())
@@ -43,9 +63,11 @@ Json keysOf(const Json& value)
     return Json::array({Json::array({0, value.is_object() ? Json(0) : value})});
 }
 
-Json curveOf(Json keys)
+Json curveOf(const Json& value, Json keys)
 {
-    return Json{{"keys", std::move(keys)}};
+    Json curve = value.is_object() ? value : Json::object();
+    curve["keys"] = std::move(keys);
+    return curve;
 }
 
 double curveAt(const Json& keys, double t, size_t channel)

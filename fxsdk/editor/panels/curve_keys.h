@@ -10,11 +10,15 @@
 
 namespace fx::editor {
 
+/// Whether a value is a constant, or has keys that all are numbers, or all are colors. The functions below
+/// need that.
+bool isCurve(const Json& value);
+
 /// Returns the keys of a member of the kind curve or color curve; a constant has one key at 0.
 Json keysOf(const Json& value);
 
-/// Returns the value of a member with these keys.
-Json curveOf(Json keys);
+/// Returns `value` with other keys. Other members of it are kept.
+Json curveOf(const Json& value, Json keys);
 
 /// Interpolated number, or channel of a color, at `t`. @param channel 0 to 2; ignored for numbers
 double curveAt(const Json& keys, double t, size_t channel = 0);

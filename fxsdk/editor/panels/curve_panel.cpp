@@ -31,7 +31,8 @@ struct Canvas
 
 void commit(PanelState& state, const Member& member, Json keys, uint64_t gesture = 0)
 {
-    state.session.run(state.session.document.set(member.pointer, curveOf(std::move(keys)), gesture));
+    state.session.run(state.session.document.set(
+        member.pointer, curveOf(valueOf(state.session.document, member), std::move(keys)), gesture));
 }
 
 bool isSelected(const PanelState& state, size_t key)
@@ -228,7 +229,12 @@ void curvePanel(PanelState& state)
         ImGui::TextDisabled("Click the picture of a curve or gradient in the inspector.");
         return;
     }
-    const Json keys = keysOf(valueOf(session.document, *member));
+    const Json curve = valueOf(session.document, *member);
+    if (!isCurve(curve)) {
+        ImGui::TextDisabled("These are no keys [time, value]; mend them in the inspector.");
+        return;
+    }
+    const Json keys = keysOf(curve);
     const bool isColor = member->kind == MemberKind::ColorCurve;
     std::erase_if(state.keys, [&](size_t key) { return key >= keys.size(); });
     ImGui::Text("%s%s%s", member->title.c_str(), member->unit.empty() ? "" : "  ", member->unit.c_str());

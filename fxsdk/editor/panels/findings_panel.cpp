@@ -27,8 +27,8 @@ void findingsPanel(PanelState& state)
     }
     ImGui::Separator();
     if (button(state, "Why is nothing visible?", "why"))
-        state.why = "?";
-    if (!state.why.empty() && state.why != "?") {
+        state.asksWhy = true;
+    if (!state.why.empty()) {
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextUnformatted(state.why.c_str());
         ImGui::PopTextWrapPos();

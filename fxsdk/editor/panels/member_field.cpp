@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <optional>
 #include <span>
 
 namespace fx::editor {
@@ -50,26 +50,44 @@ void choiceField(PanelState& state, const Member& member, const Json& value)
     ImGui::EndCombo();
 }
 
-void textField(PanelState& state, const Member& member, const Json& value)
+/// Lets a text grow while it is typed.
+int growText(ImGuiInputTextCallbackData* data)
+{
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackResize) {
+        auto& text = *static_cast<std::string*>(data->UserData);
+        text.resize(size_t(data->BufTextLen));
+        data->Buf = text.data();
+    }
+    return 0;
+}
+
+/// A field for text of any length. @return what was typed, when it is left
+std::optional<std::string> typedText(PanelState& state, const Member& member, std::string text)
 {
     const std::string label = "##" + member.pointer;
     const ImGuiID id = ImGui::GetID(label.c_str());
-    char buffer[4097];
-    const std::string text = state.typedField == id
-                                 ? state.typed
-                                 : (member.isPresent && value.is_string() ? value.get<std::string>() : "");
-    std::snprintf(buffer, sizeof buffer, "%s", text.c_str());
+    if (state.typedField == id)
+        text = state.typed;
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-    ImGui::InputText(label.c_str(), buffer, sizeof buffer);
+    ImGui::InputText(label.c_str(), text.data(), text.capacity() + 1, ImGuiInputTextFlags_CallbackResize,
+                     growText, &text);
     state.mark(member.pointer);
     if (ImGui::IsItemActive()) {
         state.typedField = id;
-        state.typed = buffer;
-    } else if (state.typedField == id) {
-        state.typedField = 0;
-        if (ImGui::IsItemDeactivatedAfterEdit())
-            set(state, member, std::string(buffer));
+        state.typed = text.c_str(); // up to its end, which typing has moved
+        return std::nullopt;
     }
+    if (state.typedField != id)
+        return std::nullopt;
+    state.typedField = 0;
+    return ImGui::IsItemDeactivatedAfterEdit() ? std::optional<std::string>(text.c_str()) : std::nullopt;
+}
+
+void textField(PanelState& state, const Member& member, const Json& value)
+{
+    const bool hasText = member.isPresent && value.is_string();
+    if (auto typed = typedText(state, member, hasText ? value.get<std::string>() : std::string()))
+        set(state, member, std::move(*typed));
 }
 
 /// Numbers side by side. @return the index of the one that has changed, or -1
@@ -173,24 +191,10 @@ void curveField(PanelState& state, const Member& member, const Json& value)
 /// What has no widget of its own is typed as JSON.
 void jsonField(PanelState& state, const Member& member, const Json& value)
 {
-    const std::string label = "##" + member.pointer;
-    const ImGuiID id = ImGui::GetID(label.c_str());
-    char buffer[4097];
-    std::snprintf(buffer, sizeof buffer, "%s", (state.typedField == id ? state.typed : value.dump()).c_str());
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-    ImGui::InputText(label.c_str(), buffer, sizeof buffer);
-    state.mark(member.pointer);
-    if (ImGui::IsItemActive()) {
-        state.typedField = id;
-        state.typed = buffer;
+    const auto text = typedText(state, member, value.dump());
+    if (!text)
         return;
-    }
-    if (state.typedField != id)
-        return;
-    state.typedField = 0;
-    if (!ImGui::IsItemDeactivatedAfterEdit())
-        return;
-    Json typed = Json::parse(buffer, nullptr, false);
+    Json typed = Json::parse(*text, nullptr, false);
     const base::Status status = typed.is_discarded()
                                     ? base::Status(base::Code::Parse, member.pointer + ": this is not JSON")
                                     : check(member, typed);
@@ -223,7 +227,7 @@ void memberField(PanelState& state, const Member& member)
         return vectorField(state, member, value);
     case MemberKind::Curve:
     case MemberKind::ColorCurve:
-        return curveField(state, member, value);
+        return isCurve(value) ? curveField(state, member, value) : jsonField(state, member, value);
     default:
         return jsonField(state, member, value);
     }

@@ -2,6 +2,7 @@
 /// What panels share in a frame: the session, the places of widgets, and what is being typed or dragged.
 #pragma once
 
+#include "fxsdk/editor/document/text_difference.h"
 #include "fxsdk/editor/session/session.h"
 
 #include <imgui.h>
@@ -30,6 +31,14 @@ struct Place
     ImVec2 high;
 };
 
+/// The difference from the saved file, which is found again when one of the texts has changed.
+struct ShownDifference
+{
+    std::string before;
+    std::string after;
+    std::vector<DifferenceLine> lines;
+};
+
 struct PanelState
 {
     explicit PanelState(Session& shown) : session(shown) {}
@@ -49,7 +58,9 @@ struct PanelState
     std::string saveAs;        ///< name in the dialog "save as"
     bool wantsClose = false;
     std::string renderTo; ///< file to which the host shall write the picture; empty: none
-    std::string why;      ///< answer to "why is nothing visible"
+    bool asksWhy = false; ///< the host shall answer "why is nothing visible"
+    std::string why;      ///< the answer
+    ShownDifference difference;
 
     /// Keeps the place of the last widget under a name.
     void mark(const std::string& name) { places[name] = {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()}; }

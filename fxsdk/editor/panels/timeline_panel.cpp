@@ -24,12 +24,12 @@ void transport(PanelState& state)
     ImGui::SameLine();
     ImGui::Checkbox("loop", &playback.isLooping);
     state.mark("timeline/loop");
-    const float width = ImGui::GetFontSize() * 6.0f;
+    const float width = ImGui::GetFontSize() * 4.5f;
     Member seconds;
     seconds.kind = MemberKind::Number;
     seconds.unit = "s";
     const auto field = [&](const char* label, const char* name, double value) {
-        ImGui::SameLine(0.0f, 16.0f);
+        ImGui::SameLine(0.0f, 10.0f);
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(label);
         ImGui::SameLine();

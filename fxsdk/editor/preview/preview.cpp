@@ -3,6 +3,7 @@
 #include "fxsdk/assets/asset_resolver.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/cli/scene/default_stage.h"
+#include "fxsdk/cli/scene/instance_definition.h"
 #include "fxsdk/cli/scene/view_settings.h"
 #include "fxsdk/presets/preset_loader.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 60.0;                   // [s] of the scene
 constexpr const char* kEdited = "edited-text.fx.json"; // the name by which the context reads an edited text
+constexpr float kNear = 0.05f;                         // [m]
 constexpr double kFramedSeconds = 4.0;                 // longest time simulated to place a camera
 
 base::Status statusOf(const fxsdk::Error& error)
@@ -106,9 +108,8 @@ base::Status Preview::readScene(const std::string& text, const std::string& name
     if (!file)
         return file.status();
     hasCamera_ = kind == DocumentKind::Scene || preview.hasCamera;
-    if (!hasCamera_ && isFirst_)
-        if (base::Status status = cli::frameEffect(*file, base::toTicks(kFramedSeconds), {}); !status)
-            return status;
+    if (!hasCamera_ && isFirst_) // reads the file, which may be gone: the camera then stays where it is
+        (void)cli::frameEffect(*file, base::toTicks(kFramedSeconds), {});
     file_ = std::move(*file);
     file_.view.composition = render::Composition::Automatic;
     file_.view.slices.automatic = true;
@@ -167,19 +168,8 @@ base::Status Preview::show(const std::string& text, const std::string& name, Doc
 void Preview::create(size_t index)
 {
     const scene_file::SceneInstance& instance = file_.instances[index];
-    FxInstanceDef def = fxsdk::instanceOf(presets_[instance.preset]);
-    const base::Placement place = instance.placementAt(instance.start + time_);
-    for (int i = 0; i < 3; ++i) {
-        def.position[i] = place.position[i];
-        def.wind[i] = instance.parameters.wind[i];
-    }
-    def.rotation[0] = place.rotation.x;
-    def.rotation[1] = place.rotation.y;
-    def.rotation[2] = place.rotation.z;
-    def.rotation[3] = place.rotation.w;
-    def.scale = instance.scale;
-    def.seed = instance.seed;
-    def.intensity = instance.parameters.intensity;
+    const FxInstanceDef def =
+        cli::instanceDefinition(instance, presets_[instance.preset], instance.start + time_);
     shown_[index] = {fxScene_->create(def), -1.0};
 }
 
@@ -241,7 +231,30 @@ FxViewSettings Preview::settingsOf(const PreviewFrame& frame) const
     return settings;
 }
 
-FxFrameDef Preview::frameOf(const render::CameraView& camera, const PreviewFrame& frame) const
+std::vector<std::string> Preview::causes(const PreviewFrame& frame)
+{
+    const FxFrameDef camera = frameOf(cameraOf(frame), frame);
+    std::vector<std::string> causes;
+    for (size_t i = 0; i < shown_.size(); ++i) {
+        FxVisibility report{};
+        report.structSize = sizeof report;
+        const bool isShown = shown_[i].id && fxScene_ExplainVisibility(fxScene_->get(), *shown_[i].id,
+                                                                       &camera, &report) == FX_OK;
+        const std::string name = shown_.size() > 1 ? "Instance " + std::to_string(i) + ": " : std::string();
+        causes.push_back(name + (isShown
+                                     ? fxGetVisibilityText(report.cause)
+                                     : "It has not started, or has ended by then: scrub to another time."));
+    }
+    return causes;
+}
+
+render::CameraView Preview::cameraOf(const PreviewFrame& frame)
+{
+    const float aspect = float(frame.width) / float(frame.height);
+    return render::perspectiveView(frame.pose, glm::radians(frame.fovYDegrees), aspect, kNear);
+}
+
+FxFrameDef Preview::frameOf(const render::CameraView& camera, const PreviewFrame& frame)
 {
     FxFrameDef def = fxDefaultFrameDef();
     for (int i = 0; i < 3; ++i)
@@ -256,9 +269,7 @@ FxFrameDef Preview::frameOf(const render::CameraView& camera, const PreviewFrame
 
 base::Status Preview::render(const PreviewFrame& frame)
 {
-    const float aspect = float(frame.width) / float(frame.height);
-    const render::CameraView camera =
-        render::perspectiveView(frame.pose, glm::radians(frame.fovYDegrees), aspect, 0.05f);
+    const render::CameraView camera = cameraOf(frame);
     const FxViewSettings settings = settingsOf(frame);
     if (base::Status status = stage_->render(camera, file_.view.lighting, {}, settings.exposureEv100,
                                              frame.width, frame.height);

@@ -43,6 +43,8 @@ public:
     base::Status show(const std::string& text, const std::string& name, DocumentKind kind);
     /// Goes to a time, a whole number of steps of 1/60 s. Before its start an instance is not shown.
     base::Status seek(double seconds);
+    /// Whether a text has been shown; before, there is nothing to seek and to draw.
+    bool hasScene() const { return !isFirst_; }
     /// Draws stage and effects. @return an error of GL
     base::Status render(const PreviewFrame& frame);
 
@@ -51,6 +53,8 @@ public:
     const scene_file::SceneFile& scene() const { return file_; }
     /// Whether the preset states its camera; otherwise scene().camera shows the effect at several moments.
     bool hasCamera() const { return hasCamera_; }
+    /// What the C API says of each instance and a camera: its cause to be seen or not, and the remedy.
+    std::vector<std::string> causes(const PreviewFrame& frame);
     /// Particles alive of all instances.
     uint32_t particles();
     FxViewStatistics statistics() { return view_->statistics(); }
@@ -70,7 +74,8 @@ private:
     base::Status loadPresets();
     void place(size_t index, double seconds);
     void create(size_t index);
-    FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame) const;
+    static render::CameraView cameraOf(const PreviewFrame& frame);
+    static FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame);
     FxViewSettings settingsOf(const PreviewFrame& frame) const;
     static const void* openAsset(void* user, const char* name, size_t* outSize);
     static void closeAsset(void* user, const void* data, size_t size);

@@ -42,8 +42,7 @@ void reasonsOf(const Json& element, const std::string& pointer, double time, std
 
 } // namespace
 
-std::vector<std::string> whyInvisible(const Document& document, const SoloMute& choice, double time,
-                                      uint32_t particles)
+std::vector<std::string> whyInvisible(const Document& document, const SoloMute& choice, double time)
 {
     std::vector<std::string> reasons;
     for (const DocumentFinding& finding : findingsOf(document))
@@ -57,17 +56,6 @@ std::vector<std::string> whyInvisible(const Document& document, const SoloMute& 
             reasons.push_back(pointer + ": it is muted, or another element is solo");
         reasonsOf(document.json().at(Json::json_pointer(pointer)), pointer, time, reasons);
     }
-    const double duration = numberAt(document.json(), "/duration", 0.0);
-    if (duration > 0.0 && time >= duration)
-        reasons.push_back("/duration: the effect ends at " + seconds(duration) + "; the picture shows " +
-                          seconds(time));
-    if (particles == 0)
-        reasons.push_back("No particle is alive at " + seconds(time) +
-                          "; scrub to another time, or raise rate or lifetime.");
-    if (reasons.empty())
-        reasons.push_back(std::to_string(particles) +
-                          " particles are alive. If none is seen, look at the camera (wheel, drag), "
-                          "at the exposure, and at radius and optical depth.");
     return reasons;
 }
 

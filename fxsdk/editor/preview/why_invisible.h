@@ -5,15 +5,14 @@
 #include "fxsdk/editor/document/document.h"
 #include "fxsdk/editor/document/solo_mute.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace fx::editor {
 
-/// Returns one sentence per reason, with its JSON pointer and a remedy; at least one.
-/// @param time [s] local time of the picture @param particles alive at that time
-std::vector<std::string> whyInvisible(const Document& document, const SoloMute& choice, double time,
-                                      uint32_t particles);
+/// Reasons that the text of a document gives: one sentence each, with its JSON pointer and a remedy.
+/// Preview::causes() knows those of the picture.
+/// @param time [s] local time of the picture
+std::vector<std::string> whyInvisible(const Document& document, const SoloMute& choice, double time);
 
 } // namespace fx::editor

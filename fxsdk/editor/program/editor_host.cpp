@@ -10,7 +10,6 @@
 #include <imgui_impl_opengl3.h>
 
 #include <chrono>
-#include <cstdio>
 #include <utility>
 
 namespace fx::editor {
@@ -31,18 +30,18 @@ PreviewFrame frameOf(const Session& session, ImVec2 size)
     return frame;
 }
 
-std::string keyOf(const PreviewFrame& frame, uint64_t revision, int64_t step)
-{
-    char key[320];
-    std::snprintf(key, sizeof key, "%llu %lld %.17g %.17g %.17g %.17g %.17g %.17g %d %d %.9g",
-                  static_cast<unsigned long long>(revision), static_cast<long long>(step),
-                  frame.pose.position.x, frame.pose.position.y, frame.pose.position.z, frame.pose.target.x,
-                  frame.pose.target.y, frame.pose.target.z, frame.width, frame.height,
-                  double(frame.exposureEv100.value_or(-999.0f)));
-    return key;
-}
-
 } // namespace
+
+base::Status writePng(render::GlDevice& device, uint32_t texture, int width, int height,
+                      const std::string& file)
+{
+    const cli::Picture picture =
+        cli::fromBottomUp(width, height, 3, render::readTexture(device, texture, width, height, 3));
+    const auto png = image::writePng({picture.width, picture.height, picture.channels, picture.pixels});
+    if (!png)
+        return png.status();
+    return cli::writeFileAtomically(file, {reinterpret_cast<const char*>(png->data()), png->size()});
+}
 
 base::Result<std::unique_ptr<EditorHost>> EditorHost::create(std::unique_ptr<Session> session,
                                                              const render::GlLoader& loader)
@@ -58,10 +57,6 @@ base::Result<std::unique_ptr<EditorHost>> EditorHost::create(std::unique_ptr<Ses
     host->preview_ = std::move(*preview);
     host->state_ = std::make_unique<PanelState>(*host->session_);
     host->updatePicture();
-    const scene_file::CameraPath& camera = host->preview_->scene().camera;
-    const scene_file::CameraPose pose = camera.at(0.0);
-    host->session_->camera.look(pose.position, pose.target);
-    host->session_->camera.fovYDegrees = camera.fovYDegrees;
     return host;
 }
 
@@ -71,25 +66,42 @@ EditorHost::~EditorHost()
         ImGui_ImplOpenGL3_Shutdown();
 }
 
+/// Shows the document; the first that is valid also places the camera.
+void EditorHost::showDocument(uint64_t revision)
+{
+    const bool hadScene = preview_->hasScene();
+    const base::Status status =
+        preview_->show(session_->shownText(), session_->name(), session_->document.kind());
+    shownRevision_ = revision;
+    state_->picture.failure.clear();
+    if (!status.ok())
+        state_->picture.failure =
+            (hadScene ? "The picture shows the last valid state. " : "There is no picture yet. ") +
+            status.message();
+    if (hadScene || !preview_->hasScene())
+        return;
+    const scene_file::CameraPath& camera = preview_->scene().camera;
+    const scene_file::CameraPose pose = camera.at(0.0);
+    session_->camera.look(pose.position, pose.target);
+    session_->camera.fovYDegrees = camera.fovYDegrees;
+}
+
 /// Takes over the document and draws the picture, where something has changed. The answer to an edit is in
 /// the frame after it.
 void EditorHost::updatePicture()
 {
-    const uint64_t revision = session_->shownRevision();
-    const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
-    std::string key = keyOf(frame, revision, session_->playback.step());
-    if (key == pictureKey_)
-        return;
     const Clock::time_point start = Clock::now();
+    if (const uint64_t revision = session_->shownRevision(); revision != shownRevision_)
+        showDocument(revision);
+    const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
+    const PictureKey key{shownRevision_,    session_->playback.step(), frame.pose.position,
+                         frame.pose.target, frame.fovYDegrees,         frame.width,
+                         frame.height,      frame.exposureEv100};
+    if (key == pictureKey_ || !preview_->hasScene())
+        return;
+    pictureKey_ = key;
     PictureState& picture = state_->picture;
-    base::Status status;
-    if (revision != shownRevision_) {
-        status = preview_->show(session_->shownText(), session_->name(), session_->document.kind());
-        picture.failure =
-            status.ok() ? std::string() : "The picture shows the last valid state. " + status.message();
-        shownRevision_ = revision;
-    }
-    status = preview_->seek(session_->playback.time());
+    base::Status status = preview_->seek(session_->playback.time());
     if (status.ok())
         status = preview_->render(frame);
     if (!status.ok())
@@ -99,25 +111,21 @@ void EditorHost::updatePicture()
     picture.particles = preview_->particles();
     picture.exposureEv100 = preview_->scene().view.exposureEv100;
     picture.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    pictureKey_ = std::move(key);
 }
 
 base::Status EditorHost::writePicture(const std::string& file)
 {
     const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
-    const cli::Picture picture = cli::fromBottomUp(
-        frame.width, frame.height, 3,
-        render::readTexture(preview_->device(), preview_->texture(), frame.width, frame.height, 3));
-    const auto png = image::writePng({picture.width, picture.height, picture.channels, picture.pixels});
-    if (!png)
-        return png.status();
-    return cli::writeFileAtomically(file, {reinterpret_cast<const char*>(png->data()), png->size()});
+    return writePng(preview_->device(), preview_->texture(), frame.width, frame.height, file);
 }
 
 void EditorHost::answerWhy()
 {
-    const std::vector<std::string> reasons = whyInvisible(session_->document, session_->soloMute(),
-                                                          session_->playback.time(), preview_->particles());
+    std::vector<std::string> reasons =
+        whyInvisible(session_->document, session_->soloMute(), session_->playback.time());
+    for (std::string& cause : preview_->causes(frameOf(*session_, state_->pictureSize)))
+        reasons.push_back(std::move(cause));
+    state_->asksWhy = false;
     state_->why.clear();
     for (const std::string& reason : reasons)
         state_->why += "- " + reason + "\n";
@@ -136,7 +144,7 @@ base::Status EditorHost::frame(double seconds, uint32_t framebuffer)
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, kBlack);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    if (state_->why == "?")
+    if (state_->asksWhy)
         answerWhy();
     if (state_->renderTo.empty())
         return {};

@@ -8,10 +8,17 @@
 #include "fxsdk/editor/panels/editor_ui.h"
 #include "fxsdk/editor/preview/preview.h"
 
+#include <glm/vec3.hpp>
+
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace fx::editor {
+
+/// Writes a texture, whose rows begin at the bottom, as PNG.
+base::Status writePng(render::GlDevice& device, uint32_t texture, int width, int height,
+                      const std::string& file);
 
 class EditorHost
 {
@@ -34,7 +41,22 @@ public:
     uint64_t pictureRevision() const { return shownRevision_; }
 
 private:
+    /// What a picture depends on.
+    struct PictureKey
+    {
+        uint64_t revision;
+        int64_t step;
+        glm::dvec3 position;
+        glm::dvec3 target;
+        float fovYDegrees;
+        int width;
+        int height;
+        std::optional<float> exposureEv100;
+        bool operator==(const PictureKey&) const = default;
+    };
+
     EditorHost() = default;
+    void showDocument(uint64_t revision);
     void updatePicture();
     base::Status writePicture(const std::string& file);
     void answerWhy();
@@ -43,7 +65,7 @@ private:
     std::unique_ptr<Preview> preview_;
     std::unique_ptr<PanelState> state_;
     uint64_t shownRevision_ = 0;
-    std::string pictureKey_; ///< what the last picture depended on
+    std::optional<PictureKey> pictureKey_; ///< of the last picture
 };
 
 } // namespace fx::editor

@@ -1,13 +1,11 @@
 #include "fxsdk/editor/program/headless_editor.h"
 
 #include "fxsdk/assets/read_file.h"
-#include "fxsdk/cli/scene/picture.h"
 #include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/editor/inspector/member.h"
 #include "fxsdk/editor/program/editor_host.h"
 #include "fxsdk/editor/program/input.h"
-#include "rendering/gl/gl_read_texture.h"
-#include "rendering/image/image.h"
 #include "rendering/platform/gl_context.h"
 
 #include <imgui.h>
@@ -55,6 +53,8 @@ public:
     base::Status frames(int count)
     {
         for (int i = 0; i < count; ++i) {
+            if (cli::interruptRequested())
+                return cli::interruptedStatus();
             ImGui::GetIO().DisplaySize = {float(options_.width), float(options_.height)};
             ImGui::GetIO().DeltaTime = float(kFrameSeconds);
             if (base::Status status = host_.frame(kFrameSeconds, framebuffer_); !status)
@@ -65,13 +65,7 @@ public:
 
     base::Status shot(const std::string& file)
     {
-        const cli::Picture picture = cli::fromBottomUp(
-            options_.width, options_.height, 3,
-            render::readTexture(host_.preview().device(), texture_, options_.width, options_.height, 3));
-        const auto png = image::writePng({picture.width, picture.height, picture.channels, picture.pixels});
-        if (!png)
-            return png.status();
-        return cli::writeFileAtomically(file, {reinterpret_cast<const char*>(png->data()), png->size()});
+        return writePng(host_.preview().device(), texture_, options_.width, options_.height, file);
     }
 
     base::Status command(const std::string& line)
@@ -126,7 +120,7 @@ private:
         return status.ok() ? frames(2) : status;
     }
 
-    /// Names with blanks are those of tabs, buttons and choices; the longest name that exists is taken.
+    /// Names may have blanks: those of tabs, buttons and choices.
     base::Status onWidget(const std::string& verb, std::istringstream& words)
     {
         std::string name;

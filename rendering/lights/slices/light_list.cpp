@@ -371,9 +371,11 @@ LightCost LightList::costOf(size_t light) const
 /// Stacks lie side by side in rows; each row is as high as its first stack, the largest.
 void LightList::placeTiles()
 {
-    atlasWidth_ = atlasHeight_ = mostTexels_ = 0;
-    for (const SliceStack& stack : stacks_)
+    atlasWidth_ = atlasHeight_ = mostTexels_ = mostPlanes_ = 0;
+    for (const SliceStack& stack : stacks_) {
         mostTexels_ = std::max(mostTexels_, stack.resolution.texels);
+        mostPlanes_ = std::max(mostPlanes_, stack.resolution.planes);
+    }
     atlasWidth_ = mostTexels_ * kSliceTileColumns;
     placesRevision_ = 0;
     int x = 0, y = 0, rowHeight = 0;

@@ -114,6 +114,7 @@ public:
     int atlasWidth() const { return atlasWidth_; }
     int atlasHeight() const { return atlasHeight_; } ///< [texel]
     int mostTexels() const { return mostTexels_; }   ///< [texel] side of the largest plane
+    int mostPlanes() const { return mostPlanes_; }   ///< of a stack
 
 private:
     void list(const LightListInputs& in);
@@ -140,6 +141,7 @@ private:
     uint64_t placesRevision_ = 0;
     int atlasWidth_ = 0, atlasHeight_ = 0;
     int mostTexels_ = 0;
+    int mostPlanes_ = 0;
 };
 
 } // namespace fx::render

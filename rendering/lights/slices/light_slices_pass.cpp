@@ -11,18 +11,25 @@ constexpr ProgramDesc kLightSlicesProgram{"light slices", nullptr, nullptr, "lig
 
 namespace {
 
-/// Casters that one dispatch adds. A software renderer ends all loops of an invocation after 65,535 turns
-/// without a word, a driver a dispatch that takes seconds: of 4096 balls each may lie between 15 planes.
-constexpr uint32_t kCastersPerPass = 4096;
+/// Turns of all loops of an invocation. Software renderers end the loops after 65,535 of them without an
+/// error, and drivers end dispatches that take seconds.
+constexpr uint32_t kMostTurns = 60000;
+
+/// Casters that one dispatch adds: each may lie between all planes.
+uint32_t castersPerPass(int planes)
+{
+    return kMostTurns / uint32_t(planes + 1);
+}
 
 } // namespace
 
 LightSlicesPass::Outputs LightSlicesPass::addTo(FrameGraph& graph, const Inputs& in)
 {
     Outputs out{in.atlas};
+    const uint32_t most = castersPerPass(in.mostPlanes);
     uint32_t begin = 0;
     do {
-        const glm::ivec4 range(begin, std::min(begin + kCastersPerPass, in.casterCount), 0, 0);
+        const glm::ivec4 range(begin, std::min(begin + most, in.casterCount), 0, 0);
         graph.addPass("light slices", [&](FrameGraph::Builder& builder) {
             builder.read(in.casters);
             builder.read(in.stacks);
@@ -42,7 +49,7 @@ LightSlicesPass::Outputs LightSlicesPass::addTo(FrameGraph& graph, const Inputs&
                 backend.dispatch(call);
             };
         });
-        begin += kCastersPerPass;
+        begin += most;
     } while (begin < in.casterCount);
     return out;
 }

@@ -26,6 +26,7 @@ public:
         uint32_t casterCount;
         uint32_t stackCount;
         int mostTexels; ///< [texel] side of the largest plane
+        int mostPlanes; ///< of a stack
     };
     struct Outputs
     {

@@ -50,7 +50,10 @@ bool ViewLights::buildBehind(const LightListInputs& in)
         caster.center += glm::vec3(heldEye_ - in.eye);
     LightListInputs held = in;
     held.casters = shifted_;
-    in.isOtherEye ? list_.rebuild(held) : list_.build(held);
+    if (in.isOtherEye)
+        list_.rebuild(held);
+    else
+        list_.build(held);
     return keyOf(heldRevision_, held, list_) == filled_;
 }
 
@@ -73,7 +76,10 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters, boo
     isBehind_ = waits && buildBehind(in);
     if (isBehind_)
         return isUsed ? makeRoom() : base::Status();
-    waits || in.isOtherEye ? list_.rebuild(in) : list_.build(in);
+    if (waits || in.isOtherEye)
+        list_.rebuild(in);
+    else
+        list_.build(in);
     wanted_ = keyOf(casters, in, list_);
     if (wanted_ != filled_) {
         hold(in, casters);
@@ -164,8 +170,9 @@ LightBindings ViewLights::addPasses(FrameGraph& graph)
         };
     });
     bindings.planes =
-        LightSlicesPass::addTo(graph, {casters, stacks, bindings.planes, uint32_t(casters_.size()),
-                                       uint32_t(list_.stackBlocks().size()), list_.mostTexels()})
+        LightSlicesPass::addTo(graph,
+                               {casters, stacks, bindings.planes, uint32_t(casters_.size()),
+                                uint32_t(list_.stackBlocks().size()), list_.mostTexels(), list_.mostPlanes()})
             .atlas;
     graph.keep(bindings.planes); // later frames read it
     filled_ = wanted_;

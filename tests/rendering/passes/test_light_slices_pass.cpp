@@ -72,7 +72,8 @@ protected:
                                          atlas,
                                          uint32_t(blocks.size()),
                                          uint32_t(list_.stackBlocks().size()),
-                                         list_.mostTexels()};
+                                         list_.mostTexels(),
+                                         list_.mostPlanes()};
         const ResourceId filled = LightSlicesPass::addTo(*graph_, in).atlas;
         execute(filled);
         return read(filled, 2);
@@ -141,7 +142,7 @@ TEST_F(LightSlicesPassTest, manyBallsInOneColumnAllCount)
         const auto u = base::randomUnit4(5, 0, i, base::RandomPurpose::Position);
         casters.push_back({{u[0], u[1], u[2]}, 0.6f, 5e-4f * u[3]});
     }
-    light({64, 16}, casters);
+    light({64, 64}, casters);
     (void)compare(drawn(casters), casters);
 }
 

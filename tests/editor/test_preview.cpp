@@ -1,0 +1,113 @@
+// The picture of the editor: it depends on text and time alone, not on what was shown before.
+#include "fxsdk/editor/preview/preview.h"
+#include "fxsdk/editor/preview/why_invisible.h"
+#include "rendering/gl/gl_read_texture.h"
+#include "rendering/platform/gl_context.h"
+
+#include <gtest/gtest.h>
+
+namespace fx::editor {
+namespace {
+
+constexpr int kSide = 96; // [pixel]
+
+const std::string kPreset =
+    R"({"version": 1, "emitters": [{"maxParticles": 60, "emission": {"rate": 40}, "lifetime": 2,
+    "radius": 0.2, "speed": 1.5, "opticalDepth": 2}]})";
+
+class PreviewTest : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        auto context = render::createEglContext({});
+        ASSERT_TRUE(context.ok()) << context.status().message();
+        context_ = std::move(*context);
+        preview_ = make();
+    }
+    std::unique_ptr<Preview> make()
+    {
+        auto preview = Preview::create(context_->loader());
+        EXPECT_TRUE(preview.ok()) << preview.status().message();
+        return std::move(*preview);
+    }
+    static PreviewFrame frame()
+    {
+        PreviewFrame frame;
+        frame.pose.position = {0.0, 1.0, 6.0};
+        frame.pose.target = {0.0, 1.0, 0.0};
+        frame.width = frame.height = kSide;
+        return frame;
+    }
+    std::vector<float> picture(Preview& preview)
+    {
+        const base::Status status = preview.render(frame());
+        EXPECT_TRUE(status.ok()) << status.message();
+        return render::readTexture(preview.device(), preview.texture(), kSide, kSide, 3);
+    }
+    static void show(Preview& preview, const std::string& text)
+    {
+        const base::Status status = preview.show(text, "a.fx.json", DocumentKind::Preset);
+        ASSERT_TRUE(status.ok()) << status.message();
+    }
+
+    std::unique_ptr<render::GlContext> context_;
+    std::unique_ptr<Preview> preview_;
+};
+
+TEST_F(PreviewTest, aTimeShowsThePictureOfPlayingToIt)
+{
+    show(*preview_, kPreset);
+    const std::vector<float> start = picture(*preview_);
+    for (int step = 1; step <= 60; ++step)
+        ASSERT_TRUE(preview_->seek(step / 60.0).ok());
+    const std::vector<float> played = picture(*preview_);
+    EXPECT_GT(preview_->particles(), 20u);
+    EXPECT_NE(played, start);
+    ASSERT_TRUE(preview_->seek(1.5).ok());
+    EXPECT_NE(picture(*preview_), played);
+    ASSERT_TRUE(preview_->seek(1.0).ok()); // backwards
+    EXPECT_EQ(picture(*preview_), played);
+    const auto other = make();
+    ASSERT_TRUE(other->seek(1.0).ok());
+    show(*other, kPreset);
+    EXPECT_EQ(picture(*other), played);
+}
+
+TEST_F(PreviewTest, aTextThatIsWrongLeavesThePicture)
+{
+    show(*preview_, kPreset);
+    ASSERT_TRUE(preview_->seek(1.0).ok());
+    const std::vector<float> before = picture(*preview_);
+    const base::Status status = preview_->show(R"({"version": 1, "emitters": [{"maxParticles": -1}]})",
+                                               "a.fx.json", DocumentKind::Preset);
+    EXPECT_FALSE(status.ok());
+    EXPECT_NE(status.message().find("maxParticles"), std::string::npos) << status.message();
+    EXPECT_EQ(picture(*preview_), before);
+}
+
+TEST_F(PreviewTest, saysWhyNothingIsSeen)
+{
+    show(*preview_, kPreset);
+    ASSERT_TRUE(preview_->seek(1.0).ok());
+    PreviewFrame away = frame();
+    EXPECT_NE(preview_->causes(away).at(0).find("in view"), std::string::npos);
+    away.pose.target = {0.0, 1.0, 100.0};
+    EXPECT_NE(preview_->causes(away).at(0).find("behind the camera"), std::string::npos);
+
+    const auto document = Document::fromText(
+        R"({"version": 1, "emitters": [{"emission": {"rate": 1, "start": 3}, "opticalDepth": 0}]})",
+        "a.fx.json");
+    ASSERT_TRUE(document.ok());
+    SoloMute choice;
+    choice.setMuted("/emitters/0", true);
+    std::string all;
+    for (const std::string& reason : whyInvisible(*document, choice, 1.0))
+        all += reason + "\n";
+    for (const char* part : {"/emitters/0: it is muted", "/emitters/0/emission/start: it begins at 3 s",
+                             "/emitters/0/opticalDepth: it is 0"})
+        EXPECT_NE(all.find(part), std::string::npos) << all;
+}
+
+} // namespace
+} // namespace fx::editor
