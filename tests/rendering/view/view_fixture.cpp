@@ -10,7 +10,7 @@
 
 namespace fx::test {
 
-namespace column = base::blob_column;
+namespace blob = base::blob_column;
 
 double maxDifference(const Picture& a, const Picture& b)
 {
@@ -53,18 +53,18 @@ base::FrameSnapshot ViewTest::snapshotOf(const std::vector<TestBlob>& blobs, con
             const TestBlob& b = blobs[i];
             if (uint32_t(b.layer) != layer)
                 continue;
-            for (size_t c = 0; c < column::Count; ++c)
+            for (size_t c = 0; c < blob::Count; ++c)
                 group.editColumn(c)[count] = 0.0f;
             const auto set = [&](size_t c, float value) { group.editColumn(c)[count] = value; };
             for (size_t k = 0; k < 3; ++k) {
-                set(column::PositionX + k, b.center[int(k)]);
-                set(column::AlbedoR + k, b.albedo);
-                set(column::EmissionR + k, b.emission / render::exposureFromEv100(kEv100));
+                set(blob::PositionX + k, b.center[int(k)]);
+                set(blob::AlbedoR + k, b.albedo);
+                set(blob::EmissionR + k, b.emission / render::exposureFromEv100(kEv100));
             }
-            set(column::Radius, b.radius);
-            set(column::CrossSection, b.crossSection);
-            set(column::FireShare, b.fireShare);
-            set(column::Heat, b.heat);
+            set(blob::Radius, b.radius);
+            set(blob::CrossSection, b.crossSection);
+            set(blob::FireShare, b.fireShare);
+            set(blob::Heat, b.heat);
             group.editIds()[count++] = b.id.value_or(i);
         }
         group.editInfo().count = count;
@@ -85,7 +85,7 @@ base::FrameSnapshot ViewTest::detailedSnapshotOf(const std::vector<TestBlob>& bl
     const base::SnapshotGroup& from = plain.group(uint32_t(base::MediaLayer::Smoke));
     base::SnapshotGroup& group = snapshot.addGroup(schema_.find("blob"), from.count());
     group.editInfo() = from.info();
-    for (size_t c = 0; c < column::Count; ++c)
+    for (size_t c = 0; c < blob::Count; ++c)
         std::copy_n(from.column(c).begin(), from.count(), group.editColumn(c).begin());
     std::copy_n(from.ids().begin(), from.count(), group.editIds().begin());
     std::ranges::copy(from.constants(), group.editConstants().begin());
@@ -93,7 +93,7 @@ base::FrameSnapshot ViewTest::detailedSnapshotOf(const std::vector<TestBlob>& bl
     carried.editInfo() = from.info();
     carried.editInfo().kind = material;
     for (size_t c = 0; c < base::material_column::Count; ++c) {
-        const auto places = from.column(column::PositionX + c % 3).first(from.count());
+        const auto places = from.column(blob::PositionX + c % 3).first(from.count());
         std::ranges::transform(places, carried.editColumn(c).begin(), [&](float x) { return shrunk * x; });
     }
     std::copy_n(from.ids().begin(), from.count(), carried.editIds().begin());

@@ -239,7 +239,6 @@ TEST(RayPacket, countsTheWorkOfAllItsRays)
     EXPECT_EQ(integrator.work().rays, 0u); // off unless asked for
     integrator.countWork(true);
     integrator.integrate(bundle.rays, bundle.packet, light);
-    RayWork alone;
     RayIntegrator<float> single(settingsOf("gauss-5"));
     for (uint32_t i = 0; i < kPacketRays; ++i) {
         std::vector<RayBlob<float>> blobs;
