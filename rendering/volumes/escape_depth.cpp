@@ -27,9 +27,10 @@ int aroundOf(const glm::ivec3& step)
 class Sweep
 {
 public:
-    explicit Sweep(const BlockLattice& lattice)
-        : lattice_(lattice), around_(lattice.blocks.size()), order_(lattice.blocks.size()),
-          depth_(lattice.extinction.size()), seen_(lattice.extinction.size())
+    /// @param ofWholeVoxels shares (4) instead of those of the centers
+    Sweep(const BlockLattice& lattice, bool ofWholeVoxels)
+        : lattice_(lattice), ofWholeVoxels_(ofWholeVoxels), around_(lattice.blocks.size()),
+          order_(lattice.blocks.size()), depth_(lattice.extinction.size()), seen_(lattice.extinction.size())
     {
         for (size_t b = 0; b < around_.size(); ++b)
             for (int k = 0; k < kAround; ++k)
@@ -37,6 +38,21 @@ public:
                     lattice.blocks, lattice.blocks[b] + glm::ivec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
     }
 
+    /// Adds all directions.
+    std::vector<float> shares() &&
+    {
+        for (int a = 0; a < 3; ++a)
+            for (const int sign : {-1, 1}) {
+                glm::ivec3 d(0);
+                d[a] = sign;
+                add(d, kAxisWeight);
+            }
+        for (int k = 0; k < 8; ++k)
+            add(glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * 2 - 1, kCornerWeight);
+        return std::move(seen_);
+    }
+
+private:
     /// @param d each component -1 to 1
     void add(const glm::ivec3& d, double weight)
     {
@@ -50,17 +66,16 @@ public:
         for (const uint32_t block : order_)
             addBlock(block, d);
         for (size_t v = 0; v < depth_.size(); ++v)
-            seen_[v] += float(weight) * std::exp(-std::min(depth_[v], kMostEscapeDepth));
+            seen_[v] += float(weight) * shareOf(v);
     }
 
-    std::vector<float> depths() &&
+    float shareOf(size_t v) const
     {
-        for (float& seen : seen_)
-            seen = std::max(-std::log(seen), 0.0f);
-        return std::move(seen_);
+        const float own = ofWholeVoxels_ ? 2.0f * half_ * lattice_.extinction[v] : 0.0f;
+        const float mean = own > 1e-4f ? -std::expm1(-own) / own : 1.0f;
+        return mean * std::exp(-std::min(std::max(depth_[v] - 0.5f * own, 0.0f), kMostEscapeDepth));
     }
 
-private:
     void addBlock(uint32_t block, const glm::ivec3& d)
     {
         const glm::ivec3& strides = lattice_.strides;
@@ -87,6 +102,7 @@ private:
     }
 
     const BlockLattice& lattice_;
+    bool ofWholeVoxels_;
     std::vector<std::array<size_t, kAround>> around_;
     std::vector<uint32_t> order_;
     std::vector<float> depth_, seen_;
@@ -97,16 +113,15 @@ private:
 
 std::vector<float> escapeDepths(const BlockLattice& lattice)
 {
-    Sweep sweep(lattice);
-    for (int a = 0; a < 3; ++a)
-        for (const int sign : {-1, 1}) {
-            glm::ivec3 d(0);
-            d[a] = sign;
-            sweep.add(d, kAxisWeight);
-        }
-    for (int k = 0; k < 8; ++k)
-        sweep.add(glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * 2 - 1, kCornerWeight);
-    return std::move(sweep).depths(); // (2)
+    std::vector<float> depths = Sweep(lattice, false).shares();
+    for (float& depth : depths)
+        depth = std::max(-std::log(depth), 0.0f); // (2)
+    return depths;
+}
+
+std::vector<float> seenShares(const BlockLattice& lattice)
+{
+    return Sweep(lattice, true).shares();
 }
 
 } // namespace fx::render

@@ -33,6 +33,7 @@ struct BlockLattice
 ///   l_d      m    length of the way to the neighbor
 ///   t_d      1    optical depth from the center of the voxel to the outside
 ///   t        1    escape depth
+///   e        1    share of the light of a voxel that is seen
 ///   S, j          source function and emitted light of the medium within a voxel
 ///
 /// @derivation
@@ -47,6 +48,10 @@ struct BlockLattice
 ///   In a thin medium t is even within a voxel and (3) is the mean of the emitted light, <k S>; in a thick
 ///   one it is the extinction times the source function of the surface, so that the surface has its
 ///   luminance.
+///   Where voxels are joined, exp(-t) in (3) is the mean of the whole voxel, which begins half of its way
+///   before its center:
+///       e = sum_d q_d exp(-(t_d - l_d k / 2)) (1 - exp(-l_d k)) / (l_d k)                     (4)
+///   so that a thin voxel before a thick one counts as little as it hides of the thick one.
 /// @source    [AS64] table 25.4, quadrature over a sphere, for the weights of (2); the rest is own
 /// @deviation light that has left the blocks counts as seen, also if other blocks are behind; t is limited
 ///            to kMostEscapeDepth
@@ -56,5 +61,8 @@ struct BlockLattice
 
 /// Escape depths (2) of all voxels, in the order of the extinctions.
 std::vector<float> escapeDepths(const BlockLattice& lattice);
+
+/// Shares (4) of all voxels, in the order of the extinctions.
+std::vector<float> seenShares(const BlockLattice& lattice);
 
 } // namespace fx::render

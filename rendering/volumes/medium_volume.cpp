@@ -4,6 +4,7 @@
 #include "foundation/math/hash.h"
 #include "foundation/math/signed_half.h"
 #include "rendering/optics/black_body.h"
+#include "rendering/volumes/escape_depth.h"
 #include "shaders/formulas/formula.h"
 
 #include <glm/common.hpp>
@@ -53,7 +54,7 @@ uint64_t hashOf(uint64_t hash, const std::vector<T>& values)
 } // namespace
 
 MediumVolume::MediumVolume(const base::VoxelVolume& volume)
-    : bricks_(volume.bricks), index_(volume.bricks), extinction_(volume.extinction)
+    : bricks_(volume.bricks), index_(volume.bricks), side_(volume.side), extinction_(volume.extinction)
 {
     const size_t voxels = extinction_.size();
     scattered_.reserve(voxels);
@@ -77,8 +78,8 @@ MediumVolume::MediumVolume(const base::VoxelVolume& volume)
     findLargest();
 }
 
-MediumVolume::MediumVolume(std::vector<glm::ivec3> bricks, uint64_t hash)
-    : bricks_(std::move(bricks)), index_(bricks_), hash_(hash)
+MediumVolume::MediumVolume(std::vector<glm::ivec3> bricks, float side, uint64_t hash)
+    : bricks_(std::move(bricks)), index_(bricks_), side_(side), hash_(hash)
 {}
 
 void MediumVolume::findLargest()
@@ -119,6 +120,17 @@ size_t MediumVolume::voxelAt(const glm::ivec3& voxel) const
     return size_t(found) * kVoxels + size_t(in.x + kSide * (in.y + kSide * in.z));
 }
 
+/// [1] Shares of the light of all voxels that are seen; none where nothing glows.
+std::vector<float> MediumVolume::sharesOfLight() const
+{
+    if (emitted_.empty())
+        return {};
+    std::vector<glm::ivec3> blocks; // in their order their last coordinate rises first
+    for (const glm::ivec3& brick : bricks_)
+        blocks.emplace_back(brick.z, brick.y, brick.x);
+    return seenShares({blocks, {kSide * kSide, kSide, 1}, extinction_, double(side_)});
+}
+
 MediumVolume MediumVolume::halved() const
 {
     const auto isEmpty = [this](size_t v) {
@@ -142,12 +154,14 @@ MediumVolume MediumVolume::halved() const
     }
     std::ranges::sort(bricks, isBefore);
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
-    MediumVolume half(std::move(bricks), base::hashWord(hash_, 2));
+    MediumVolume half(std::move(bricks), 2.0f * side_, base::hashWord(hash_, 2));
     const size_t voxels = half.bricks_.size() * kVoxels;
     half.extinction_.assign(voxels, 0.0f);
     half.scattered_.assign(voxels, glm::vec3(0.0f));
     half.emitted_.assign(emitted_.empty() ? 0 : voxels, glm::vec3(0.0f));
     half.velocity_.assign(velocity_.empty() ? 0 : voxels, glm::vec3(0.0f));
+    const std::vector<float> shares = sharesOfLight();
+    std::vector<float> seen(emitted_.empty() ? 0 : voxels, 0.0f); // [1/m] extinction times shares
     for (size_t v = 0; v < extinction_.size(); ++v) {
         if (isEmpty(v))
             continue;
@@ -165,10 +179,15 @@ MediumVolume MediumVolume::halved() const
             const size_t at = half.voxelAt(to);
             half.extinction_[at] += weight * extinction_[v];
             half.scattered_[at] += weight * scattered_[v];
-            if (!emitted_.empty())
-                half.emitted_[at] += weight * emitted_[v];
+            if (!emitted_.empty()) {
+                half.emitted_[at] += weight * shares[v] * emitted_[v];
+                seen[at] += weight * shares[v] * extinction_[v];
+            }
         }
     }
+    for (size_t v = 0; v < seen.size(); ++v)
+        if (seen[v] > 0.0f)
+            half.emitted_[v] *= half.extinction_[v] / seen[v];
     for (size_t v = 0; v < half.velocity_.size(); ++v) { // from the finer voxel at the same place
         const glm::ivec3 at = half.bricks_[v / kVoxels] * kSide + voxelInBrick(v % kVoxels);
         const Flow flow = flowAt(2.0 * glm::dvec3(at));
@@ -236,7 +255,7 @@ MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume
     uint64_t hash = base::hashWord(first.hash_, second.hash_);
     for (const double number : {moment.part, moment.seconds})
         hash = base::hashWord(hash, std::bit_cast<uint64_t>(number));
-    MediumVolume out(std::move(bricks), hash);
+    MediumVolume out(std::move(bricks), first.side_, hash);
     const size_t voxels = out.bricks_.size() * kVoxels;
     const bool emits = !first.emitted_.empty() || !second.emitted_.empty();
     const bool moves = moment.seconds > 0.0 && first.hasVelocities() && second.hasVelocities();

@@ -34,8 +34,9 @@ public:
     bool hasVelocities() const { return !velocity_.empty(); }
 
     /// The same medium with voxels of twice the side. Each value is the mean of 3 x 3 x 3 values with weights
-    /// 1/4, 1/2, 1/4 along each axis, so that integrals over space keep their values. Voxel (i, j, k) of the
-    /// result has the center of voxel (2i, 2j, 2k).
+    /// 1/4, 1/2, 1/4 along each axis, so that integrals over space keep their values. Light of voxels that
+    /// are optically thick is that of the side that is seen instead: formula escape-depth (4). Voxel (i, j,
+    /// k) of the result has the center of voxel (2i, 2j, 2k).
     MediumVolume halved() const;
 
     Sample at(const glm::dvec3& place) const;
@@ -75,9 +76,10 @@ private:
         double growth = 0.0;      ///< weight times divergence [1/s]
     };
     Flow flowAt(const glm::dvec3& place) const;
+    std::vector<float> sharesOfLight() const;
     template <class Add>
     void addCorners(const glm::dvec3& place, const Add& add) const;
-    MediumVolume(std::vector<glm::ivec3> bricks, uint64_t hash);
+    MediumVolume(std::vector<glm::ivec3> bricks, float side, uint64_t hash);
     size_t voxelAt(const glm::ivec3& voxel) const; ///< index in the arrays, or kNone
     void findLargest();
     void findDivergence();
@@ -85,6 +87,7 @@ private:
     static constexpr size_t kNone = ~size_t(0);
     std::vector<glm::ivec3> bricks_;
     base::BrickIndex index_;
+    float side_ = 1.0f; ///< [m] of a voxel
     std::vector<float> extinction_;
     std::vector<glm::vec3> emitted_;   ///< empty: no light
     std::vector<glm::vec3> scattered_; ///< [1/m] extinction times albedo

@@ -31,6 +31,8 @@ flat in uvec2 tileRange;
 
 const int kMaxDepthSamples = 16384;
 const float kMaxStretch = 3.0;   // of steps behind what hides
+const float kMostDepth = 1.0;    // optical depth of a step: a deeper one is taken again, shorter
+const float kShortest = 0.03;    // [1] of the step that is taken again
 const float kSlabsPerDepth = 8.0; // slabs across what is loose: where it is thin, what hides what hardly matters
 
 #if FX_LOOSE
@@ -116,14 +118,23 @@ void main()
     FieldSample before = emptySample(), now = emptySample();
     float t = ray.t0, next = ray.t0; // [m] of the two
     uint number = 0u;                // of the field that is looked at
-    bool isOver = false;
+    vec4 rests = fields.rests;       // at t
+    bool isOver = false, isShort = false;
     int looks = 0;
     while (!isOver && looks < kMaxDepthSamples) {
         FieldFind find;
         find.isMedium = false;
         while (!find.isMedium && !isOver && looks < kMaxDepthSamples) {
             ++looks;
-            if (number >= tileRange.y) { // all fields have been looked at
+            float depth = 0.5 * (before.medium.a + now.medium.a) * (next - t);
+            bool isAgain = number >= tileRange.y && depth > kMostDepth && !isShort;
+            if (isAgain) {
+                next = t + max(sqrt(kDepthPerStep / depth), kShortest) * (next - t);
+                fields.rests = rests;
+                now = emptySample();
+                number = nextField(fields, 0u, next, now);
+                isShort = true;
+            } else if (number >= tileRange.y) { // all fields have been looked at
 #if FX_LOOSE
                 putBetween(picture, ray, loose, before, now, t, next);
 #else
@@ -131,9 +142,13 @@ void main()
 #endif
                 before = now;
                 t = next;
+                rests = fields.rests;
+                isShort = false;
                 isOver = !(t < ray.t1 && (before.room < kNever || t < last) && picture.through > kMinTransmittance);
                 float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMaxStretch); // less is seen of what follows
-                next = t + before.room * (before.isEmpty ? 1.0 : stretch);
+                // Light of what lies deeper in dense medium must not be seen before it.
+                float room = min(stretch * before.room, max(before.room, kDepthPerStep / max(before.medium.a, 1e-20)));
+                next = t + (before.isEmpty ? before.room : room);
 #if FX_LOOSE
                 next = min(next, nextFace(loose, t));
 #endif

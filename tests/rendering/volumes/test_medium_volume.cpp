@@ -66,6 +66,42 @@ TEST(MediumVolume, voxelsOfTwiceTheSideHaveTheSameIntegral)
     EXPECT_NEAR(even.at({4.0, 5.5, 5.5}).extinction, 2.25, 1e-6); // voxels 7, 8, 9, of which 7 is empty
 }
 
+namespace {
+
+/// [1] Emitted light over extinction in units of that of the fire, of voxels of twice the side at the face of
+/// a medium. @param first, rest [1/m] extinctions of the first layer of voxels and of all behind it
+/// @param fireIsFirst the first layer glows, or all behind it
+double sourceAtTheFace(float first, float rest, bool fireIsFirst)
+{
+    base::VoxelVolume volume = filled([&](int x, int, int) { return x == 8 ? first : rest; });
+    volume.side = 0.1f;
+    volume.evenAlbedo = glm::vec3(0.0f);
+    for (size_t v = 0; v < volume.extinction.size(); ++v)
+        volume.emission.push_back(
+            glm::vec3((v < 512 && v % 8 == 0) == fireIsFirst ? volume.extinction[v] : 0.0f));
+    const render::MediumVolume::Sample sample = render::MediumVolume(volume).halved().at({4.0, 6.0, 6.0});
+    return sample.emitted.x / sample.extinction;
+}
+
+} // namespace
+
+TEST(MediumVolume, largerVoxelsHaveTheLightOfTheSideThatIsSeen)
+{
+    // The first layer has twice the weight of the second one, and none of the third.
+    EXPECT_NEAR(sourceAtTheFace(1e-3f, 1e-3f, true), 2.0 / 3.0, 1e-3); // all of a thin medium is seen
+    EXPECT_NEAR(sourceAtTheFace(1e-3f, 1e-3f, false), 1.0 / 3.0, 1e-3);
+    EXPECT_LT(sourceAtTheFace(300.0f, 300.0f, false), 1e-4); // behind soot
+    EXPECT_GT(sourceAtTheFace(300.0f, 300.0f, true), 1.0 - 1e-4);
+    // Of a thin flame before soot as much is seen as it hides of the soot, by rays along the axis, through
+    // the corners and within the flame, whose way to its side is about 0.7; layers count 2 to 1.
+    const double axis = 1.0 / 15.0, corners = 4.0 * 3.0 / 40.0 / std::sqrt(3.0), within = 4.0 / 15.0;
+    const double depth = 0.2, along = std::exp(-depth), across = std::exp(-std::sqrt(3.0) * depth);
+    const double flame =
+        2.0 * (axis * (1.0 - along) + corners * (1.0 - across) + within * (1.0 - along) * std::exp(-0.7));
+    const double soot = axis * along + corners * across;
+    EXPECT_NEAR(sourceAtTheFace(float(depth / 0.1), 300.0f, true), flame / (flame + soot), 0.02);
+}
+
 TEST(MediumVolume, theLargestExtinctionOfABrickBoundsAllPlacesInItsCells)
 {
     const render::MediumVolume volume(filled([](int x, int, int) { return x == 16 ? 9.0f : 1.0f; }));
