@@ -31,6 +31,7 @@ struct AccuracyArguments
     uint32_t repetitions = 7;
     uint32_t threads = 1;
     uint32_t frames = 0;
+    uint32_t cases = 0;
     int width = 0, height = 0;
     double bound = 0.0;
     std::string csv;
@@ -54,11 +55,14 @@ base::Status checkArguments(const AccuracyArguments& arguments, const std::vecto
         return refused("--repeat: 1 to 1000; --threads: 1 or more");
     if (!arguments.particles.empty() && particleCount(arguments.particles) < 2048)
         return refused("--particles: 2048 to 2^28, as 13824 or 24^3");
-    bool isScalable = false, hasFrames = false;
+    bool isScalable = false, hasFrames = false, hasCases = false;
     for (const AccuracyTask& task : tasks) {
         isScalable = isScalable || task.technique->isScalable;
         hasFrames = hasFrames || task.technique->hasFrames;
+        hasCases = hasCases || task.technique->hasCases;
     }
+    if (!hasCases && arguments.cases > 0)
+        return refused("--cases: this technique has no random cases; impostors has");
     if (!hasFrames && (arguments.frames > 0 || arguments.width > 0 || arguments.bound > 0.0))
         return refused("--frames, --size and --bound: this technique has no frames");
     if (!isScalable && (!arguments.particles.empty() || arguments.threads > 1))
@@ -80,7 +84,8 @@ base::Result<std::vector<AccuracyCurve>> measureAll(const AccuracyArguments& arg
                        arguments.frames,
                        arguments.width,
                        arguments.height,
-                       arguments.bound};
+                       arguments.bound,
+                       arguments.cases};
         rules.repetitions = arguments.repetitions;
         rules.useCallgrind = !arguments.noCallgrind;
         rules.stop = interruptRequested;
@@ -201,6 +206,9 @@ void addAccuracyCommand(CLI::App& app, int& outExitCode)
     command->add_option("--threads", arguments->threads, "sph: threads of each run")->capture_default_str();
     command->add_option("--frames", arguments->frames, "flights: frames, at most those of the whole flight")
         ->check(CLI::Range(3, 100'000));
+    command
+        ->add_option("--cases", arguments->cases, "impostors: random cases of the scene cases; default 100")
+        ->check(CLI::Range(1, 1'000'000));
     addFrameSize(*command, *arguments);
     command
         ->add_option("--bound", arguments->bound,

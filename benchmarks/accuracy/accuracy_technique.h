@@ -60,6 +60,7 @@ struct AccuracyScale
     /// [1] upper bound of the change of the picture from frame to frame, relative to the change of the
     /// reference
     double bound = 0.0;
+    uint32_t cases = 0; ///< number of random cases
 };
 
 class AccuracyTechnique
@@ -109,6 +110,7 @@ struct AccuracyTechniqueEntry
     bool isScalable;    ///< true: the technique uses the members `particles` and `threads` of AccuracyScale
     std::unique_ptr<AccuracyTechnique> (*make)(const std::string& scene, const AccuracyScale& scale);
     bool hasFrames = false; ///< true: the technique uses --frames and takes long; "all" excludes it
+    bool hasCases = false;  ///< true: the technique uses --cases
 };
 
 /// All techniques, in the order of techniques/CMakeLists.txt.

@@ -25,33 +25,48 @@ glm::vec3 lightOf(const SnapshotGroup& group, uint32_t i, const glm::vec3& albed
            vectorAt(group, blob::EmissionR, i);
 }
 
-/// Adds `more` with `weight` to means that are sums until divided.
-void addTo(BlockContent& io, const BlockContent& more, float crossSection)
+/// Sums over up to a million balls, in double precision.
+class ContentSum
 {
-    io.crossSection += crossSection;
-    io.albedo += crossSection * more.albedo;
-    io.light += crossSection * more.light;
-    io.fireShare += crossSection * more.fireShare;
-    io.heat += crossSection * more.heat;
-    io.brightest = glm::max(io.brightest, more.brightest);
-    io.isColored = io.isColored || more.isColored;
-    io.balls += std::min(more.balls, std::numeric_limits<uint32_t>::max() - io.balls);
-}
+public:
+    void add(const BlockContent& more, float crossSection)
+    {
+        const auto section = double(crossSection);
+        section_ += section;
+        albedo_ += section * glm::dvec3(more.albedo);
+        light_ += section * glm::dvec3(more.light);
+        fireShare_ += section * double(more.fireShare);
+        heat_ += section * double(more.heat);
+        sum.brightest = glm::max(sum.brightest, more.brightest);
+        sum.isColored = sum.isColored || more.isColored;
+        sum.balls += std::min(more.balls, std::numeric_limits<uint32_t>::max() - sum.balls);
+    }
+    /// The sum, with means.
+    BlockContent finished() const
+    {
+        BlockContent content = sum;
+        const double per = 1.0 / std::max(section_, double(std::numeric_limits<float>::min()));
+        content.crossSection = float(section_);
+        content.albedo = glm::vec3(per * albedo_);
+        content.light = glm::vec3(per * light_);
+        content.fireShare = float(per * fireShare_);
+        content.heat = float(per * heat_);
+        return content;
+    }
 
-void divideMeans(BlockContent& io)
-{
-    const float per = 1.0f / std::max(io.crossSection, std::numeric_limits<float>::min());
-    io.albedo *= per;
-    io.light *= per;
-    io.fireShare *= per;
-    io.heat *= per;
-}
+    BlockContent sum; ///< what is neither a sum nor a mean
+
+private:
+    double section_ = 0.0, fireShare_ = 0.0, heat_ = 0.0;
+    glm::dvec3 albedo_{0.0}, light_{0.0};
+};
 
 } // namespace
 
 BlockContent BlockContents::sumOfBalls(const SnapshotGroup& group) const
 {
-    BlockContent sum;
+    ContentSum all;
+    BlockContent& sum = all.sum;
     for (uint32_t i = 0; i < group.count(); ++i) {
         BlockContent ball;
         ball.albedo = vectorAt(group, blob::AlbedoR, i);
@@ -59,34 +74,33 @@ BlockContent BlockContents::sumOfBalls(const SnapshotGroup& group) const
         ball.fireShare = group.start(blob::FireShare)[i];
         ball.heat = group.start(blob::Heat)[i];
         ball.balls = 1;
-        addTo(sum, ball, group.start(blob::CrossSection)[i]);
+        all.add(ball, group.start(blob::CrossSection)[i]);
         sum.isColored = sum.isColored || ball.albedo != vectorAt(group, blob::AlbedoR, 0) ||
                         group.start(blob::Temperature)[i] != group.start(blob::Temperature)[0] ||
                         vectorAt(group, blob::EmissionR, i) != vectorAt(group, blob::EmissionR, 0);
         sum.speed = std::max(sum.speed, glm::length(vectorAt(group, blob::VelocityX, i)));
         sum.isAnimated = sum.isAnimated || group.start(blob::Age)[i] != base::kSettledAge;
     }
-    divideMeans(sum);
-    return sum;
+    return all.finished();
 }
 
 BlockContent BlockContents::sumOfBlocks(const SnapshotGroup& group) const
 {
-    BlockContent sum;
+    ContentSum all;
+    BlockContent& sum = all.sum;
     const BlockContent* first = nullptr;
     for (uint32_t i = 0; i < group.count(); ++i) {
         const BlockContent& inner = contents_[base::BlockGroups::variantIn(group, i)];
         if (!inner.group || inner.balls == 0)
             continue;
         const float scale = group.start(base::block_column::Scale)[i];
-        addTo(sum, inner, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
+        all.add(inner, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
         sum.speed = std::max(sum.speed, scale * inner.speed);
         sum.isAnimated = sum.isAnimated || inner.isAnimated;
         first = first ? first : &inner;
         sum.isColored = sum.isColored || inner.albedo != first->albedo || inner.light != first->light;
     }
-    divideMeans(sum);
-    return sum;
+    return all.finished();
 }
 
 uint64_t BlockContents::identityOf(const SnapshotGroup& group, uint32_t variant,

@@ -128,7 +128,7 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
         return;
     const float section = weight * frame.density * frame.scale * frame.scale * content.crossSection;
     const float sum = content.albedo.x + content.albedo.y + content.albedo.z + content.light.x +
-                      content.light.y + content.light.z;
+                      content.light.y + content.light.z + glm::dot(frame.rotation, frame.rotation);
     if (!isFinite(frame.position, radius, section) || !std::isfinite(sum)) {
         ++counts_.nonFinite;
         return;

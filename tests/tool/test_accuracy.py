@@ -43,6 +43,22 @@ class FxAccuracyOfFits(FxTest):
         self.assertLess(lines["optimized-24-10000"]["error_mean"], 0.05)
 
 
+class FxAccuracyOfImpostors(FxTest):
+    def test_usual_tiles_are_within_a_level_of_gray_and_coarse_ones_are_not(self):
+        lines = by_setting(lines_of("impostors", "--scene", "size-48", *QUICK))
+        self.assertLess(lines["balls"]["error_max"], 1e-4)  # the reference and the view draw the same balls
+        self.assertEqual(lines["balls"]["work"]["impostors"], 0)
+        self.assertEqual(lines["default"]["work"]["impostors"], 4)
+        self.assertEqual(lines["default"]["work"]["share_within_limit"], 1.0)
+        for control in ("resolution-0.5", "parallax-2"):
+            self.assertEqual(lines[control]["work"]["share_within_limit"], 0.0, control)
+
+    def test_random_cases_are_as_many_as_asked_for(self):
+        lines = by_setting(lines_of("impostors", "--scene", "cases", "--cases", "2", *QUICK))
+        for line in lines.values():
+            self.assertEqual((line["parameters"]["cases"], line["work"]["pictures"]), (2, 2))
+
+
 class FxAccuracyOfLightSlices(FxTest):
     @classmethod
     def setUpClass(cls):
@@ -252,7 +268,7 @@ class FxAccuracyOfLight(FxTest):
         for arguments, expected in [(["ray"], "ray-integral"), (["ray-integral", "--scene", "tau-2"], "tau-1"),
                                     (["all", "--scene", "tau-1"], "--scene"), (["furnace", "--threads", "2"], "--threads"),
                                     (["dazzle", "--particles", "4096"], "--particles"), (["dazzle", "--repeat", "0"], "--repeat"),
-                                    (["dazzle", "--frames", "9"], "--frames"), (["flights", "--size", "9"], "--size"),
+                                    (["dazzle", "--frames", "9"], "--frames"), (["dazzle", "--cases", "9"], "--cases"), (["flights", "--size", "9"], "--size"),
                                     (["flights", "--bound", "1"], "--bound"), (["flights", "--scene", "smoke-orbi"], "smoke-orbit")]:
             outcome = fx("accuracy", *arguments)
             self.assertEqual((outcome.code, outcome.out), (2, ""), arguments)

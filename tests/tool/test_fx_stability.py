@@ -15,7 +15,7 @@ class FxStability(FxTest):
         lines = outcome.out.strip().split("\n")
         self.assertEqual(outcome.code, 0, outcome.out + outcome.err)
         self.assertEqual([line for line in lines[:-1] if line.split()[1] != "ok" or "control breaks" not in line], [])
-        self.assertIn("69 of 69 rows", lines[-1])
+        self.assertIn("79 of 79 rows", lines[-1])
         names = self.names()
         self.assertEqual({n[:-4] for n in names if n.endswith(".csv")}, {n[:-4] for n in names if n.endswith(".png")})
         self.assertGreaterEqual(len(names), 2 * 2 * 50) # a sweep and a control each

@@ -67,7 +67,7 @@ TEST(StabilityRows, haveNamesOfTheirOwn)
         for (const StabilitySweep& sweep : row.sweeps(true))
             EXPECT_TRUE(names.insert(sweep.name).second) << row.id << ' ' << sweep.name;
     }
-    EXPECT_EQ(ids.size(), 69u);
+    EXPECT_EQ(ids.size(), 79u);
 }
 
 TEST(StabilityRun, findsTheLargestErrorAndItsPlace)
