@@ -169,7 +169,7 @@ SMALL = (
       for technique, scene in (("ray-integral", "tau-0.1"), ("furnace", "float"), ("billboards", "isolated-1"),
                                ("dazzle", "gray"), ("light-slices", "parallel-tau-1"), ("outputs", "ball"))),
     Small(("fx", "accuracy", "detail"), {"--repeat": "1", "--no-callgrind": None, "--scene": "explosion-0.6-small"}),
-    Small(("fx", "accuracy", "impostors"), {"--repeat": "1", "--no-callgrind": None, "--scene": "size-96"}, {"--cases": "2"}),
+    Small(("fx", "accuracy", "impostors"), {"--repeat": "1", "--no-callgrind": None, "--scene": "size-48-small"}, {"--cases": "1"}),
     Small(("fx", "accuracy", "network"), {"--repeat": "1", "--no-callgrind": None, "--scene": "side-5-small"}),
     Small(("fx", "stability"), {"--quick": None}),
 )

@@ -74,10 +74,10 @@ sim::BlocksDef blocksOf(const HeapOfBalls& heap)
     return def;
 }
 
-/// Blocks side by side, turned at random, 24 radii away.
-std::vector<Subject> rowsOfBlocks(double pixels, bool isColored)
+/// Blocks side by side, turned at random, 24 radii away. @param most blocks along a side
+std::vector<Subject> rowsOfBlocks(double pixels, bool isColored, int most)
 {
-    const int side = std::clamp(int(96.0 / pixels), 1, 8);
+    const int side = std::clamp(int(96.0 / pixels), 1, most);
     Subject subject;
     HeapOfBalls heap;
     heap.isColored = isColored;
@@ -257,9 +257,11 @@ base::Status ImpostorAccuracy::measureAll(const std::function<bool()>& stop)
                 return status;
         return {};
     }
-    const double number = std::atof(scene_.c_str() + scene_.rfind('-') + 1);
+    const double number = std::atof(scene_.c_str() + scene_.find('-') + 1);
     for (const Subject& subject :
-         scene_.starts_with("near") ? nearBlock(number) : rowsOfBlocks(number, scene_.starts_with("colors")))
+         scene_.starts_with("near")
+             ? nearBlock(number)
+             : rowsOfBlocks(number, scene_.starts_with("colors"), scene_.ends_with("small") ? 1 : 8))
         if (base::Status status = measure(subject, stop); !status)
             return status;
     return {};
@@ -310,15 +312,15 @@ std::unique_ptr<AccuracyTechnique> make(const std::string& scene, const Accuracy
 
 AccuracyTechniqueEntry impostorsAccuracy()
 {
-    AccuracyTechniqueEntry entry{
-        "impostors",
-        "impostors of blocks by OpenGL against the ray integral through their balls",
-        "picture",
-        ShownError::P99,
-        {"size-96", "size-48", "size-24", "size-12", "size-6", "colors-24", "near-2.5", "near-8", "cases"},
-        7,
-        false,
-        make};
+    AccuracyTechniqueEntry entry{"impostors",
+                                 "impostors of blocks by OpenGL against the ray integral through their balls",
+                                 "picture",
+                                 ShownError::P99,
+                                 {"size-96", "size-48", "size-24", "size-12", "size-6", "colors-24",
+                                  "near-2.5", "near-8", "size-48-small", "cases"},
+                                 7,
+                                 false,
+                                 make};
     entry.hasCases = true;
     return entry;
 }
