@@ -51,7 +51,7 @@ struct Subject
     sim::BlocksDef blocks;
     LitView view;
     LitSize size;
-    /// false: balls differ in color, or blocks are nearer than 8 radii or smaller than 24 pixels, which
+    /// false: balls differ in color, or blocks are nearer than 20 radii or smaller than 24 pixels, which
     /// impostors draw less exactly
     bool isEasy = false;
 };
@@ -112,7 +112,7 @@ std::vector<Subject> nearBlock(double distance)
     return subjects;
 }
 
-/// Any block of 6 to 96 pixels from any side, 2.5 to 60 of its radii away.
+/// Any block of 6 to 96 pixels from any side, 8 to 100 of its radii away.
 Subject randomCase(uint64_t number)
 {
     bench::Chance chance(1000 + number);
@@ -124,14 +124,14 @@ Subject randomCase(uint64_t number)
     heap.largest = heap.smallest + chance.between(0.0, 0.2);
     heap.depth = logarithmic(0.1, 10.0);
     heap.isColored = chance() < 0.5;
-    const double pixels = logarithmic(6.0, 96.0), distance = logarithmic(2.5, 60.0);
+    const double pixels = logarithmic(6.0, 96.0), distance = logarithmic(8.0, 100.0);
     Subject subject;
     subject.blocks = blocksOf(heap);
     sim::BlockPlacement block;
     block.rotation = anyTurn(13, number);
     subject.blocks.blocks.push_back(block);
     subject.size.width = subject.size.height = 112;
-    subject.isEasy = !heap.isColored && pixels >= 24.0 && distance >= 8.0;
+    subject.isEasy = !heap.isColored && pixels >= 24.0 && distance >= 20.0;
     subject.view = viewFrom(distance * glm::normalize(chance.direction() + glm::dvec3(0.0, 0.0, 0.01)),
                             pixels, subject.size.height);
     return subject;
