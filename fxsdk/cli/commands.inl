@@ -1,5 +1,6 @@
 // The commands of fx in the order of its help, and where they are.
 FX_COMMAND(Render)     // fxsdk/cli/render
+FX_COMMAND(Gallery)    // fxsdk/cli/gallery
 FX_COMMAND(Export)     // fxsdk/cli/export
 FX_COMMAND(Import)     // fxsdk/cli/import
 FX_COMMAND(Edit)       // fxsdk/editor/program

@@ -3,6 +3,7 @@
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/scene_file/scene_members.h"
+#include "rendering/stage/scale_figure.h"
 
 namespace fx::scene_file {
 
@@ -28,6 +29,12 @@ Preview readParts(const PresetValue& value, const asset::AssetResolver& resolver
     if (value.has("background"))
         readBackground(value.child("background"), resolver, findings, scene);
     readSceneMesh(value.child("mesh"), resolver, findings, scene);
+    if (value.has("figure")) {
+        render::ScaleFigure figure;
+        value.child("figure").read("position", figure.position);
+        value.child("figure").read("headingDegrees", figure.headingDegrees);
+        render::addScaleFigure(scene.mesh, figure);
+    }
     if (value.has("instance")) {
         const size_t index = scene.instances[0].preset;
         scene.instances[0] = readInstance(value.child("instance"));

@@ -110,6 +110,7 @@ struct StageRenderer::Impl
     glm::dvec3 meshOrigin{0.0};
     bool isSoil = false;
     uint32_t vertices = 0;
+    uint32_t casters = 0; ///< vertices, from the first on, that cast shadows
     BoundingBall ball;
     StageBackground background;
     glm::vec3 shadowDirection{0.0f}; ///< of the shadow map that exists; zero: none
@@ -173,7 +174,10 @@ base::Status StageRenderer::setMesh(const StageMesh& mesh)
     impl_->vertices = uint32_t(mesh.positions.size());
     impl_->meshOrigin = mesh.origin;
     impl_->isSoil = mesh.isSoil;
-    impl_->ball = boundingBall(mesh.positions);
+    // Flat ground shades nothing. A map over all of it would be too coarse for a figure.
+    const bool onlyFigures = mesh.isSoil && mesh.figureVertices > 0;
+    impl_->casters = onlyFigures ? uint32_t(mesh.figureVertices) : impl_->vertices;
+    impl_->ball = boundingBall(std::span(mesh.positions).first(impl_->casters));
     impl_->shadowDirection = glm::vec3(0.0f);
     return {};
 }
@@ -290,19 +294,19 @@ void StageRenderer::Impl::addShadowPass(ResourceId meshBuffer, const StageBlock&
         builder.read(meshBuffer);
         shadowMap = builder.write(shadowMap);
         const ResourceId depthVersion = builder.write(depthTarget);
-        return [meshBuffer, uniforms = &block, target = shadowMap, depthVersion,
-                count = vertices](Backend& gpu) {
-            gpu.clear(target, {1.0f, 1.0f, 1.0f, 1.0f});
-            const BufferBinding buffers[] = {{0, meshBuffer}};
-            DrawCall call;
-            call.program = &kShadowProgram;
-            call.targets = {&target, 1};
-            call.buffers = buffers;
-            call.uniforms = asUniforms(*uniforms);
-            call.vertices = count;
-            call.depthTarget = depthVersion;
-            gpu.draw(call);
-        };
+        return
+            [meshBuffer, uniforms = &block, target = shadowMap, depthVersion, count = casters](Backend& gpu) {
+                gpu.clear(target, {1.0f, 1.0f, 1.0f, 1.0f});
+                const BufferBinding buffers[] = {{0, meshBuffer}};
+                DrawCall call;
+                call.program = &kShadowProgram;
+                call.targets = {&target, 1};
+                call.buffers = buffers;
+                call.uniforms = asUniforms(*uniforms);
+                call.vertices = count;
+                call.depthTarget = depthVersion;
+                gpu.draw(call);
+            };
     });
 }
 

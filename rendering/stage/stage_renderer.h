@@ -31,8 +31,12 @@ struct StageMesh
     std::vector<glm::vec3> positions; ///< [m] positions relative to `origin`
     std::vector<glm::vec3> normals;   ///< unit vectors
     std::vector<glm::vec3> colors;    ///< [0, 1] linear albedo
-    /// True: relief and color of the level mesh vary by formula soil-texture. `colors` are the mean.
+    /// True: relief and color of level ground vary by formula soil-texture. `colors` are the mean. Only the
+    /// figures cast shadows.
     bool isSoil = false;
+    /// Number of vertices, from the first on, of figures that show the scale; effects do not collide with
+    /// them.
+    size_t figureVertices = 0;
 };
 
 /// Background behind the mesh.

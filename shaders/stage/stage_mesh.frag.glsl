@@ -18,7 +18,7 @@ float sunVisibility(vec3 n, float cosine)
     float lift = rayDirection.w * (1.0 + 3.0 * sqrt(1.0 - cosine * cosine));
     vec4 clip = shadowFromMesh * vec4(worldPosition - meshOffset.xyz + n * lift, 1.0);
     vec2 uv = clip.xy * 0.5 + 0.5;
-    float depth = clip.z * 0.5 + 0.5;
+    float depth = min(clip.z * 0.5 + 0.5, 1.0); // the map has 1 where nothing casts a shadow
     float lit = 0.0;
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x)
@@ -46,7 +46,7 @@ void main()
     vec2 place = worldPosition.xz - meshOffset.xz;
     vec2 across = dFdx(place);
     vec2 along = dFdy(place);
-    if (horizon.w > 0.5) {
+    if (horizon.w > 0.5 && worldNormal.y > 0.999) {
         bool isSwapped = dot(across, across) > dot(along, along);
         SoilSurface soil = soilAt(place, isSwapped ? across : along, length(isSwapped ? along : across));
         n = normalize(n - vec3(soil.slope.x, 0.0, soil.slope.y));

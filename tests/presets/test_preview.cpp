@@ -3,6 +3,7 @@
 #include "fxsdk/scene_file/validate_file.h"
 #include "tests/presets/temp_folder.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 using namespace fx::scene_file;
@@ -67,6 +68,23 @@ TEST(Preview, changesWhatItNames)
     EXPECT_EQ(scene.instances[0].seed, 5u);
 }
 
+TEST(Preview, placesAFigureThatIsNotPartOfTheStageWithWhichEffectsCollide)
+{
+    SceneFile without = stage(), with = stage();
+    ASSERT_TRUE(
+        read(R"(, "preview": {"mesh": {"file": "library:stage-yard.obj", "collide": true}})", without));
+    ASSERT_TRUE(read(R"(, "preview": {"mesh": {"file": "library:stage-yard.obj", "collide": true},
+        "figure": {"position": [4, 0, 2], "headingDegrees": 30}})",
+                     with));
+    const size_t figure = with.mesh.figureVertices;
+    EXPECT_EQ(without.mesh.figureVertices, 0u);
+    ASSERT_GT(figure, 100u);
+    EXPECT_EQ(std::vector(with.mesh.positions.begin() + std::ptrdiff_t(figure), with.mesh.positions.end()),
+              without.mesh.positions);
+    for (size_t i = 0; i < figure; ++i)
+        EXPECT_LT(glm::length(with.mesh.positions[i] - glm::vec3(4, 0.9f, 2)), 1.0f);
+}
+
 TEST(Preview, leavesTheRestAsItWas)
 {
     for (const char* text : {"", R"(, "preview": {})"}) {
@@ -91,6 +109,10 @@ TEST(Preview, isCheckedAsASceneIs)
         {R"("lighting": {"sunDirection": [0, 0, 0]})", "/preview/lighting/sunDirection"},
         {R"("mesh": {"file": "none.obj"})", "/preview/mesh/file"},
         {R"("instance": {"preset": "library:rain"})", "/preview/instance/preset"},
+        {R"("figure": {})", "/preview/figure"},
+        {R"("figure": {"position": [0, 0]})", "/preview/figure/position"},
+        {R"("figure": {"position": [0, 0, 1e9]})", "/preview/figure/position/2"},
+        {R"("figure": {"position": [0, 0, 0], "headingDegrees": 400})", "/preview/figure/headingDegrees"},
         {R"("instance": {"keys": [{"time": 1, "position": [0, 0, 0]}, {"time": 1, "position": [1, 0, 0]}]})",
          "/preview/instance/keys/1/time"},
     };

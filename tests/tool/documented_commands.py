@@ -143,6 +143,7 @@ class Small:
     present: dict = dataclasses.field(default_factory=dict)  # set where they are there
     absent: dict = dataclasses.field(default_factory=dict)   # set where they are not
     dropped: tuple = ()                                      # flags left out
+    named: str = None                                        # argument set where there is none without an option
 
 
 FEW = {"--count": "1000", "--steps": "1"}
@@ -151,6 +152,7 @@ HAVE_SMALL = ("paper-frame", "billboards", "blocks", "composition", "detail", "l
 # Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
     Small(("fx", "render"), {"--size": "48x32"}, {"--frames": "0:1", "--time": "0.1"}),
+    Small(("fx", "gallery"), {"--size": "48x32", "--times": "1"}, named="sparks"),
     Small(("fx", "edit"), {"--width": "640", "--height": "480"}, {"--measure": "2"}),
     Small(("fx", "export"), {"--quality": "low"}, {"--frames": "0:1", "--time": "0.1", "--voxel-size": "0.5"}, {"--voxels": "100000"}),
     Small(("fx", "bench", "particles"), FEW),
@@ -197,6 +199,9 @@ def made_small(words):
         return words
     rule = max(fitting, key=lambda rule: len(rule.words))
     words = [word for word in words if word not in rule.dropped]
+    options = [i for i, word in enumerate(words) if word.startswith("-")]
+    if rule.named and all(i in options or i - 1 in options for i in range(len(rule.words), len(words))):
+        words = [*rule.words, rule.named, *words[len(rule.words):]]
     for option, value in rule.absent.items():
         if not any(word == option or word.startswith(option + "=") for word in words):
             words = [*rule.words, option, value, *words[len(rule.words):]]

@@ -62,10 +62,10 @@ HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
 # What each subcommand cannot do without.
 NEEDS = {"render": ("-o", "--output"), "export": ("-o", "--output"), "stability": ("-o", "--output"), "validate": ("POSITIONAL",), "verify": ("POSITIONAL",),
          "accuracy": ("POSITIONAL",), "explain": ("POSITIONAL",), "grid": ("POSITIONAL",), "dazzle": ("POSITIONAL",), "import": ("POSITIONAL",),
-         "bench": ("POSITIONAL", "--plot"), "calibrate": ("-o",)}
+         "bench": ("POSITIONAL", "--plot"), "calibrate": ("-o",), "gallery": ("-o", "--output")}
 
 # In place of the placeholders of a synopsis.
-VALUES = {"FILE": "tiny.fx.json", "OUT": "out/a.png", "OUT.png": "out/b.png", "OUT.exr": "out/a.exr", "IN.exr": "in.exr",
+VALUES = {"FILE": "tiny.fx.json", "DIR": "out/gallery", "OUT": "out/a.png", "OUT.png": "out/b.png", "OUT.exr": "out/a.exr", "IN.exr": "in.exr",
           "CASE": "sod", "TECHNIQUE": "furnace", "OUT.vdb": "out/a.vdb", "IN.vdb": "in.vdb", "IN.%04d.vdb": "in.%04d.vdb",
           "PRESET.fx.json": "out/cloud.fx.json", "FOLDER": "out/maps", "FILE.svg": "out/a.svg", "OUT.fxgrid": "out/a.fxgrid",
           "POINTS.csv": "points.csv", "NUMBERS.raw": "numbers.raw", "library:NAME": "library:sparks",

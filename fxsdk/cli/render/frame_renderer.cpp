@@ -155,7 +155,8 @@ base::Status FrameRenderer::render(base::Ticks tick)
     if (options_.settings.layerOutputs)
         background_ = readPicture(stage_->colorTexture(), 4);
     const double first = options_.settings.outputs != 0 ? options_.frameSeconds : 0.0;
-    const double passed = lastTick_ < 0 ? first : base::toSeconds(tick - lastTick_);
+    const double passed =
+        lastTick_ < 0 || options_.everyFrameIsCut ? first : base::toSeconds(tick - lastTick_);
     if (base::Status status = drawEffects(camera, passed); !status)
         return status;
     device_->gl.Finish();
@@ -227,7 +228,7 @@ base::Status FrameRenderer::readShadows(std::span<render::StageLight> ioLights, 
 FxFrameDef FrameRenderer::frameOf(const render::CameraView& camera, double passed) const
 {
     FxFrameDef frame = fxDefaultFrameDef();
-    frame.resetHistory = lastTick_ < 0 ? 1 : 0;
+    frame.resetHistory = lastTick_ < 0 || options_.everyFrameIsCut ? 1 : 0;
     for (int i = 0; i < 3; ++i)
         frame.origin[i] = camera.origin[i];
     std::copy_n(glm::value_ptr(camera.view), 16, frame.view);

@@ -25,7 +25,8 @@ struct FrameRendererOptions
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     render::ViewSettings settings;
-    EffectSceneOptions scene;  ///< options of the effects; the renderer itself sets the member `gl`
+    EffectSceneOptions scene;     ///< options of the effects; the renderer itself sets the member `gl`
+    bool everyFrameIsCut = false; ///< true: each frame looks like a still of its moment, whatever came before
     double frameSeconds = 0.0; ///< [s] interval over which the output "motion" of the first frame is computed
 };
 

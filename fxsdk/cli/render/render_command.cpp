@@ -15,6 +15,7 @@
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/cli/support/progress.h"
+#include "rendering/stage/scale_figure.h"
 
 #include <CLI/CLI.hpp>
 
@@ -61,11 +62,21 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     return scene;
 }
 
+void placeFigure(const RenderPlan& plan, render::StageMesh& io)
+{
+    if (plan.noFigure || plan.figure)
+        render::removeScaleFigures(io);
+    if (plan.figure)
+        render::addScaleFigure(io, {*plan.figure, 0.0f});
+}
+
 /// @param lights whose lights, sky and exposure take the place of the scene's; null: none
 base::Result<scene_file::SceneFile> loadLitInput(const RenderArguments& arguments, RenderPlan& io,
                                                  const scene_file::SceneFile* lights)
 {
     auto scene = loadInput(arguments, io);
+    if (scene.ok())
+        placeFigure(io, scene->mesh);
     if (!scene.ok() || !lights)
         return scene;
     scene->view.lighting = lights->view.lighting;

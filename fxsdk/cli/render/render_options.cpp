@@ -71,6 +71,30 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
     return {};
 }
 
+/// Reads --figure: X,Y,Z or off.
+base::Status planFigure(const std::string& text, RenderPlan& plan)
+{
+    constexpr double kFarthest = 1e5; // [m]
+    plan.noFigure = text == "off";
+    if (text.empty() || plan.noFigure)
+        return {};
+    glm::vec3 place(0.0f);
+    int count = 0;
+    std::istringstream list(text + ",");
+    for (std::string part; std::getline(list, part, ','); ++count) {
+        char* end = nullptr;
+        const double value = std::strtod(part.c_str(), &end);
+        if (part.empty() || *end != '\0' || !(std::abs(value) <= kFarthest) || count == 3)
+            return usage("--figure " + text + ": expected off or X,Y,Z, each from -100000 to 100000 m");
+        place[count] = float(value);
+    }
+    if (count != 3)
+        return usage("--figure " + text + ": expected off or X,Y,Z, found " + std::to_string(count) +
+                     (count == 1 ? " number" : " numbers"));
+    plan.figure = place;
+    return {};
+}
+
 struct NamedOutputs
 {
     std::string_view name;
@@ -181,6 +205,10 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         ->check(CLI::Range(-20.0, 40.0));
     command.add_option("--lights", arguments.lights,
                        "Lights, sky and exposure of this scene file instead of the scene's");
+    command.add_option(
+        "--figure", arguments.figure,
+        "Where a person of 1.8 m stands, X,Y,Z [m], to show the size of the effect; off: nowhere. "
+        "Default: as the preset's preview says");
     command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");
     command.add_flag("--no-shimmer", arguments.noShimmer, "Without heat shimmer (EXR never has it)");
     command
@@ -305,6 +333,8 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
     plan.stepsPerSecond = arguments.quality == "reference" ? 120 : 60;
     if (arguments.quality == "reference" || arguments.quality == "low")
         plan.simulationQuality = arguments.quality == "low" ? FX_QUALITY_LOW : FX_QUALITY_REFERENCE;
+    if (base::Status status = planFigure(arguments.figure, plan); !status)
+        return status;
     if (base::Status status = planFrames(arguments, plan); !status)
         return status;
     return plan;

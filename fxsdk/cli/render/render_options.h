@@ -9,6 +9,8 @@
 #include "fxsdk/fxsdk.h"
 #include "rendering/frame/view_types.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -39,6 +41,8 @@ struct RenderArguments
     /// path of a scene file whose lights, sky and exposure are used; empty: the lights, sky and exposure of
     /// the input
     std::string lights;
+    /// "off", or where a figure stands, "X,Y,Z" [m]; empty: as in the preset's preview
+    std::string figure;
     double framesPerSecond = 30.0;
     std::optional<double> time; ///< [s] time to render; empty: the time of the preset's preview, or 0.5 s
     std::optional<uint64_t> seed;
@@ -71,6 +75,8 @@ struct RenderPlan
     std::vector<Frame> frames;
     /// true if the only frame shows a default time, not a time from the command line
     bool hasDefaultTime = false;
+    std::optional<glm::vec3> figure; ///< [m] where a figure stands instead of that of the preset's preview
+    bool noFigure = false;           ///< true: no figure is shown
     bool isSheet = false; ///< true if all frames are arranged row by row in one file (contact sheet)
     double framesPerSecond = 30.0;
     int stepsPerSecond = 60; ///< [1/s] step rate of the simulation
