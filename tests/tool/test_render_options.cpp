@@ -36,6 +36,25 @@ TEST(RenderOptions, aStillIsOneFrameAtItsTime)
     EXPECT_EQ(plan->height, 360);
 }
 
+TEST(RenderOptions, aFigureStandsWhereThreeNumbersSayOrNowhere)
+{
+    RenderArguments arguments = argumentsFor("a.png");
+    EXPECT_FALSE(planRender(arguments)->figure.has_value());
+    EXPECT_FALSE(planRender(arguments)->noFigure);
+    arguments.figure = "off";
+    EXPECT_TRUE(planRender(arguments)->noFigure);
+    arguments.figure = "-1.5,0,2e3";
+    const auto plan = planRender(arguments);
+    ASSERT_TRUE(plan.ok());
+    EXPECT_EQ(*plan->figure, glm::vec3(-1.5f, 0.0f, 2e3f));
+    for (const char* wrong : {"on", "1", "1,2", "1,2,3,4", "1,2,", "1,2,nan", "1,2,1e6", "1,2,3x"}) {
+        arguments.figure = wrong;
+        const auto refused = planRender(arguments);
+        ASSERT_FALSE(refused.ok()) << wrong;
+        EXPECT_NE(refused.status().message().find("expected off or X,Y,Z"), std::string::npos) << wrong;
+    }
+}
+
 TEST(RenderOptions, framesAreCountedFromFirstToLastAndTimedByTheRate)
 {
     RenderArguments arguments = argumentsFor("a.%d.png");
