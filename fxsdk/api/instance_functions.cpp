@@ -60,6 +60,7 @@ Status checkDef(const FxInstanceDef& def)
     check.flag(def.destroyWhenFinished, "def.destroyWhenFinished");
     fx::api::checkQuality(check, def.quality, "def.quality");
     check.range(def.reserved, 0u, 0u, "def.reserved");
+    check.range(def.reserved2, 0u, 0u, "def.reserved2");
     return check.status();
 }
 
@@ -87,7 +88,7 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         setup.parameters = toParameters(known.intensity, known.wind, known.emitting);
         setup.destroyWhenFinished = known.destroyWhenFinished != 0;
         setup.quality = fx::api::toQuality(known.quality, scene->quality);
-        const fx::scene::LocalId id = scene->scene.add(std::move(setup));
+        const fx::scene::LocalId id = scene->scene.add(std::move(setup), known.visibilityMask);
         if (id == 0)
             return {Code::Capacity, "the scene has as many instances as its definition allows"};
         outInstance->bits = scene->ids.encode(id, fx::api::kInstanceIdType);
@@ -199,6 +200,15 @@ FxResult fxScene_TriggerEvent(FxScene* scene, FxInstanceId instance, const char*
                 return fx::api::invalid("count is above 65536");
             return check.status() ? scene->scene.postEvent(id, name, count) : check.status();
         });
+}
+
+FxResult fxScene_SetVisibilityMask(FxScene* scene, FxInstanceId instance, uint32_t mask)
+{
+    return fx::api::withInstance("fxScene_SetVisibilityMask", scene, instance,
+                                 [&](fx::scene::LocalId id) -> Status {
+                                     scene->scene.setVisibilityMask(id, mask);
+                                     return {};
+                                 });
 }
 
 FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, float speed)

@@ -2,6 +2,7 @@
 /// Snapshots that a frame holds from its preparation until its end.
 #pragma once
 
+#include "fxsdk/api/masked_snapshots.h"
 #include "fxsdk/fx_view.h"
 #include "fxsdk/quality/view_quality.h"
 #include "fxsdk/scene/scene.h"
@@ -39,10 +40,12 @@ class ShownFrame
 {
 public:
     ShownFrame(scene::Scene& scene, quality::ViewQuality& quality, render::ViewRenderer& renderer,
-               const FxFrameDef& frame, bool holdsQuality)
-        : def(frame), scene_(scene), quality_(quality), renderer_(renderer), shown_(scene.acquire()),
+               MaskedSnapshots& masked, const FxFrameDef& frame, bool holdsQuality)
+        : def(frame), held_(scene), quality_(quality), renderer_(renderer), shown_(held_.acquired),
           asked_(renderer.settings().composition), askedSlices_(renderer.settings().slices)
     {
+        shown_.snapshots =
+            masked.shown(held_.acquired.snapshots, scene.visibilityMasks(), frame.visibilityMask);
         renderer_.settings().composition =
             render::resolved(asked_, automaticComposition(shown_.hints.composition));
         renderer_.settings().slices = automaticScattering(askedSlices_, shown_.hints.scattering);
@@ -53,7 +56,6 @@ public:
         quality_.end(renderer_);
         renderer_.settings().composition = asked_;
         renderer_.settings().slices = askedSlices_;
-        scene_.release(shown_.snapshots);
     }
     ShownFrame(const ShownFrame&) = delete;
     ShownFrame& operator=(const ShownFrame&) = delete;
@@ -66,10 +68,22 @@ public:
     uint64_t allocations = 0; ///< number of allocations during the preparation
 
 private:
-    scene::Scene& scene_;
+    /// Holds the snapshots of the scene.
+    struct Held
+    {
+        explicit Held(scene::Scene& from) : scene(from), acquired(from.acquire()) {}
+        ~Held() { scene.release(acquired.snapshots); }
+        Held(const Held&) = delete;
+        Held& operator=(const Held&) = delete;
+
+        scene::Scene& scene;
+        const scene::Presentation acquired;
+    };
+
+    Held held_;
     quality::ViewQuality& quality_;
     render::ViewRenderer& renderer_;
-    scene::Presentation shown_;
+    scene::Presentation shown_;               ///< without the instances that the frame does not show
     const render::Composition asked_;         ///< setting of the host
     const render::SliceSettings askedSlices_; ///< settings of the host
 };

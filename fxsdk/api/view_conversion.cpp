@@ -129,7 +129,33 @@ void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
     check.range(given.viewportY, 0, kWidest, "frame.viewportY");
     check.flag(given.keepScissor, "frame.keepScissor");
     check.range(given.displayWhite, 1.0f, 1e6f, "frame.displayWhite");
+}
+
+void checkRange(fx::api::Checks& check, const FxFrameDef& given)
+{
     check.range(given.reserved, 0u, 0u, "frame.reserved");
+    check.range(given.rangePart, uint32_t(FX_RANGE_ONLY), uint32_t(FX_RANGE_LAST), "frame.rangePart");
+    check.range(given.rangeNear, 0.0f, float(kFarthest), "frame.rangeNear");
+    check.range(given.rangeFar, 0.0f, float(kFarthest), "frame.rangeFar");
+    check.that(!(given.rangeFar <= given.rangeNear),
+               "frame.rangeFar is not above frame.rangeNear: give the farther depth as rangeFar, or 1e9 for "
+               "all effects behind rangeNear");
+    const bool completes = given.rangePart == FX_RANGE_ONLY || given.rangePart == FX_RANGE_LAST;
+    check.that(completes || given.target == FX_TARGET_TEXTURE || given.colorTexture == 0,
+               "frame.rangePart is not the last and frame.colorTexture is only read, so that the next call "
+               "would not see this one: set frame.target to FX_TARGET_TEXTURE, except in the last call");
+}
+
+fx::render::DepthRange toRange(const FxFrameDef& given)
+{
+    fx::render::DepthRange range;
+    if (given.rangeNear > 0.0f)
+        range.from = given.rangeNear;
+    if (given.rangeFar < float(kFarthest))
+        range.to = given.rangeFar;
+    range.isContinued = given.rangePart == FX_RANGE_NEXT || given.rangePart == FX_RANGE_LAST;
+    range.isLast = given.rangePart == FX_RANGE_ONLY || given.rangePart == FX_RANGE_LAST;
+    return range;
 }
 
 } // namespace
@@ -205,6 +231,7 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
     check.noFault(projectionFault(given.projection), "frame.projection");
     checkTarget(check, given);
     checkSunShadow(check, given);
+    checkRange(check, given);
     check.noFault(frameProjectionFault(given.projection, given.depthConvention == FX_DEPTH_REVERSED),
                   "frame.projection");
     if (!check.status())
@@ -234,5 +261,6 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
                             glm::make_mat4(given.sunShadowMatrix), given.sunShadowEdge};
     outRequest.deltaTime = given.deltaTime;
     outRequest.resetHistory = given.resetHistory != 0;
+    outRequest.range = toRange(given);
     return {};
 }

@@ -48,9 +48,17 @@ class FrameEnd
 {
 public:
     explicit FrameEnd(FxView& view) : view_(view) {}
-    ~FrameEnd() { view_.prepared.reset(); }
+    ~FrameEnd()
+    {
+        if (awaitsRanges)
+            return;
+        view_.prepared.reset();
+        view_.rangeEnd.reset();
+    }
     FrameEnd(const FrameEnd&) = delete;
     FrameEnd& operator=(const FrameEnd&) = delete;
+
+    bool awaitsRanges = false; ///< true: the next call draws another range of the frame
 
 private:
     FxView& view_;
@@ -107,8 +115,8 @@ FxViewStatistics gatherStatistics(const FxView& view)
 /// Whether a frame draws nothing and needs no look at its camera. Every frame of a scene at rest comes here.
 bool sleepsThrough(const FxView& view, const FxFrameDef* frame)
 {
-    return view.sleeps && !view.prepared && frame && view.scene->scene.showsNothing() &&
-           frame->structSize == sizeof view.sleptFrame &&
+    return view.sleeps && !view.prepared && frame && view.sleptFrame.rangePart == FX_RANGE_ONLY &&
+           view.scene->scene.showsNothing() && frame->structSize == sizeof view.sleptFrame &&
            std::memcmp(frame, &view.sleptFrame, sizeof view.sleptFrame) == 0;
 }
 
@@ -126,10 +134,32 @@ Status readFrame(const FxFrameDef* frame, FxFrameDef& outKnown, fx::render::Fram
     return fx::api::convertFrame(outKnown, outRequest);
 }
 
+/// Whether the frame follows the range that was drawn last, if it says so.
+Status checkSequence(const FxView& view, const FxFrameDef& known)
+{
+    if (known.rangePart != FX_RANGE_NEXT && known.rangePart != FX_RANGE_LAST)
+        return {};
+    if (!view.prepared || !view.rangeEnd)
+        return fx::api::invalid("frame.rangePart is FX_RANGE_NEXT or FX_RANGE_LAST, but no frame was begun, "
+                                "or another call of the "
+                                "view has ended it: begin with FX_RANGE_FIRST");
+    if (!view.prepared->isSameAs(known))
+        return fx::api::invalid(
+            "frame.rangePart is FX_RANGE_NEXT or FX_RANGE_LAST, but the camera, the "
+            "size, resetHistory or visibilityMask differ from the range before: give the same ones");
+    if (known.rangeFar > *view.rangeEnd)
+        return fx::api::invalid("frame.rangeFar is " + std::to_string(known.rangeFar) +
+                                ", but the range before ends at " + std::to_string(*view.rangeEnd) +
+                                ": draw ranges that do not overlap, the farthest first");
+    return {};
+}
+
 Status readEye(const char* eye, const FxFrameDef* frame, FxFrameDef& outKnown,
                fx::render::FrameRequest& outRequest)
 {
-    const Status status = readFrame(frame, outKnown, outRequest);
+    Status status = readFrame(frame, outKnown, outRequest);
+    if (status && outKnown.rangePart != FX_RANGE_ONLY)
+        status = fx::api::invalid("frame.rangePart is not FX_RANGE_ONLY: draw each eye by a view of its own");
     return status ? status : Status(status.code(), std::string(eye) + ": " + std::string(status.message()));
 }
 
@@ -179,7 +209,14 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
     fx::render::FrameRequest request;
     if (Status status = readFrame(frame, known, request); !status)
         return status;
-    if (!view.prepared && view.sleeps && !request.targets.useFramebuffer && view.scene->scene.showsNothing())
+    if (Status status = checkSequence(view, known); !status)
+        return status;
+    if (view.rangeEnd && !request.range.isContinued) { // the frame before was not completed
+        view.prepared.reset();
+        view.rangeEnd.reset();
+    }
+    if (known.rangePart == FX_RANGE_ONLY && !view.prepared && view.sleeps &&
+        !request.targets.useFramebuffer && view.scene->scene.showsNothing())
     {
         // only the camera is another; into a framebuffer the picture has to be carried over
         view.sleptFrame = known;
@@ -188,13 +225,13 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
         return status;
     }
     const uint64_t before = view.context->memory.allocationCount();
-    const FrameEnd end(view);
+    FrameEnd end(view);
     if (!view.prepared || !view.prepared->isSameAs(known))
         fx::api::showFrame(view, known);
     const fx::scene::Presentation& shown = view.prepared->shown();
     showMoment(view, shown, request);
     const bool marks = view.renderer.settings().overlay;
-    if (marks) {
+    if (marks && request.range.isLast) {
         view.scene->scene.copyMarks(view.marks);
         fx::api::makeOverlay(view.marks, request.camera.origin, view.overlay);
         request.overlay = view.overlay;
@@ -203,6 +240,9 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
     view.allocations = view.context->memory.allocationCount() - before + view.prepared->allocations;
     view.sleeps = status.ok() && !marks && view.renderer.isAsleep() && !view.quality.isControlled();
     view.sleptFrame = known;
+    end.awaitsRanges = status.ok() && !request.range.isLast;
+    if (end.awaitsRanges)
+        view.rangeEnd = known.rangeNear;
     return status;
 }
 

@@ -144,7 +144,8 @@ bool fx::api::ShownFrame::isSameAs(const FxFrameDef& frame) const
     return same(def.origin, frame.origin) && same(def.view, frame.view) &&
            same(def.projection, frame.projection) && def.depthConvention == frame.depthConvention &&
            def.zeroToOne == frame.zeroToOne && def.upperLeftOrigin == frame.upperLeftOrigin &&
-           def.width == frame.width && def.height == frame.height && def.resetHistory == frame.resetHistory;
+           def.width == frame.width && def.height == frame.height && def.resetHistory == frame.resetHistory &&
+           def.visibilityMask == frame.visibilityMask;
 }
 
 FxResult fxView_SetLights(FxView* view, const FxLight* lights, uint32_t count)

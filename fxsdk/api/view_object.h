@@ -18,7 +18,7 @@ struct FxView
 {
     FxView(FxScene* shown, const fx::render::ViewSettings& settings)
         : context(shown->context), scene(shown), marks(&context->memory), overlay(&context->memory),
-          renderer(makeRenderer(*context))
+          renderer(makeRenderer(*context)), masked(&context->memory)
     {
         setSettings(settings);
         scene->views.fetch_add(1);
@@ -53,6 +53,7 @@ struct FxView
         shown->views.fetch_add(1);
         scene->views.fetch_sub(1);
         scene = shown;
+        masked.forget();
         sleeps = false;
     }
 
@@ -74,6 +75,7 @@ struct FxView
     std::pmr::vector<fx::scene::Mark> marks; ///< marks of the overlay
     std::pmr::vector<fx::render::OverlayBox> overlay;
     fx::render::ViewRenderer renderer;
+    fx::api::MaskedSnapshots masked; ///< outlives `prepared`
     fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< number of allocations during the last frame
     /// True when the last frame drew no element. As long as the scene is empty, the next frame draws no
@@ -82,8 +84,12 @@ struct FxView
     /// frame of the sleeping view, already validated; meaningful only while `sleeps`
     FxFrameDef sleptFrame = fxDefaultFrameDef();
     glm::dvec3 origin{0.0}; ///< [m] FxFrameDef::origin of the frame that was prepared or rendered last
-    /// set by fxView_PrepareLights(), until the frame is rendered
+    /// set by fxView_PrepareLights(), until the frame is rendered, and by the first of several ranges of a
+    /// frame, until the last one is rendered
     std::optional<fx::api::ShownFrame> prepared;
+    /// [m] near end of the range that was rendered last; without a value, no frame awaits further ranges.
+    /// Meaningful only while there is `prepared`.
+    std::optional<float> rangeEnd;
 };
 
 namespace fx::api {
@@ -114,9 +120,11 @@ inline render::InstanceNames instanceNames(const FxView& view)
 inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
 {
     view.prepared.reset();
+    view.rangeEnd.reset();
     view.origin = {frame.origin[0], frame.origin[1], frame.origin[2]};
-    return view.prepared.emplace(view.scene->scene, view.quality, view.renderer, frame,
-                                 frame.holdQuality != 0 || view.scene->catchingUp.load());
+    return view.prepared.emplace(view.scene->scene, view.quality, view.renderer, view.masked, frame,
+                                 frame.holdQuality != 0 || frame.rangePart != FX_RANGE_ONLY ||
+                                     view.scene->catchingUp.load());
 }
 
 /// Runs `body` as a call inside the view, if the thread rules allow it. Only one call of a context may be in

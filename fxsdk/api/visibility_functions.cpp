@@ -25,7 +25,8 @@ constexpr float kLeastPixels = 0.0353f;
 struct Watcher
 {
     CameraGeometry camera;
-    float height; ///< [pixel]
+    float height;  ///< [pixel]
+    uint32_t mask; ///< FxFrameDef::visibilityMask
 };
 
 /// Releases the snapshots of a scene.
@@ -62,7 +63,7 @@ Status readCamera(const FxFrameDef* given, std::optional<Watcher>& out)
     fx::render::FrameRequest request;
     if (Status status = fx::api::convertFrame(camera, request); !status)
         return status;
-    out = Watcher{fx::render::cameraGeometry(request.camera), float(known.height)};
+    out = Watcher{fx::render::cameraGeometry(request.camera), float(known.height), known.visibilityMask};
     return {};
 }
 
@@ -130,8 +131,10 @@ private:
     float radius_ = 0.0f, distance_ = 0.0f, pixels_ = 0.0f; ///< of the largest sphere
 };
 
-FxVisibilityCause causeOf(InstanceState state, const GroupReport& groups)
+FxVisibilityCause causeOf(InstanceState state, bool isMasked, const GroupReport& groups)
 {
+    if (isMasked && state != InstanceState::Dormant && state != InstanceState::Finished)
+        return FX_VISIBILITY_MASKED;
     switch (state) {
     case InstanceState::Dormant:
         return FX_VISIBILITY_NOT_STARTED;
@@ -175,7 +178,8 @@ FxResult fxScene_ExplainVisibility(FxScene* scene, FxInstanceId instance, const 
                 groups.add(group.info());
         }
         FxVisibility report{};
-        report.cause = uint32_t(causeOf(activity.state, groups));
+        const bool isMasked = watcher && (watcher->mask & scene->scene.visibilityMask(id)) == 0;
+        report.cause = uint32_t(causeOf(activity.state, isMasked, groups));
         report.state = uint32_t(activity.state);
         report.reason = uint32_t(activity.reason);
         report.particles = activity.particles;
@@ -201,6 +205,9 @@ const char* fxGetVisibilityText(uint32_t cause)
         "signs of the view matrix, and that it is not the matrix from eye to world.",
         "The effect is beside the view: check position and unit, which is the meter, and the view matrix.",
         "The effect is smaller than a pixel: check the unit of positions, which is the meter, and the scale.",
+        "The visibility masks of the instance and of the frame share no bit: see fxScene_SetVisibilityMask "
+        "and "
+        "FxFrameDef::visibilityMask.",
     };
     return cause < std::size(kTexts) ? kTexts[cause] : "unknown cause";
 }

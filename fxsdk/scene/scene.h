@@ -14,6 +14,7 @@
 #include "fxsdk/activation/timer_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/scene/motion_history.h"
+#include "fxsdk/scene/visibility_masks.h"
 #include "simulation/world/world.h"
 
 #include <array>
@@ -155,8 +156,9 @@ public:
     Scene(const SceneOptions& options, const base::SnapshotSchema* schema, base::TaskRunner* tasks,
           std::pmr::memory_resource* memory);
 
-    /// Adds an instance. Strong guarantee, also if memory is exhausted. @return 0 if the scene is full
-    LocalId add(InstanceSetup setup);
+    /// Adds an instance. Strong guarantee, also if memory is exhausted.
+    /// @param mask see setVisibilityMask() @return 0 if the scene is full
+    LocalId add(InstanceSetup setup, uint32_t mask = kVisibleToAll);
     bool contains(LocalId id) { return instances_.find(id) != nullptr; }
 
     // If an earlier update has left a step incomplete, changes take effect at the end of the step. A step
@@ -181,6 +183,10 @@ public:
     ///     started)
     base::Status postEvent(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
+    /// Sets the bits of which a frame needs one to show an instance. Strong guarantee.
+    void setVisibilityMask(LocalId id, uint32_t mask) { masks_.set(id, mask); }
+    uint32_t visibilityMask(LocalId id) const { return masks_.of(id); }
+    const VisibilityMasks& visibilityMasks() const { return masks_; } ///< [any thread]
 
     /// State and estimated cost of an instance.
     struct Activity
@@ -378,6 +384,8 @@ private:
     static size_t placeOf(const Effects& effects, const sim::EffectDef& wanted);
     void saveRules(sim::StateWriter& writer) const;
     void saveInstances(sim::StateWriter& writer) const;
+    void saveMasks(sim::StateWriter& writer) const;
+    void restoreMasks(sim::StateReader& reader, Restored& state) const;
     void checkRules(sim::StateReader& reader) const;
     Effects restoreEffects(sim::StateReader& reader, const FindEffect& findEffect) const;
     base::ClockState restoreClock(sim::StateReader& reader) const;
@@ -426,6 +434,7 @@ private:
     double measuredNanoseconds_ =
         100; ///< [ns] time of one particle in one step; an estimate until the first step
     base::SnapshotRing ring_;
+    VisibilityMasks masks_;
     SceneCounters counters_;
     uint64_t nextSerial_ = 0;
 

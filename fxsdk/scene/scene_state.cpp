@@ -118,7 +118,7 @@ SceneCounters restoreCounters(sim::StateReader& reader)
 struct Scene::Restored
 {
     explicit Restored(const Scene& scene)
-        : instances(scene.memory_, scene.options_.maxInstances), dormant(scene.memory_),
+        : instances(scene.memory_, scene.options_.maxInstances), masks(scene.memory_), dormant(scene.memory_),
           active(scene.memory_), moved(scene.memory_),
           world(scene.schema_, scene.tasks_, scene.memory_, scene.world_.environment(),
                 scene.options_.shareInstances)
@@ -130,6 +130,7 @@ struct Scene::Restored
     SceneCounters counters;
     uint64_t nextSerial = 0;
     IdTable<Instance> instances;
+    std::pmr::vector<VisibilityMask> masks; ///< ascending by instance
     activation::TimerQueue dormant;
     activation::ActiveList active;
     std::pmr::vector<LocalId> moved;
@@ -183,12 +184,41 @@ void Scene::saveInstances(sim::StateWriter& writer) const
     });
 }
 
+/// Not a part of the simulation hash, because steps do not depend on masks.
+void Scene::saveMasks(sim::StateWriter& writer) const
+{
+    std::pmr::vector<VisibilityMask> masks(memory_);
+    uint64_t revision = 0;
+    masks_.copy(masks, revision);
+    writer.value(uint32_t(masks.size()));
+    for (const VisibilityMask& one : masks) {
+        writer.value(one.instance);
+        writer.value(one.mask);
+    }
+}
+
+void Scene::restoreMasks(sim::StateReader& reader, Restored& state) const
+{
+    const uint32_t count =
+        reader.value<uint32_t>(0, options_.maxInstances, "the state has more masks than instances");
+    for (uint32_t i = 0; i < count && reader.ok(); ++i) {
+        const LocalId instance = reader.value<LocalId>();
+        const uint32_t mask = reader.value<uint32_t>();
+        const bool isNext = state.masks.empty() || state.masks.back().instance < instance;
+        reader.require(isNext && state.instances.find(instance) != nullptr,
+                       "a visibility mask is of an instance that the state does not have");
+        if (reader.ok())
+            state.masks.push_back({instance, mask});
+    }
+}
+
 void Scene::save(sim::StateWriter& writer)
 {
     completeStep();
     settle(true);
     saveRules(writer);
     saveInstances(writer);
+    saveMasks(writer);
     const base::ClockState clock = clock_.state();
     writer.value(clock.steps);
     writer.value(clock.now);
@@ -216,6 +246,7 @@ base::Status Scene::restore(std::span<const std::byte> bytes, const FindEffect& 
     checkRules(reader);
     const Effects effects = restoreEffects(reader, findEffect);
     restoreInstances(reader, effects, state);
+    restoreMasks(reader, state);
     state.clock = restoreClock(reader);
     const SceneCounters counters = restoreCounters(reader);
     state.counters = counters;
@@ -360,6 +391,7 @@ void Scene::take(Restored& state)
     counters_ = state.counters;
     nextSerial_ = state.nextSerial;
     std::swap(instances_, state.instances);
+    masks_.replace(state.masks);
     std::swap(dormant_, state.dormant);
     std::swap(active_, state.active);
     world_.swap(state.world);

@@ -4,10 +4,13 @@
 #include <glm/vec2.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace fx::render {
 
 namespace {
+
+constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 /// Distance along the axis of clip depth `n`, from the projection's third and fourth rows.
 float axisDistance(const glm::mat4& p, float n)
@@ -60,7 +63,7 @@ ViewBlock makeViewBlock(const CameraView& camera, int width, int height)
     b.right = {g.right, g.clipScale.x};
     b.up = {g.up, g.clipScale.y};
     b.forward = {g.forward, 1.0f};
-    b.clipOffset = {g.clipOffset, 0.0f, 0.0f};
+    b.clipOffset = {g.clipOffset, -kUnlimited, kUnlimited};
     b.depthScale = {p[3][2], p[3][3], p[2][3], p[2][2]};
     const float farStored = camera.depth == DepthConvention::Reversed ? 0.0f : 1.0f;
     b.depthRange = {camera.zeroToOne ? 1.0f : 2.0f, camera.zeroToOne ? 0.0f : -1.0f, farStored, 0.0f};

@@ -307,6 +307,19 @@ struct OverlayBox
     glm::vec4 color;      ///< color, premultiplied, in the unit of the picture
 };
 
+/// Part of the depth that a call draws. The calls of one frame draw adjacent ranges, the farthest first.
+struct DepthRange
+{
+    static constexpr float kUnlimited = std::numeric_limits<float>::infinity();
+
+    float from = -kUnlimited; ///< [m] depth along the view axis; media nearer than this are not drawn
+    float to = kUnlimited;    ///< [m] depth along the view axis; media farther than this are not drawn
+    /// True: the last call has drawn another range of the same frame, with the same snapshots and camera.
+    /// Everything that it gathered, uploaded and computed is used again.
+    bool isContinued = false;
+    bool isLast = true; ///< true: shimmer, glare and tone mapping complete the picture
+};
+
 /// Input of one frame.
 struct FrameRequest
 {
@@ -320,6 +333,7 @@ struct FrameRequest
     bool resetHistory = false;  ///< true: the camera has jumped, so that adaptation starts from this frame
     std::span<const OverlayBox> overlay{}; ///< boxes that are drawn over the finished picture
     InstanceNames instances;               ///< maps ids for ViewSettings::outputs; constant for a scene
+    DepthRange range;
 };
 
 /// Counters of one rendered frame. Counts are exact, except where the comment says "estimated".

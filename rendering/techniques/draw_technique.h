@@ -105,9 +105,9 @@ struct PassFrame
 {
     const FrameRequest* request;
     const ViewSettings* settings;
-    int width, height;           ///< [pixel]
-    ViewBlock view;              ///< view block for passes with the size of the picture
-    ViewBlock layerView;         ///< view block for passes with the size of layers
+    int width, height;   ///< [pixel]
+    ViewBlock view;      ///< view block for passes with the size of the picture; of all depths
+    ViewBlock layerView; ///< view block for passes with the size of layers; of the range of the request
     int layerWidth, layerHeight; ///< [texel]
     LightBindings lights = {};   ///< lights of the view
     bool hasSmallLayers = false; ///< true: layers are smaller than the picture
@@ -119,11 +119,16 @@ struct PassFrame
     BlockTileBindings tiles{};     ///< tiles of balls; valid in the stage Upload and later stages
     ResourceId blobs = {}; ///< buffer of GatheredFrame::blobs; valid in the stage Upload and later stages
     bool anyPass = false;  ///< true: the technique's passes are needed even if there are no media
+
+    /// True: light on media must be computed even if the lists are kept, because the host's shadow map may
+    /// have changed.
+    bool mayShadowChange() const { return lights.hostShadow.valid() && !request->range.isContinued; }
 };
 
 /// State of a technique in one view: lists and GPU memory. A frame with visible data calls begin(), then
-/// gather() or keep(), then addPasses() for each stage, then fence() and endFrame(). A frame without visible
-/// data calls only rest().
+/// gather() or keep(), then addPasses() for each stage, then fence() and endFrame(). A frame of several depth
+/// ranges calls keep(), addPasses() and fence() again for each further range, and endFrame() after the last
+/// one. A frame without visible data calls only rest().
 class TechniqueView
 {
 public:

@@ -11,7 +11,7 @@ base::Status ViewRenderer::Impl::begin(const base::SnapshotPair& snapshots, cons
     hasLights = false;
     compose(settings);
     for (const auto& part : parts)
-        if (base::Status status = part->begin(settings); !status)
+        if (base::Status status = request.range.isContinued ? base::Status() : part->begin(settings); !status)
             return status;
     base::Status status = gather(snapshots, request, settings);
     hasLights = status.ok();
@@ -76,6 +76,7 @@ base::Status ViewRenderer::prepareLights(const base::SnapshotPair& snapshots, co
     if (base::Status status = checkAll(asked); !status)
         return status;
     s.dropPrepared();
+    s.isOpen = false;
     if (s.leavesPictureAlone(snapshots, asked, settings_)) {
         s.hasLights = false;
         return {};

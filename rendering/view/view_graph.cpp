@@ -43,6 +43,10 @@ public:
             view->forward.w = settings_.detail ? 1.0f : 0.0f;
             view->sunDirection = {settings_.lighting.sunDirection, view->sunDirection.w};
         }
+        solidView_ = frame_.view;
+        for (ViewBlock* view : {&solidView_, &frame_.layerView})
+            view->clipOffset = {view->clipOffset.x, view->clipOffset.y, request_.range.from,
+                                request_.range.to};
         isComposed_ = in.composition && in.composition->hasMedia();
         frame_.hasMedia = isComposed_ || !in.batches.empty() || !in.solids.empty();
     }
@@ -64,16 +68,14 @@ public:
             finish(target_);
             return out_;
         }
-        const bool more =
-            alterPicture() || settings_.toneMap || separateTarget_ || request_.targets.isDisplay();
+        const bool isAltered = request_.range.isLast && (alterPicture() || settings_.toneMap);
+        const bool more = isAltered || separateTarget_ || request_.targets.isDisplay();
         if (more)
             readPicture();
         if (frame_.hasMedia)
             addComposite(more ? frame_.picture : target_, !more);
-        addStage(PassStage::Refract);
-        addStage(PassStage::Sensor);
-        if (settings_.toneMap)
-            addToneMap();
+        if (request_.range.isLast)
+            completePicture();
         if (more && out_.anyPass)
             addPresent();
         finish(target_);
@@ -81,6 +83,14 @@ public:
     }
 
 private:
+    void completePicture()
+    {
+        addStage(PassStage::Refract);
+        addStage(PassStage::Sensor);
+        if (settings_.toneMap)
+            addToneMap();
+    }
+
     void addStage(PassStage stage)
     {
         frame_.anyPass = false;
@@ -154,7 +164,7 @@ private:
             SceneDistancePass::addTo(graph_, {depth, frame_.width, frame_.height, frame_.view}).distance;
         addStage(PassStage::Upload);
         const auto solid = SolidPass::addTo(graph_, {in_.solids, frame_.distance, frame_.width, frame_.height,
-                                                     frame_.view, settings_.layerOutputs, frame_.lights});
+                                                     solidView_, settings_.layerOutputs, frame_.lights});
         const ResourceId hostDistance = frame_.distance;
         frame_.distance = solid.distance;
         frame_.layerDistance = solid.distance;
@@ -276,6 +286,7 @@ private:
     const ViewSettings& settings_;
     LayerGrid grid_;
     PassFrame frame_{};
+    ViewBlock solidView_{};   ///< frame_.view, limited to the range of the request
     bool isComposed_ = false; ///< the composition has media of its own
     bool readable_ = false;
     bool separateTarget_ = false; ///< the picture is read from a texture and written to a framebuffer

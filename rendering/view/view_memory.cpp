@@ -78,6 +78,7 @@ FrameStatistics ViewRenderer::Impl::rest()
 {
     outputs = {};
     dropPrepared();
+    isOpen = false;
     hasLights = false;
     passNames.clear();
     FrameStatistics statistics;

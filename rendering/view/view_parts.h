@@ -105,7 +105,8 @@ struct ViewRenderer::Impl
     bool keptLists = false; ///< true: this frame has reused the lists
     StereoFrame stereo;
     std::optional<PreparedFrame> prepared;
-    bool hasLights = false;                       ///< true: `lights` are valid for the last frame
+    bool isOpen = false;    ///< true: further ranges of the last frame may follow, with its lists
+    bool hasLights = false; ///< true: `lights` are valid for the last frame
     std::pmr::vector<std::string_view> passNames; ///< passes that the last frame executed
     const base::AssetTable* assets = nullptr;
     FragmentCounts fragments{}; ///< estimated number of fragments of this frame

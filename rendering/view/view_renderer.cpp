@@ -98,7 +98,7 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
 {
     const RevisionPair now = revisions.revisionsOf(snapshots);
     const FrameKey wanted = frameKey(now, request, settings, assets);
-    keptLists = key == wanted && !request.resetHistory && !stereo.otherCamera;
+    keptLists = request.range.isContinued || (key == wanted && !request.resetHistory && !stereo.otherCamera);
     if (keptLists) {
         lights.keep();
         for (const auto& part : parts)
@@ -289,6 +289,11 @@ base::Status ViewRenderer::checkAll(const FrameRequest& request) const
     if (!findComposition(settings_.composition))
         return invalid("settings: this library has no composition " +
                        std::to_string(int(settings_.composition)));
+    const bool isPart = request.range.isContinued || !request.range.isLast;
+    if (isPart && (settings_.layerOutputs || settings_.outputs != 0))
+        return invalid(
+            "frame.rangePart is not FX_RANGE_ONLY, but settings.layerOutputs and settings.outputs are "
+            "textures of a whole frame: set them to 0, or draw a frame for them");
     if (settings_.toneMap && request.targets.isDisplay())
         return invalid("frame.targetEncoding is a display encoding and settings.toneMap is 1, which would "
                        "tone-map twice: set one of them to 0");
@@ -340,13 +345,15 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     const uint64_t callsThen = wasPrepared ? s.prepared->glCalls : 0;
     const uint32_t compiledThen = wasPrepared ? s.prepared->programsCompiled : 0;
     s.prepared.reset();
+    seen.range.isContinued = asked.range.isContinued && s.isOpen;
+    s.isOpen = false;
     if (!wasPrepared)
         if (base::Status status = s.begin(snapshots, seen, settings_); !status)
             return status;
     s.lights.setSunShadow(asked.sunShadow, asked.camera.origin);
     s.timer.beginFrame(s.clock, s.tag);
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
-    if (!s.stereo.isSecond)
+    if (!s.stereo.isSecond && !seen.range.isContinued)
         s.stereo.divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
                                                asked.resetHistory);
     const int divisor = s.stereo.divisor;
@@ -358,8 +365,10 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.key.reset();
         throw;
     }
+    s.isOpen = status.ok() && !asked.range.isLast;
     for (const auto& part : s.parts)
-        part->endFrame(status.ok());
+        if (!s.isOpen)
+            part->endFrame(status.ok());
     s.askWhetherParticlesAreComputed();
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
     if (s.clock != TimingClock::Off) {

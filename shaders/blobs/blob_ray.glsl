@@ -9,6 +9,7 @@ struct BlobRay
 {
     float opticalDepth; // [1] without detail
     vec3 toPoint;       // [m] from the blob's center to the point whose light stands for the whole path
+    vec3 toDetail;      // [m] likewise of the path through all depths, so that ranges of depth have the same detail
     float distance;     // [m] of that point from the ray's origin
     vec3 direction;     // unit
     vec3 across;        // [m] from the blob's center to the nearest point of the ray
@@ -44,6 +45,19 @@ BlobRay traceBlob()
     float depthOfView = 0.5 / (1.0 + 0.5 * result.opticalDepth); // thin: the middle; thick: near the front
     result.distance = mix(front, back, depthOfView);
     result.toPoint = chord.origin + chord.direction * result.distance - blobCenterRadius.xyz;
+    result.toDetail = result.toPoint;
+    bool isCut = t0 > chord.open.x || t1 < chord.open.y;
+    for (int i = 0; i < (isCut ? 1 : 0); ++i) { // software renderers skip a loop without turns
+        float depth = fxKernelOpticalDepth(blobMedium.x, radius, h, tc, chord.open.x, chord.open.y);
+#if FX_FORM == 0
+        depth = result.opticalDepth;
+#elif FX_FORM == 1
+        depth = fxUniformBallOpticalDepth(blobMedium.x, radius, h, tc, chord.open.x, chord.open.y);
+#endif
+        float first = max(chord.open.x, tc - w);
+        float last = max(min(chord.open.y, tc + w), first);
+        result.toDetail = chord.origin + chord.direction * mix(first, last, 0.5 / (1.0 + 0.5 * depth)) - blobCenterRadius.xyz;
+    }
     result.direction = chord.direction;
     result.across = chord.across;
     result.halfChord = w;

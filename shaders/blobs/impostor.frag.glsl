@@ -27,8 +27,12 @@ void main()
 {
     vec4 picture = mix(pictureAt(impostorTiles.zw, impostorAppearance.w), pictureAt(impostorTiles.xy, 1.0), impostorAppearance.x);
     float surface = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
-    float before = clamp(0.5 + 0.5 * (surface - length(impostorCenter.xyz)) / impostorAppearance.z, 0.0, 1.0);
-    float share = impostorAppearance.y * before; // of the optical depth
+    vec3 rayBegin, along;
+    float lengthPerDepth;
+    viewRay(gl_FragCoord.xy, rayBegin, along, lengthPerDepth);
+    vec2 room = vec2(clipOffset.z * lengthPerDepth, min(surface, clipOffset.w * lengthPerDepth)) - length(impostorCenter.xyz);
+    vec2 passed = clamp(0.5 + 0.5 * room / impostorAppearance.z, 0.0, 1.0);
+    float share = impostorAppearance.y * max(passed.y - passed.x, 0.0); // of the optical depth
     float alpha = min(picture.a, 0.9999);
     float shown = 1.0 - pow(1.0 - alpha, share);
     vec4 seen = alpha > 1e-6 ? picture * (shown / alpha) : picture * share;

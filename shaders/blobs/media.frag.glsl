@@ -115,7 +115,7 @@ void main()
 #if FX_DETAIL
     float amount = blobMedium.z * forward.w;
     if (amount > 0.0) {
-        vec3 relative = ray.toPoint / blobCenterRadius.w;
+        vec3 relative = ray.toDetail / blobCenterRadius.w;
         vec3 p = blobDetailAxes * relative + blobMedium.w * vec3(61.3, 37.7, 83.1);
         float n = fxDetailNoise(p.x, p.y, p.z);
         opticalDepth *= max(1.0 + amount * (2.2 * n - 0.25), 0.0);

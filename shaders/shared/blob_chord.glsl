@@ -8,7 +8,8 @@ struct BlobChord
     vec3 across;    // [m] from the center to the nearest point of the ray
     float h;        // [m] length of `across`
     float tc;       // [m] ray parameter of that point
-    float t0, t1;   // [m] where the visible ray begins and ends
+    float t0, t1;   // [m] where the part of the ray that is drawn begins and ends
+    vec2 open;      // [m] where the visible ray begins and ends, of all depths
 };
 
 BlobChord chordOf(vec3 center)
@@ -20,7 +21,9 @@ BlobChord chordOf(vec3 center)
     chord.tc = dot(toCenter, chord.direction);
     chord.across = chord.tc * chord.direction - toCenter; // perpendicular: keeps the digits that b^2 - c^2 would lose
     chord.h = length(chord.across);
-    chord.t0 = rayOriginX.w * lengthPerDepth;
-    chord.t1 = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
+    chord.open = vec2(rayOriginX.w * lengthPerDepth, texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r);
+    vec2 part = drawnPart(chord.open, lengthPerDepth);
+    chord.t0 = part.x;
+    chord.t1 = part.y;
     return chord;
 }

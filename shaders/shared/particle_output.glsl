@@ -42,14 +42,30 @@ float leftOver(vec3 place)
     return room > 0.0 ? 1.0 : 0.0;
 }
 
+// Share of the particle that lies between the depths that are drawn; what is solid is cut.
+float shareDrawn(vec3 place)
+{
+    float distanceAlong = distanceOf(place);
+    float reach = appearance.z;
+#if FX_SOLID
+    reach = 0.0;
+#endif
+    float lengthPerDepth = rayOrigin.w > 0.5 ? 1.0 : distanceAlong / dot(place, forward.xyz);
+    return shareInRange(distanceAlong, reach, lengthPerDepth);
+}
+
 // alpha: of the particle alone, without the scene
 void writeParticle(vec3 light, float alpha, vec3 place)
 {
     float left = leftOver(place);
+    float share = shareDrawn(place);
+    bool addsOnly = appearance.w > 0.5 && appearance.w < 1.5; // it hides nothing
 #if FX_SOLID
-    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
+    alpha = left > 0.0 && share > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
 #else
     alpha *= left;
+    if (share < 1.0) // of its optical depth, so that ranges put over each other have the opacity of all of it
+        alpha = addsOnly ? alpha * share : 1.0 - pow(max(1.0 - alpha, 0.0), share);
 #endif
     if (!(alpha > 0.0) || any(isnan(light)) || any(isinf(light)))
         discard;
@@ -60,7 +76,7 @@ void writeParticle(vec3 light, float alpha, vec3 place)
 #endif
     gl_FragDepth = 1.0 / (1.0 + max(d, 0.0)); // nearer is more, as precise far away as a float is
 #endif
-    float cover = appearance.w > 0.5 && appearance.w < 1.5 ? 0.0 : alpha; // what only adds hides nothing
+    float cover = addsOnly ? 0.0 : alpha;
     vec3 seen = alpha * light;
 #if FX_CARDS
     addCard(light, alpha, cover, distanceOf(place), 2.0 * appearance.z, shine.z);

@@ -10,7 +10,7 @@ layout(std140, binding = 0) uniform ViewBlock
     vec4 right;          // [1] camera axes in world; w: clip x per unit of slope
     vec4 up;             // w: clip y per unit of slope
     vec4 forward;        // w: strength of blob detail [1]
-    vec4 clipOffset;     // xy: clip position of the view axis; zw: constants of depth linearisation
+    vec4 clipOffset;     // xy: clip position of the view axis; zw: depths along the axis between which media are drawn [m]
     vec4 depthScale;     // distance along the axis = (x - n y) / (n z - w) for clip depth n
     vec4 depthRange;     // clip depth n = x d + y for a stored depth d; z: stored depth that means nothing is there
     vec4 sunDirection;   // [1] towards the sun; w: pixels per unit of slope vertically
@@ -28,4 +28,21 @@ void viewRay(vec2 window, out vec3 origin, out vec3 direction, out float lengthP
     vec3 d = rayDirection.xyz + ndc.x * rayDirectionX.xyz + ndc.y * rayDirectionY.xyz;
     lengthPerDepth = length(d);
     direction = d / lengthPerDepth;
+}
+
+// Where the part of a ray that is drawn begins and ends [m]. open: where it is visible, of all depths
+vec2 drawnPart(vec2 open, float lengthPerDepth)
+{
+    return vec2(max(open.x, clipOffset.z * lengthPerDepth), min(open.y, clipOffset.w * lengthPerDepth));
+}
+
+// Share of something thin at a distance along the ray that lies between the depths that are drawn. It counts as spread evenly
+// over `reach` to both sides [m], so that the shares of adjacent ranges are 1 in all.
+float shareInRange(float distanceAlong, float reach, float lengthPerDepth)
+{
+    vec2 room = clipOffset.zw * lengthPerDepth - distanceAlong;
+    if (!(reach > 0.0))
+        return room.x <= 0.0 && room.y > 0.0 ? 1.0 : 0.0;
+    vec2 passed = clamp(0.5 + 0.5 * room / reach, 0.0, 1.0);
+    return passed.y - passed.x;
 }

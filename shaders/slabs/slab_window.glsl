@@ -99,11 +99,12 @@ float passedAt(Chord chord, float t)
     return passed;
 }
 
-// Interval of a card along the ray, of a length > 0; none of it is behind what hides.
+// Interval of a card along the ray, of a length > 0; none of it is behind what hides, nor beyond the depths that are drawn.
 vec2 intervalOf(SlabRay ray, vec4 body)
 {
-    float back = min(body.x + 0.5 * body.z, max(ray.t1, body.x));
-    float front = min(max(body.x - 0.5 * body.z, ray.t0), body.x);
+    vec2 drawn = clipOffset.zw * ray.lengthPerDepth;
+    float back = min(min(body.x + 0.5 * body.z, max(ray.t1, body.x)), drawn.y);
+    float front = max(min(max(body.x - 0.5 * body.z, ray.t0), body.x), drawn.x);
     return vec2(front, max(back, front + 1e-6 * max(abs(front), 1e-6)));
 }
 

@@ -1,6 +1,8 @@
 // The code of docs/howto/effect-in-your-game.md, compiled as C and called as a game would.
 #include "tests/api/encoded_targets.h"
 
+#include <algorithm>
+
 extern "C" {
 struct Effects
 {
@@ -16,6 +18,9 @@ int drawEffects(const Effects* effects, double seconds, const float view[16], co
 FxFrameDef windowTarget(int32_t width, int32_t height);
 FxFrameDef hdrTarget(uint32_t color, uint32_t depth, int32_t width, int32_t height);
 FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3]);
+int drawEffectsAroundGlass(const Effects* effects, FxFrameDef target, float glassDepth,
+                           void (*drawGlass)(void));
+int showInMainViewOnly(const Effects* effects, FxInstanceId instance);
 }
 
 using EffectInYourGame = fx::test::EncodedTargetTest;
@@ -45,4 +50,36 @@ TEST_F(EffectInYourGame, theCodeOfThePageDrawsAnExplosionIntoBothKindsOfTargets)
         EXPECT_NE(stored(target), before);
         EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
     }
+}
+
+TEST_F(EffectInYourGame, theCodeOfThePageDrawsEffectsBeforeAndBehindGlass)
+{
+    static int drawn;
+    drawn = 0;
+    const float sky[3] = {0.3f, 0.4f, 0.6f};
+    const FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky);
+    Effects effects{};
+    ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
+    ASSERT_EQ(explode(&effects, 0.0, 0.0, 0.0), 0) << fxGetLastErrorMessage();
+    const fx::test::EncodedTarget target = targetsOf(GL_RGBA16F).front();
+    attach(target, depthsOf(1)[5]);
+    FxFrameDef def = hdrTarget(target.texture, depth_.name(), kSize, kSize);
+    std::copy_n(frame().projection, 16, def.projection);
+    def.origin[2] = 12.0;
+    for (int i = 0; i < 30; ++i)
+        ASSERT_EQ(fxScene_Update(effects.scene, 1.0 / 60.0), FX_OK);
+    store(target, std::vector<float>(size_t(kSize * kSize * 4), 0.25f));
+    const std::vector<float> empty = stored(target);
+    ASSERT_EQ(drawEffectsAroundGlass(&effects, def, 12.0f, [] { ++drawn; }), 0) << fxGetLastErrorMessage();
+    EXPECT_EQ(drawn, 1);
+    EXPECT_NE(stored(target), empty);
+    FxInstanceId instance{};
+    uint32_t count = 0;
+    ASSERT_EQ(fxScene_GetInstances(effects.scene, &instance, 1, &count), FX_OK);
+    ASSERT_EQ(showInMainViewOnly(&effects, instance), 0) << fxGetLastErrorMessage();
+    def.visibilityMask = 2u; // of the map
+    store(target, std::vector<float>(size_t(kSize * kSize * 4), 0.25f));
+    ASSERT_EQ(fxView_Render(effects.view, &def), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(stored(target), empty);
+    EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
 }

@@ -162,8 +162,8 @@ TEST_F(Visibility, refusesWrongArgumentsAndChangesNothing)
 
 TEST_F(Visibility, hasADifferentTextForEachCause)
 {
-    for (uint32_t a = 0; a <= FX_VISIBILITY_TOO_SMALL; ++a)
+    for (uint32_t a = 0; a <= FX_VISIBILITY_MASKED; ++a)
         for (uint32_t b = 0; b < a; ++b)
             EXPECT_STRNE(fxGetVisibilityText(a), fxGetVisibilityText(b));
-    EXPECT_STREQ(fxGetVisibilityText(FX_VISIBILITY_TOO_SMALL + 1), "unknown cause");
+    EXPECT_STREQ(fxGetVisibilityText(FX_VISIBILITY_MASKED + 1), "unknown cause");
 }

@@ -178,6 +178,13 @@ typedef struct FxInstanceDef
 
     /// Reserved; must be 0.
     uint32_t reserved;
+
+    /// See fxScene_SetVisibilityMask(); default 0xFFFFFFFF: the instance is seen by all frames whose mask is
+    /// not 0.
+    uint32_t visibilityMask;
+
+    /// Reserved; must be 0.
+    uint32_t reserved2;
 } FxInstanceDef;
 
 /// The definition of an instance that starts at once at the world's origin; only its preset is missing.
@@ -189,6 +196,7 @@ static inline FxInstanceDef fxDefaultInstanceDef(void)
     def.rotation[3] = 1.0f;
     def.intensity = 1.0f;
     def.emitting = 1;
+    def.visibilityMask = 0xFFFFFFFFu;
     return def;
 }
 
@@ -367,6 +375,16 @@ FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, cons
 ///         fxScene_SetTransform)
 FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
                                       const FxInstanceParameters* parameters);
+
+/// Selects the frames that show an instance: those whose FxFrameDef::visibilityMask shares a bit with `mask`.
+/// The frames that begin from now on follow it. In other frames the instance is not drawn, casts neither
+/// light nor shadows, and does not shimmer. Simulation, culling, hashes and FxSnapshot do not depend on
+/// masks; saved states contain them. A frame that leaves instances out copies the particles of the others
+/// once a step. [scene thread]
+/// @param mask any bits; 0: no frame shows the instance
+/// @return FX_OK, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
+///         (nothing has changed)
+FX_API FxResult fxScene_SetVisibilityMask(FxScene* scene, FxInstanceId instance, uint32_t mask);
 
 /// Plays an instance at another speed from now on. Local time is counted in integer ticks, and the speed is
 /// rounded to a multiple of 1/65536. Equal calls therefore give equal bits. At an integer speed n, the

@@ -46,6 +46,16 @@ typedef enum FxTargetEncoding
     FX_TARGET_DISPLAY_GAMMA = 2 ///< values 0..1 as a display shows them, encoded by a gamma of 2.2
 } FxTargetEncoding;
 
+/// Values of FxFrameDef::rangePart: which call of a frame this is. A frame with transparent surfaces of the
+/// host is drawn by several calls, one for each range of depth between them, the farthest first.
+enum
+{
+    FX_RANGE_ONLY = 0,  ///< the only call of the frame
+    FX_RANGE_FIRST = 1, ///< the first call, of the farthest range; NEXT or LAST follows
+    FX_RANGE_NEXT = 2,  ///< neither the first nor the last call
+    FX_RANGE_LAST = 3   ///< the last call, of the nearest range
+};
+
 /// One frame. Fill with fxDefaultFrameDef(), then set camera and target.
 /// The picture fills the target from its lower left corner, or from viewportX, viewportY; the host's depth
 /// range is 0 to 1.
@@ -147,6 +157,26 @@ typedef struct FxFrameDef
     /// default 2.
     float displayWhite;
 
+    /// FX_RANGE_...; default FX_RANGE_ONLY. From FIRST to LAST, moment, camera, size and resetHistory are the
+    /// same; lists, uploads, light slices, fields and networks are those of the first call. Heat shimmer,
+    /// glare, tone mapping and the activation overlay are drawn by LAST and ONLY, over the whole picture.
+    /// A call of fxView_SetSettings(), fxView_SetLights(), fxView_SetScene(), fxView_PrepareLights() or
+    /// fxView_RenderStereo() ends the frame, and so does a call that fails.
+    uint32_t rangePart;
+
+    /// [m] 0..1e9, depth along the view axis, from the eye plane, from which on effects are drawn; 0
+    /// (default): from the near plane on. Media and opaque particles are cut there; what a sprite, ribbon or
+    /// impostor covers is divided within its softness. Shadows, light and heat shimmer do not depend on the
+    /// range.
+    float rangeNear;
+
+    /// [m] above rangeNear, up to 1e9: depth up to which effects are drawn; 1e9 (default): all of them.
+    float rangeFar;
+
+    /// Bits of which an instance needs one to be seen, see FxInstanceDef::visibilityMask; default 0xFFFFFFFF.
+    /// Other instances are not drawn by this frame, and cast neither light nor shadows in it.
+    uint32_t visibilityMask;
+
     /// Reserved; 0.
     uint32_t reserved;
 } FxFrameDef;
@@ -161,6 +191,8 @@ static inline FxFrameDef fxDefaultFrameDef(void)
     def.deltaTime = 1.0 / 60.0;
     def.sunShadowEdge = 0.1f;
     def.displayWhite = 2.0f;
+    def.rangeFar = 1e9f;
+    def.visibilityMask = 0xFFFFFFFFu;
     return def;
 }
 

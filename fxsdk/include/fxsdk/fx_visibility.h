@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/// Values of FxVisibility::cause: the first of these that applies, in this order but FX_VISIBILITY_IN_VIEW.
+/// Values of FxVisibility::cause: the first of these that applies, in this order but FX_VISIBILITY_IN_VIEW
+/// and FX_VISIBILITY_MASKED.
 typedef enum FxVisibilityCause
 {
     FX_VISIBILITY_IN_VIEW = 0,      ///< particles are in view; without a camera: particles are published
@@ -25,6 +26,8 @@ typedef enum FxVisibilityCause
     FX_VISIBILITY_BESIDE = 7,       ///< all particles are outside of the frustum, at its sides
     /// The largest group of particles covers less than 1/255 of a pixel.
     FX_VISIBILITY_TOO_SMALL = 8,
+    /// The visibility masks of instance and camera share no bit. It comes after FX_VISIBILITY_ENDED.
+    FX_VISIBILITY_MASKED = 9,
     FX_VISIBILITY_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxVisibilityCause;
 
@@ -50,8 +53,8 @@ typedef struct FxVisibility
 /// Reports whether particles of an instance are in the view of a camera, and the cause if they are not, as of
 /// the last update. Bounds of groups of particles are tested, not single particles. The report does not know
 /// surfaces of the host, exposure and lights. [scene thread]
-/// @param camera       frame of a view; only origin, view, projection, depthConvention, zeroToOne and height
-///                     are used; null: causes that depend on the camera are not tested
+/// @param camera       frame of a view; only origin, view, projection, depthConvention, zeroToOne, height
+///                     and visibilityMask are used; null: causes that depend on the camera are not tested
 /// @param ioVisibility structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member), FX_ERROR_VERSION (structSize),
 ///         FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT

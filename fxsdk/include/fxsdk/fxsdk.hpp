@@ -172,6 +172,12 @@ public:
         check(fxScene_SetParameters(get(), instance, &parameters));
     }
 
+    /// Shows the instance only in frames whose FxFrameDef::visibilityMask shares a bit with `mask`.
+    void setVisibilityMask(FxInstanceId instance, uint32_t mask)
+    {
+        check(fxScene_SetVisibilityMask(get(), instance, mask));
+    }
+
     void trigger(FxInstanceId instance, const std::string& event, uint32_t count = 1)
     {
         check(fxScene_TriggerEvent(get(), instance, event.c_str(), count));

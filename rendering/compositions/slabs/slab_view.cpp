@@ -60,7 +60,8 @@ void SlabView::addNetwork(FrameGraph& graph, const PassFrame& frame)
     const size_t count = balls.instances.size();
     ResourceId lights =
         graph.importBuffer({"network blob lights", std::bit_ceil(count * kBlobLightBytes)}, lights_.name());
-    if (!isKept_ || !network_.isSettled() || frame.lights.hostShadow.valid()) {
+    const bool sweeps = !network_.isSettled() && !frame.request->range.isContinued;
+    if (!isKept_ || sweeps || frame.mayShadowChange()) {
         fields_.importAll(graph);
         network_.importAll(graph);
         if (!isKept_) {

@@ -106,7 +106,7 @@ void VolumeView::addLooseBalls(FrameGraph& graph, const PassFrame& frame)
                 backend.upload(buffer, std::as_bytes(blobs));
             };
         });
-    if (!isKept_ || frame.lights.hostShadow.valid())
+    if (!isKept_ || frame.mayShadowChange())
         looseSource_.blobLights =
             BlobLightPass::addTo(graph, {looseSource_.blobs, looseSource_.blobLights, frame.lights,
                                          &frame.view, uint32_t(blobs.size())})
@@ -141,8 +141,8 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
     if (!isKept_ && !filledFor_)
         fields_.upload(graph);
     const bool isFilled = filledFor_ != nullptr; // here, or when lights were prepared
-    const bool sweeps = !network_.isEmpty() && !network_.isSettled();
-    if (!isKept_ || isFilled || sweeps || frame.lights.hostShadow.valid()) {
+    const bool sweeps = !network_.isEmpty() && !network_.isSettled() && !frame.request->range.isContinued;
+    if (!isKept_ || isFilled || sweeps || frame.mayShadowChange()) {
         if (!isFilled)
             fields_.fill(graph, frame.blobs);
         addFieldLight(graph, frame);

@@ -201,7 +201,7 @@ void BlobView::addLights(FrameGraph& graph, const PassFrame& frame)
 {
     blobs_.blobLights = graph.importBuffer(
         {"blob lights", std::bit_ceil(builder_.blobs().size() * kBlobLightBytes)}, lightBuffer_.name());
-    if (!isKept_ || frame.lights.hostShadow.valid()) // what that map shows may have moved
+    if (!isKept_ || frame.mayShadowChange())
         blobs_.blobLights = BlobLightPass::addTo(graph, {blobs_.blobs, blobs_.blobLights, frame.lights,
                                                          &frame.view, uint32_t(builder_.blobs().size())})
                                 .blobLights;

@@ -1,0 +1,303 @@
+// Frames that are drawn range by range of depth, between the transparent surfaces of a host.
+#include "tests/api/view_fixture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+constexpr float kStep = 1.0f / 255.0f; ///< of a display
+constexpr float kEndless = 1e9f;       ///< [m] FxFrameDef::rangeFar of all effects
+
+/// Largest difference of two pictures after values above 1 are cut, as a display does.
+float largestDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+    float most = 0.0f;
+    for (size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, std::abs(std::min(a[i], 1.0f) - std::min(b[i], 1.0f)));
+    return most;
+}
+
+double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < a.size(); ++i)
+        sum += double(std::abs(std::min(a[i], 1.0f) - std::min(b[i], 1.0f)));
+    return sum / double(a.size());
+}
+
+/// An effect, and where ranges begin that cut it.
+struct Cut
+{
+    const char* preset;
+    double distance;           ///< [m] from the eye to the origin of the effect
+    double height;             ///< [m] of the eye over the origin
+    int updates;               ///< before the picture
+    std::array<float, 2> ends; ///< [m] ascending
+};
+
+constexpr Cut kCampfire{"campfire", 3.0, 0.8, 60, {2.8f, 3.1f}};
+constexpr Cut kExplosion{fx::test::kLargeEffect, 14.0, 2.0, 40, {12.0f, 14.5f}};
+constexpr Cut kSparks{"sparks", 3.0, 0.8, 60, {2.8f, 3.1f}};
+constexpr Cut kCloud{"cumulus", 2'500.0, 900.0, 2, {2'300.0f, 2'600.0f}};
+
+class ViewRanges : public fx::test::ViewApiTest
+{
+protected:
+    FxView* show(const Cut& cut, uint32_t composition)
+    {
+        const FxSceneDef def = fxDefaultSceneDef();
+        EXPECT_EQ(fxCreateScene(context_, &def, &shown_), FX_OK);
+        FxInstanceDef instance = fxDefaultInstanceDef();
+        const std::string name = cut.preset;
+        const size_t colon = name.find(':');
+        EXPECT_EQ(fxLoadPresetLibrary(context_, name.substr(colon == name.npos ? 0 : colon + 1).c_str(),
+                                      &instance.preset),
+                  FX_OK)
+            << fxGetLastErrorMessage();
+        FxInstanceId id{};
+        EXPECT_EQ(fxScene_CreateInstance(shown_, &instance, &id), FX_OK);
+        step(cut.updates);
+        return makeView(sunny(composition));
+    }
+    static FxViewSettings sunny(uint32_t composition)
+    {
+        FxViewSettings settings = fxDefaultViewSettings();
+        settings.composition = composition;
+        settings.dazzle = 0;
+        settings.exposureEv100 = 15.0f; // bright daylight
+        for (int i = 0; i < 3; ++i) {
+            settings.sunIlluminance[i] = 60'000.0f;
+            settings.skyLuminance[i] = 4'000.0f;
+        }
+        return settings;
+    }
+    FxView* makeView(const FxViewSettings& settings)
+    {
+        FxView* view = nullptr;
+        EXPECT_EQ(fxCreateView(context_, shown_, &settings, &view), FX_OK) << fxGetLastErrorMessage();
+        return view;
+    }
+    void step(int updates)
+    {
+        for (int i = 0; i < updates; ++i)
+            EXPECT_EQ(fxScene_Update(shown_, fx::test::kFrame), FX_OK);
+    }
+    void hide(FxView* view)
+    {
+        EXPECT_EQ(fxDestroyView(view), FX_OK);
+        EXPECT_EQ(fxDestroyScene(shown_), FX_OK);
+    }
+    FxFrameDef eye(const Cut& cut) const
+    {
+        FxFrameDef def = frame();
+        def.origin[1] = cut.height;
+        def.origin[2] = cut.distance;
+        return def;
+    }
+    void clear(float value)
+    {
+        const float color[4] = {value, value, value, 1.0f};
+        host_->gl.ClearTexImage(color_.name(), 0, GL_RGBA, GL_FLOAT, color);
+    }
+    void render(FxView* view, FxFrameDef def, uint32_t part, float from, float to)
+    {
+        def.rangePart = part;
+        def.rangeNear = from;
+        def.rangeFar = to;
+        ASSERT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
+    }
+    std::vector<float> whole(FxView* view, const FxFrameDef& def, float background)
+    {
+        clear(background);
+        render(view, def, FX_RANGE_ONLY, 0.0f, kEndless);
+        return picture();
+    }
+    std::vector<float> inRanges(FxView* view, const Cut& cut, float background)
+    {
+        const FxFrameDef def = eye(cut);
+        clear(background);
+        render(view, def, FX_RANGE_FIRST, cut.ends[1], kEndless);
+        render(view, def, FX_RANGE_NEXT, cut.ends[0], cut.ends[1]);
+        render(view, def, FX_RANGE_LAST, 0.0f, cut.ends[0]);
+        return picture();
+    }
+    FxViewStatistics countsOf(FxView* view)
+    {
+        FxViewStatistics counts{};
+        counts.structSize = sizeof counts;
+        EXPECT_EQ(fxView_GetStatistics(view, &counts), FX_OK);
+        return counts;
+    }
+
+    FxScene* shown_ = nullptr;
+};
+
+/// Share of the background that is seen in each pixel, from pictures over two backgrounds.
+std::vector<float> transmittance(const std::vector<float>& dark, const std::vector<float>& bright)
+{
+    std::vector<float> through;
+    for (size_t i = 0; i < dark.size(); i += 4)
+        through.push_back(std::min(bright[i] - dark[i], 1.0f));
+    return through;
+}
+
+} // namespace
+
+TEST_F(ViewRanges, overEachOtherAreTheWholePicture)
+{
+    for (const auto& [cut, composition] :
+         {std::pair(kCampfire, FX_COMPOSITION_SORTED), std::pair(kCampfire, FX_COMPOSITION_SLABS),
+          std::pair(kExplosion, FX_COMPOSITION_VOLUME), std::pair(kCloud, FX_COMPOSITION_SLABS)})
+    {
+        SCOPED_TRACE(std::string(cut.preset) + ", composition " + std::to_string(composition));
+        FxView* const view = show(cut, composition);
+        const FxFrameDef def = eye(cut);
+        const std::vector<float> wanted = whole(view, def, kBackground);
+        const std::vector<float> ranges = inRanges(view, cut, kBackground);
+        std::printf("%s, composition %d: ranges differ by %.2f/255 at most\n", cut.preset, int(composition),
+                    largestDifference(ranges, wanted) / kStep);
+        // rays that march begin anew at each cut, so that their samples lie elsewhere
+        const bool marches = composition == FX_COMPOSITION_VOLUME;
+        EXPECT_LE(largestDifference(ranges, wanted), marches ? 2.0f * kStep : kStep);
+        clear(kBackground);
+        render(view, def, FX_RANGE_ONLY, cut.ends[1], kEndless);
+        EXPECT_GT(largestDifference(picture(), wanted), 8.0f * kStep); // the others have a part of it
+        hide(view);
+    }
+}
+
+TEST_F(ViewRanges, hideTheBackgroundAsTheWholePictureDoes)
+{
+    FxView* const view = show(kCampfire, FX_COMPOSITION_SORTED);
+    FxViewSettings settings = sunny(FX_COMPOSITION_SORTED);
+    settings.shimmerStrength = 0.0f;
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    const FxFrameDef def = eye(kCampfire);
+    const auto throughWhole = transmittance(whole(view, def, 0.0f), whole(view, def, 1.0f));
+    const auto throughRanges =
+        transmittance(inRanges(view, kCampfire, 0.0f), inRanges(view, kCampfire, 1.0f));
+    EXPECT_LE(largestDifference(throughRanges, throughWhole), kStep);
+    EXPECT_LT(*std::min_element(throughWhole.begin(), throughWhole.end()), 0.9f); // there is smoke
+}
+
+TEST_F(ViewRanges, shareWhatTheFirstCallPreparesAndItsMoment)
+{
+    for (const auto& [cut, composition] :
+         {std::pair(kCampfire, FX_COMPOSITION_SLABS), std::pair(kSparks, FX_COMPOSITION_SORTED)})
+    {
+        SCOPED_TRACE(std::string(cut.preset) + ", composition " + std::to_string(composition));
+        FxView* const view = show(cut, composition);
+        FxViewSettings settings = sunny(composition);
+        settings.multipleScattering = 2; // networks
+        ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+        const FxFrameDef def = eye(cut);
+        const std::vector<float> before = inRanges(view, cut, kBackground);
+        clear(kBackground);
+        render(view, def, FX_RANGE_FIRST, cut.ends[1], kEndless);
+        EXPECT_GT(countsOf(view).passes, 0u);
+        step(5); // the frame does not see it
+        render(view, def, FX_RANGE_NEXT, cut.ends[0], cut.ends[1]);
+        for (int i = 0; i < 2; ++i) {
+            const FxViewStatistics counts = countsOf(view);
+            EXPECT_EQ(counts.keptLists, 1u);
+            EXPECT_EQ(counts.uploadedBytes, 0u);
+            EXPECT_EQ(counts.sortedParticles, 0u);
+            for (const std::string& pass : fx::test::passNamesOf(view))
+                for (const char* const once :
+                     {"light slices", "blob upload", "blob light", "loose blob upload", "field upload",
+                      "field fill", "field light", "field slices", "glow", "network", "gpu particles"})
+                    EXPECT_FALSE(pass.starts_with(once)) << pass;
+            if (i == 0)
+                render(view, def, FX_RANGE_LAST, 0.0f, cut.ends[0]);
+        }
+        EXPECT_LE(largestDifference(picture(), before), kStep);
+        EXPECT_GT(largestDifference(whole(view, def, kBackground), before), kStep); // time has passed
+        hide(view);
+    }
+}
+
+TEST_F(ViewRanges, areCompletedByTheLastCall)
+{
+    FxView* const view = show(kCampfire, FX_COMPOSITION_SORTED);
+    FxViewSettings settings = sunny(FX_COMPOSITION_SORTED);
+    settings.dazzle = 1;
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    FxView* const other = makeView(settings);
+    const FxFrameDef def = eye(kCampfire);
+    const auto isComplete = [&] {
+        const std::vector<std::string> passes = fx::test::passNamesOf(view);
+        return std::ranges::any_of(passes, [](const std::string& pass) {
+            return pass.starts_with("heat shimmer") || pass.starts_with("dazzle");
+        });
+    };
+    for (int i = 0; i < 3; ++i) { // glare adapts over frames
+        step(1);
+        clear(kBackground);
+        const float depth = kCampfire.ends[0];
+        render(view, def, FX_RANGE_FIRST, depth, kEndless);
+        EXPECT_FALSE(isComplete());
+        render(view, def, FX_RANGE_LAST, 0.0f, depth);
+        EXPECT_TRUE(isComplete());
+        const std::vector<float> ranges = picture();
+        EXPECT_LE(meanDifference(whole(other, def, kBackground), ranges), kStep);
+    }
+}
+
+TEST_F(ViewRanges, ofWrongDepthsOrOrderAreRefusedAndNameTheMember)
+{
+    FxView* const view = show(kCampfire, FX_COMPOSITION_SORTED);
+    const auto refuse = [&](FxFrameDef def, const char* text) {
+        EXPECT_EQ(fxView_Render(view, &def), FX_ERROR_INVALID_ARGUMENT) << text;
+        EXPECT_NE(std::string(fxGetLastErrorMessage()).find(text), std::string::npos)
+            << fxGetLastErrorMessage();
+    };
+    const auto ranged = [&](uint32_t part, float from, float to) {
+        FxFrameDef def = eye(kCampfire);
+        def.rangePart = part;
+        def.rangeNear = from;
+        def.rangeFar = to;
+        return def;
+    };
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    clear(kBackground);
+    const std::vector<float> before = picture();
+    refuse(ranged(FX_RANGE_ONLY, kNan, 5.0f), "frame.rangeNear");
+    refuse(ranged(FX_RANGE_ONLY, -1.0f, 5.0f), "frame.rangeNear");
+    refuse(ranged(FX_RANGE_ONLY, 0.0f, kNan), "frame.rangeFar");
+    refuse(ranged(FX_RANGE_ONLY, 0.0f, kInfinite), "frame.rangeFar");
+    refuse(ranged(FX_RANGE_ONLY, 5.0f, 2.0f), "frame.rangeFar is not above frame.rangeNear");
+    refuse(ranged(FX_RANGE_ONLY, 2.0f, 2.0f), "frame.rangeFar is not above frame.rangeNear");
+    refuse(ranged(4, 0.0f, 5.0f), "frame.rangePart");
+    refuse(ranged(FX_RANGE_NEXT, 0.0f, 5.0f), "begin with FX_RANGE_FIRST");
+    refuse(ranged(FX_RANGE_LAST, 0.0f, 5.0f), "begin with FX_RANGE_FIRST");
+    FxFrameDef elsewhere = ranged(FX_RANGE_FIRST, 0.0f, 5.0f);
+    elsewhere.target = FX_TARGET_FRAMEBUFFER;
+    refuse(elsewhere, "FX_TARGET_TEXTURE");
+    const FxFrameDef eyes[] = {ranged(FX_RANGE_FIRST, 2.0f, 5.0f), ranged(FX_RANGE_ONLY, 0.0f, 5.0f)};
+    EXPECT_EQ(fxView_RenderStereo(view, &eyes[0], &eyes[1]), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(fxGetLastErrorMessage()).find("first: frame.rangePart"), std::string::npos);
+    EXPECT_EQ(picture(), before);
+
+    const auto begin = [&] { render(view, eye(kCampfire), FX_RANGE_FIRST, 3.0f, kEndless); };
+    begin();
+    refuse(ranged(FX_RANGE_LAST, 0.0f, 3.5f), "the farthest first");
+    FxFrameDef moved = ranged(FX_RANGE_LAST, 0.0f, 3.0f);
+    moved.origin[0] = 1.0;
+    refuse(moved, "differ from the range before");
+    render(view, eye(kCampfire), FX_RANGE_LAST, 0.0f, 3.0f); // refused arguments have not ended it
+    begin();
+    FxViewSettings settings = sunny(FX_COMPOSITION_SORTED);
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    refuse(ranged(FX_RANGE_LAST, 0.0f, 3.0f), "begin with FX_RANGE_FIRST");
+    settings.outputs = FX_OUTPUT_MOTION;
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    refuse(ranged(FX_RANGE_FIRST, 0.0f, 3.0f), "settings.outputs");
+}
