@@ -184,8 +184,9 @@ class FxRender(FxTest):
         self.render("sheet.png", "--times", "0.1,0.2,0.5")
         self.assertEqual(png_size(self.folder / "sheet.png"), (96, 64))
         preset = self.folder / "p.fx.json" # whose preview is later than the times
-        preset.write_text(LIBRARY.joinpath("sparks.fx.json").read_text().replace('"version": 1,', """"version": 1,
-            "preview": {"time": 2},""", 1))
+        effect = json.loads(LIBRARY.joinpath("sparks.fx.json").read_text())
+        effect["preview"] = {"time": 2}
+        preset.write_text(json.dumps(effect))
         self.render("two.png", "--times", "0.1,0.2", "--stats", self.folder / "stats.json", scene=preset)
         shown = [json.loads(line)["time"] for line in (self.folder / "stats.json").read_text().splitlines()]
         self.assertEqual([round(time, 6) for time in shown], [0.1, 0.2])
