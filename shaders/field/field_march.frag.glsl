@@ -127,7 +127,7 @@ void main()
         while (!find.isMedium && !isOver && looks < kMaxDepthSamples) {
             ++looks;
             float depth = 0.5 * (before.medium.a + now.medium.a) * (next - t);
-            bool isAgain = number >= tileRange.y && depth > kMostDepth && !isShort;
+            bool isAgain = number >= tileRange.y && depth > kMostDepth && now.most < kNever && !isShort;
             if (isAgain) {
                 next = t + max(sqrt(kDepthPerStep / depth), kShortest) * (next - t);
                 fields.rests = rests;
@@ -146,9 +146,7 @@ void main()
                 isShort = false;
                 isOver = !(t < ray.t1 && (before.room < kNever || t < last) && picture.through > kMinTransmittance);
                 float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMaxStretch); // less is seen of what follows
-                // Light of what lies deeper in dense medium must not be seen before it.
-                float room = min(stretch * before.room, max(before.room, kDepthPerStep / max(before.medium.a, 1e-20)));
-                next = t + (before.isEmpty ? before.room : room);
+                next = t + (before.isEmpty ? before.room : min(stretch * before.room, before.most));
 #if FX_LOOSE
                 next = min(next, nextFace(loose, t));
 #endif

@@ -34,6 +34,7 @@ struct FieldSample
 #endif
     bool isEmpty; // no field has a brick here
     float room;   // [m] along the ray: one step, or up to where a brick may begin
+    float most;   // [m] of a step that is made longer; kNever where the medium does not change within a voxel
 };
 
 // A place within a field, in voxels, and how a ray passes there.
@@ -125,7 +126,7 @@ FieldSample emptySample()
     sum.scattered = vec3(0.0);
 #endif
     sum.isEmpty = true;
-    sum.room = kNever;
+    sum.room = sum.most = kNever;
     return sum;
 }
 
@@ -259,7 +260,10 @@ void addFind(FieldRay ray, FieldFind find, float t, inout FieldSample sum)
 #if FX_DETAIL && !FX_LAYERS
     sum.medium.rgb += held * scattered;
 #endif
-    sum.room = min(sum.room, find.voxel * clamp(kDepthPerStep / (find.voxel * max(kept * medium.a, 1e-20)), kMinVoxelsPerStep, voxels));
+    float room = find.voxel * clamp(kDepthPerStep / (find.voxel * max(kept * medium.a, 1e-20)), kMinVoxelsPerStep, voxels);
+    sum.room = min(sum.room, room);
+    // Light of what lies deeper in dense voxels must not be seen before it.
+    sum.most = min(sum.most, find.step == kVoxelsPerVolumeStep ? max(room, kDepthPerStep / max(medium.a, 1e-20)) : kNever);
 }
 
 #if FX_LAYERS
