@@ -66,14 +66,19 @@ private:
         for (const uint32_t block : order_)
             addBlock(block, d);
         for (size_t v = 0; v < depth_.size(); ++v)
-            seen_[v] += float(weight) * shareOf(v);
+            seen_[v] += float(weight) *
+                        (ofWholeVoxels_ ? shareOfWhole(v) : std::exp(-std::min(depth_[v], kMostEscapeDepth)));
     }
 
-    float shareOf(size_t v) const
+    /// Voxels that nobody sees are alike, and need no exponential function: most voxels of thick media.
+    float shareOfWhole(size_t v) const
     {
-        const float own = ofWholeVoxels_ ? 2.0f * half_ * lattice_.extinction[v] : 0.0f;
+        constexpr float kDeepest = 16.0f, kLeast = 1.1e-7f; // exp(-kDeepest)
+        const float own = 2.0f * half_ * lattice_.extinction[v], depth = depth_[v] - 0.5f * own;
+        if (own == 0.0f || depth > kDeepest)
+            return kLeast;
         const float mean = own > 1e-4f ? -std::expm1(-own) / own : 1.0f;
-        return mean * std::exp(-std::min(std::max(depth_[v] - 0.5f * own, 0.0f), kMostEscapeDepth));
+        return mean * std::exp(-std::max(depth, 0.0f));
     }
 
     void addBlock(uint32_t block, const glm::ivec3& d)

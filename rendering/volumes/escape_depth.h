@@ -54,7 +54,7 @@ struct BlockLattice
 ///   so that a thin voxel before a thick one counts as little as it hides of the thick one.
 /// @source    [AS64] table 25.4, quadrature over a sphere, for the weights of (2); the rest is own
 /// @deviation light that has left the blocks counts as seen, also if other blocks are behind; t is limited
-///            to kMostEscapeDepth
+///            to kMostEscapeDepth, in (4) to 16
 /// @valid     extinction >= 0
 /// @accuracy  (1) in an even medium, and (2) in a thin one, to rounding
 /// @tests     tests/rendering/volumes/test_escape_depth.cpp
@@ -62,7 +62,7 @@ struct BlockLattice
 /// Escape depths (2) of all voxels, in the order of the extinctions.
 std::vector<float> escapeDepths(const BlockLattice& lattice);
 
-/// Shares (4) of all voxels, in the order of the extinctions.
+/// Shares (4) of all voxels, in the order of the extinctions; of voxels without extinction any value.
 std::vector<float> seenShares(const BlockLattice& lattice);
 
 } // namespace fx::render

@@ -127,7 +127,7 @@ void main()
         while (!find.isMedium && !isOver && looks < kMaxDepthSamples) {
             ++looks;
             float depth = 0.5 * (before.medium.a + now.medium.a) * (next - t);
-            bool isAgain = number >= tileRange.y && depth > kMostDepth && now.most < kNever && !isShort;
+            bool isAgain = number >= tileRange.y && depth > kMostDepth && now.most < next - t && !isShort;
             if (isAgain) {
                 next = t + max(sqrt(kDepthPerStep / depth), kShortest) * (next - t);
                 fields.rests = rests;

@@ -151,6 +151,7 @@ struct FieldFind
     float largest;  // [1/m] no extinction of the field is larger
     float detail;   // first texel of its detail, or 0
     float step;     // [voxel] longest step in it
+    float stretched; // [1] optical depth of a step that is made longer
 #if FX_DETAIL
     DetailPlace place;
     vec4 material1; // of the medium, see fieldMaterial1
@@ -173,6 +174,7 @@ FieldFind lookAt(inout FieldRay ray, uint number, float t, inout FieldSample sum
     find.largest = field.limits.y;
     find.detail = field.limits.z;
     find.step = field.limits.x < 0.0 ? kVoxelsPerVolumeStep : kVoxelsPerStep;
+    find.stretched = field.limits.x < 0.0 ? kDepthPerStep : kNever;
 #if FX_DETAIL
     find.place = DetailPlace(1.0, 1.0, 0.0);
     find.material1 = find.near0 = vec4(0.0);
@@ -263,7 +265,7 @@ void addFind(FieldRay ray, FieldFind find, float t, inout FieldSample sum)
     float room = find.voxel * clamp(kDepthPerStep / (find.voxel * max(kept * medium.a, 1e-20)), kMinVoxelsPerStep, voxels);
     sum.room = min(sum.room, room);
     // Light of what lies deeper in dense voxels must not be seen before it.
-    sum.most = min(sum.most, find.step == kVoxelsPerVolumeStep ? max(room, kDepthPerStep / max(medium.a, 1e-20)) : kNever);
+    sum.most = min(sum.most, max(room, find.stretched / max(medium.a, 1e-20)));
 }
 
 #if FX_LAYERS

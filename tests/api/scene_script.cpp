@@ -91,6 +91,8 @@ void SceneScript::change(FxInstanceId instance)
         result = fxScene_SetTransform(scene_, instance, position, upright, 1.0f);
     if (frame_ % 4 == 0 && result == FX_OK)
         result = fxScene_SetParameters(scene_, instance, &parameters);
+    if (frame_ % 5 == 0 && result == FX_OK)
+        result = fxScene_SetVisibilityMask(scene_, instance, frame_ % 2 == 0 ? 1u : 2u);
     if (frame_ % 9 == 0 && result == FX_OK)
         result = fxScene_SetInstanceSpeed(scene_, instance, 1.5f);
     ASSERT_EQ(result, FX_OK) << fxGetLastErrorMessage();

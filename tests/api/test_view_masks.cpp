@@ -9,14 +9,6 @@
 
 namespace {
 
-float largestDifference(const std::vector<float>& a, const std::vector<float>& b)
-{
-    float most = 0.0f;
-    for (size_t i = 0; i < a.size(); ++i)
-        most = std::max(most, std::abs(std::min(a[i], 1.0f) - std::min(b[i], 1.0f)));
-    return most;
-}
-
 /// Places of two effects of a scene. A place without a preset stays empty.
 struct Pair
 {
@@ -110,9 +102,11 @@ TEST_F(ViewMasks, showWhatAViewOfAFewerInstancesShows)
             alone.presets[shown] = presets[shown];
             FxScene* const single = makeScene(alone, updates);
             const std::vector<float> wanted = drawnAnew(single, composition, ~0u);
-            EXPECT_LE(largestDifference(drawnAnew(both, composition, shown == 0 ? 1u : 4u), wanted),
-                      1.0f / 255.0f);
-            EXPECT_GT(largestDifference(all, wanted), 8.0f / 255.0f); // the other is seen as well
+            EXPECT_LE(
+                fx::test::largestShownDifference(drawnAnew(both, composition, shown == 0 ? 1u : 4u), wanted),
+                1.0f / 255.0f);
+            EXPECT_GT(fx::test::largestShownDifference(all, wanted),
+                      8.0f / 255.0f); // the other is seen as well
             ASSERT_EQ(fxDestroyScene(single), FX_OK);
         }
         EXPECT_EQ(drawnAnew(both, composition, 3u), all);
@@ -137,12 +131,12 @@ TEST_F(ViewMasks, takeEffectWithTheNextFrameAndDoNotChangeTheSimulation)
     const std::vector<float> all = drawn(view, 1u);
     ASSERT_EQ(fxScene_SetVisibilityMask(scene, ids_[0], 2u), FX_OK);
     const std::vector<float> second = drawn(view, 1u);
-    EXPECT_GT(largestDifference(second, all), 8.0f / 255.0f);
-    EXPECT_LE(largestDifference(drawn(view, 1u), second), 1.0f / 255.0f);
-    EXPECT_LE(largestDifference(drawn(view, 3u), all), 1.0f / 255.0f);
+    EXPECT_GT(fx::test::largestShownDifference(second, all), 8.0f / 255.0f);
+    EXPECT_LE(fx::test::largestShownDifference(drawn(view, 1u), second), 1.0f / 255.0f);
+    EXPECT_LE(fx::test::largestShownDifference(drawn(view, 3u), all), 1.0f / 255.0f);
     EXPECT_EQ(hashOf(scene), before);
     ASSERT_EQ(fxScene_SetVisibilityMask(scene, ids_[0], ~0u), FX_OK);
-    EXPECT_LE(largestDifference(drawn(view, 1u), all), 1.0f / 255.0f);
+    EXPECT_LE(fx::test::largestShownDifference(drawn(view, 1u), all), 1.0f / 255.0f);
     EXPECT_EQ(fxScene_SetVisibilityMask(nullptr, ids_[0], 1u), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxScene_SetVisibilityMask(scene, FxInstanceId{}, 1u), FX_ERROR_STALE_ID);
 }
@@ -158,13 +152,13 @@ TEST_F(ViewMasks, areInSavedStates)
     ASSERT_EQ(fxScene_SaveState(scene, state.data(), state.size(), &size), FX_OK);
     ASSERT_EQ(fxScene_SetVisibilityMask(scene, ids_[0], 1u), FX_OK);
     ASSERT_EQ(fxScene_SetVisibilityMask(scene, ids_[1], 2u), FX_OK);
-    EXPECT_GT(largestDifference(drawn(view, 1u), wanted), 8.0f / 255.0f);
+    EXPECT_GT(fx::test::largestShownDifference(drawn(view, 1u), wanted), 8.0f / 255.0f);
     ASSERT_EQ(fxScene_RestoreState(scene, state.data(), state.size()), FX_OK) << fxGetLastErrorMessage();
     const std::vector<float> restored = drawn(view, 1u); // at the last step, not before it
-    EXPECT_GT(largestDifference(drawn(view, 2u), restored), 8.0f / 255.0f);
+    EXPECT_GT(fx::test::largestShownDifference(drawn(view, 2u), restored), 8.0f / 255.0f);
     ASSERT_EQ(fxScene_SetVisibilityMask(scene, ids_[0], 2u), FX_OK);
     ASSERT_EQ(fxScene_SetVisibilityMask(scene, ids_[1], 1u), FX_OK);
-    EXPECT_LE(largestDifference(drawn(view, 1u), restored), 1.0f / 255.0f);
+    EXPECT_LE(fx::test::largestShownDifference(drawn(view, 1u), restored), 1.0f / 255.0f);
 }
 
 TEST_F(ViewMasks, areACauseOfBeingUnseen)

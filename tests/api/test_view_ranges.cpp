@@ -15,15 +15,6 @@ namespace {
 constexpr float kStep = 1.0f / 255.0f; ///< of a display
 constexpr float kEndless = 1e9f;       ///< [m] FxFrameDef::rangeFar of all effects
 
-/// Largest difference of two pictures after values above 1 are cut, as a display does.
-float largestDifference(const std::vector<float>& a, const std::vector<float>& b)
-{
-    float most = 0.0f;
-    for (size_t i = 0; i < a.size(); ++i)
-        most = std::max(most, std::abs(std::min(a[i], 1.0f) - std::min(b[i], 1.0f)));
-    return most;
-}
-
 double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
 {
     double sum = 0.0;
@@ -162,13 +153,14 @@ TEST_F(ViewRanges, overEachOtherAreTheWholePicture)
         const std::vector<float> wanted = whole(view, def, kBackground);
         const std::vector<float> ranges = inRanges(view, cut, kBackground);
         std::printf("%s, composition %d: ranges differ by %.2f/255 at most\n", cut.preset, int(composition),
-                    largestDifference(ranges, wanted) / kStep);
-        // rays that march begin anew at each cut, so that their samples lie elsewhere
+                    fx::test::largestShownDifference(ranges, wanted) / kStep);
+        // A ray that marches has other samples, because it begins at the cut.
         const bool marches = composition == FX_COMPOSITION_VOLUME;
-        EXPECT_LE(largestDifference(ranges, wanted), marches ? 2.0f * kStep : kStep);
+        EXPECT_LE(fx::test::largestShownDifference(ranges, wanted), marches ? 2.0f * kStep : kStep);
         clear(kBackground);
         render(view, def, FX_RANGE_ONLY, cut.ends[1], kEndless);
-        EXPECT_GT(largestDifference(picture(), wanted), 8.0f * kStep); // the others have a part of it
+        EXPECT_GT(fx::test::largestShownDifference(picture(), wanted),
+                  8.0f * kStep); // the others have a part of it
         hide(view);
     }
 }
@@ -183,7 +175,7 @@ TEST_F(ViewRanges, hideTheBackgroundAsTheWholePictureDoes)
     const auto throughWhole = transmittance(whole(view, def, 0.0f), whole(view, def, 1.0f));
     const auto throughRanges =
         transmittance(inRanges(view, kCampfire, 0.0f), inRanges(view, kCampfire, 1.0f));
-    EXPECT_LE(largestDifference(throughRanges, throughWhole), kStep);
+    EXPECT_LE(fx::test::largestShownDifference(throughRanges, throughWhole), kStep);
     EXPECT_LT(*std::min_element(throughWhole.begin(), throughWhole.end()), 0.9f); // there is smoke
 }
 
@@ -217,8 +209,9 @@ TEST_F(ViewRanges, shareWhatTheFirstCallPreparesAndItsMoment)
             if (i == 0)
                 render(view, def, FX_RANGE_LAST, 0.0f, cut.ends[0]);
         }
-        EXPECT_LE(largestDifference(picture(), before), kStep);
-        EXPECT_GT(largestDifference(whole(view, def, kBackground), before), kStep); // time has passed
+        EXPECT_LE(fx::test::largestShownDifference(picture(), before), kStep);
+        EXPECT_GT(fx::test::largestShownDifference(whole(view, def, kBackground), before),
+                  kStep); // time has passed
         hide(view);
     }
 }

@@ -15,15 +15,6 @@ using fx::render::GlTexture;
 
 constexpr float kEyes = 0.064f; ///< [m] distance of the eyes
 
-/// Largest difference of two pictures after values above 1 are cut, as a display does.
-float largestDifference(const std::vector<float>& a, const std::vector<float>& b)
-{
-    float most = 0.0f;
-    for (size_t i = 0; i < a.size(); ++i)
-        most = std::max(most, std::abs(std::min(a[i], 1.0f) - std::min(b[i], 1.0f)));
-    return most;
-}
-
 double totalDifference(const std::vector<float>& a, const std::vector<float>& b)
 {
     double sum = 0.0;
@@ -123,9 +114,10 @@ TEST_F(ViewStereo, eachEyeSeesThePictureOfAViewOfItsOwn)
                 clear();
                 ASSERT_EQ(fxView_RenderStereo(both, &left, &right), FX_OK) << fxGetLastErrorMessage();
                 EXPECT_EQ(picture(), wanted[0]);
-                EXPECT_LE(largestDifference(otherPicture(), wanted[1]), 1.0f / 255.0f);
-                EXPECT_GT(largestDifference(wanted[0], empty), 8.0f / 255.0f);
-                EXPECT_GT(largestDifference(wanted[0], wanted[1]), 8.0f / 255.0f); // the eyes are apart
+                EXPECT_LE(fx::test::largestShownDifference(otherPicture(), wanted[1]), 1.0f / 255.0f);
+                EXPECT_GT(fx::test::largestShownDifference(wanted[0], empty), 8.0f / 255.0f);
+                EXPECT_GT(fx::test::largestShownDifference(wanted[0], wanted[1]),
+                          8.0f / 255.0f); // the eyes are apart
             }
             for (FxView* view : {both, single[0], single[1]})
                 ASSERT_EQ(fxDestroyView(view), FX_OK);
@@ -152,7 +144,7 @@ TEST_F(ViewStereo, theSecondEyeSeesWhatIsBesideTheViewOfTheFirst)
     const std::vector<float> empty = picture();
     ASSERT_EQ(fxView_Render(makeView(scene, settings), &second), FX_OK) << fxGetLastErrorMessage();
     const std::vector<float> wanted = otherPicture();
-    EXPECT_GT(largestDifference(wanted, empty), 8.0f / 255.0f);
+    EXPECT_GT(fx::test::largestShownDifference(wanted, empty), 8.0f / 255.0f);
     clear();
     ASSERT_EQ(fxView_RenderStereo(makeView(scene, settings), &first, &second), FX_OK);
     EXPECT_EQ(picture(), empty);
@@ -175,7 +167,7 @@ TEST_F(ViewStereo, bothEyesOfOneTargetLieBesideEachOther)
     clear();
     for (const FxFrameDef& half : halves)
         ASSERT_EQ(fxView_Render(view, &half), FX_OK) << fxGetLastErrorMessage();
-    EXPECT_LE(largestDifference(both, picture()), 1.0f / 255.0f);
+    EXPECT_LE(fx::test::largestShownDifference(both, picture()), 1.0f / 255.0f);
 }
 
 TEST_F(ViewStereo, fillsLightSlicesOnceAndPrintsWhatItSaves)

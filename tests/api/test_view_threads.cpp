@@ -155,7 +155,8 @@ protected:
 
     void draw(FxView* view)
     {
-        const FxFrameDef def = frameOf(color_);
+        FxFrameDef def = frameOf(color_);
+        def.visibilityMask = 1u + frames_++ % 3; // scripts give instances masks of 1 and 2
         EXPECT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
         FxViewStatistics statistics{};
         statistics.structSize = sizeof statistics;
@@ -173,6 +174,7 @@ protected:
     std::array<FxScene*, kContexts> scenes_{};
     std::vector<FxView*> views_;
     uint64_t passes_ = 0;
+    uint32_t frames_ = 0;  ///< that were drawn
     uint32_t shadows_ = 0; ///< that were there
 };
 

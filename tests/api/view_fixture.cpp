@@ -1,5 +1,8 @@
 #include "tests/api/view_fixture.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace fx::test {
 
 namespace {
@@ -114,6 +117,14 @@ std::vector<std::string> passNamesOf(FxView* view)
         names.push_back(name);
     }
     return names;
+}
+
+float largestShownDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+    float most = 0.0f;
+    for (size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, std::abs(std::min(a[i], 1.0f) - std::min(b[i], 1.0f)));
+    return most;
 }
 
 } // namespace fx::test

@@ -43,4 +43,7 @@ protected:
 /// Names of the passes of the last frame, in the order of execution.
 std::vector<std::string> passNamesOf(FxView* view);
 
+/// Largest difference of two pictures after values above 1 are cut, as a display does.
+float largestShownDifference(const std::vector<float>& a, const std::vector<float>& b);
+
 } // namespace fx::test
