@@ -4,10 +4,10 @@ option(FXSDK_PRECOMPILE_HEADERS "Read headers that most sources include once" ON
 set(FX_COMMON_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <memory_resource>
     <mutex> <numbers> <numeric> <optional> <span> <string> <string_view> <utility> <vector> <glm/glm.hpp> <glm/gtc/quaternion.hpp>)
 
-# Sources of tests are compiled several at once, so that headers are read and templates are compiled once for all of
-# them. Those of libraries are not: what is measured and installed must not depend on which functions the compiler
-# happens to see together.
-option(FXSDK_UNITY_BUILD "Compile several sources of a test at once" ON)
+# Sources of tests, of commands of `fx` and of the editor are compiled several at once, so that headers are read and
+# templates are compiled once for all of them. Those of libraries are not: what is measured and installed must not depend
+# on which functions the compiler happens to see together.
+option(FXSDK_UNITY_BUILD "Compile several sources of a test or command at once" ON)
 
 # Compiles the sources of `target` up to 12 at once, but for those named behind it, kernels of Highway, which are read
 # once for each instruction set, and replacements of operator new, which compilers must not see beside its uses.

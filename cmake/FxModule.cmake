@@ -1,6 +1,8 @@
-# fx_module(NAME name LAYER n SOURCES ... [DEPENDS module ...] [LIBS library ...])
+# fx_module(NAME name LAYER n SOURCES ... [ALONE source ...] [DEPENDS module ...] [LIBS library ...])
 #
 # Defines the static library fx_<name>. DEPENDS names other fx_ modules without their prefix, LIBS outside libraries.
+# In folders that set FX_PROGRAM_SOURCES, sources are compiled up to 12 at once (see FxCommonHeaders.cmake), those behind
+# ALONE one by one.
 # Configuring fails when an arrow points upwards, sideways between two top folders, or when simulation and
 # rendering meet: docs/architecture.md draws the arrows that are allowed.
 
@@ -57,10 +59,13 @@ function(fx_count_branches target)
 endfunction()
 
 function(fx_module)
-    cmake_parse_arguments(ARG "" "NAME;LAYER" "SOURCES;DEPENDS;LIBS" ${ARGN})
-    add_library(fx_${ARG_NAME} STATIC ${ARG_SOURCES})
+    cmake_parse_arguments(ARG "" "NAME;LAYER" "SOURCES;ALONE;DEPENDS;LIBS" ${ARGN})
+    add_library(fx_${ARG_NAME} STATIC ${ARG_SOURCES} ${ARG_ALONE})
+    if(FX_PROGRAM_SOURCES AND FXSDK_UNITY_BUILD)
+        fx_compile_at_once(fx_${ARG_NAME} ${ARG_ALONE})
+    endif()
     if(FXSDK_BUILD_FUZZERS)
-        fx_count_branches(fx_${ARG_NAME} ${ARG_SOURCES})
+        fx_count_branches(fx_${ARG_NAME} ${ARG_SOURCES} ${ARG_ALONE})
     endif()
     target_include_directories(fx_${ARG_NAME} PUBLIC "${PROJECT_SOURCE_DIR}")
     fx_adopt(fx_${ARG_NAME} ${ARG_LAYER} DEPENDS ${ARG_DEPENDS} LIBS ${ARG_LIBS})
