@@ -19,6 +19,11 @@ bool isAlmost(float value, float wanted)
 }
 } // namespace
 
+base::Status Checks::refusal(const std::string& failure)
+{
+    return invalid(failure);
+}
+
 base::Status Checks::outOfRange(double value, double least, double most, const char* name)
 {
     std::array<char, 160> text;

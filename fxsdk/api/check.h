@@ -25,7 +25,7 @@ public:
     void notNull(const void* pointer, const char* name)
     {
         if (status_.ok() && !pointer)
-            status_ = invalid(std::string(name) + " is null");
+            status_ = refusal(std::string(name) + " is null");
     }
 
     /// Fails if the value is outside of the range or not finite.
@@ -48,7 +48,7 @@ public:
     void that(bool condition, const char* failure)
     {
         if (status_.ok() && !condition)
-            status_ = invalid(failure);
+            status_ = refusal(failure);
     }
 
     /// Fails if `fault` is not null.
@@ -56,13 +56,14 @@ public:
     void noFault(const char* fault, const char* name)
     {
         if (status_.ok() && fault)
-            status_ = invalid(std::string(name) + " " + fault);
+            status_ = refusal(std::string(name) + " " + fault);
     }
 
     const base::Status& status() const { return status_; }
 
 private:
     static base::Status outOfRange(double value, double least, double most, const char* name);
+    static base::Status refusal(const std::string& failure); ///< not inline: checks fail rarely
     base::Status status_;
 };
 
