@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 namespace fx::editor {
 namespace {
 
@@ -76,6 +78,20 @@ TEST(OrbitCamera, orbitKeepsTargetAndDistance)
     EXPECT_NEAR(glm::length(camera.position()), 13.0, 1e-9);
     camera.zoom(0.5);
     EXPECT_NEAR(glm::length(camera.position()), 6.5, 1e-9);
+}
+
+TEST(Session, aNewFileIsWrittenBySaveUnlessTheFileHasAppeared)
+{
+    test::TemporaryFolder folder;
+    auto session = Session::begin((folder / "a.fx.json").string(), folder / "state");
+    ASSERT_TRUE(session.ok());
+    (*session)->save();
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.fx.json")) << (*session)->message;
+    auto late = Session::begin((folder / "b.fx.json").string(), folder / "state");
+    ASSERT_TRUE(late.ok());
+    test::writeText((folder / "b.fx.json").string(), "{}");
+    (*late)->save();
+    EXPECT_EQ(std::filesystem::file_size(folder / "b.fx.json"), 2u);
 }
 
 } // namespace

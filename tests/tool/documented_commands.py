@@ -109,6 +109,11 @@ def commands_in(text, name, needs):
     return found
 
 
+def files_in(text):
+    """(name, content) of the files that a document has a shell write."""
+    return re.findall(r"^cat > (\S+) <<END\n(.*?)^END$", text, re.MULTILINE | re.DOTALL)
+
+
 def options_in(text):
     """Long and short options that a synopsis or a mention names."""
     return sorted(set(re.findall(r"(?<![\w-])--?[a-z][\w-]*", text)))
@@ -153,7 +158,7 @@ HAVE_SMALL = ("paper-frame", "billboards", "blocks", "composition", "detail", "l
 SMALL = (
     Small(("fx", "render"), {"--size": "48x32"}, {"--frames": "0:1", "--time": "0.1"}),
     Small(("fx", "gallery"), {"--size": "48x32", "--times": "1"}, named="sparks"),
-    Small(("fx", "edit"), {"--width": "640", "--height": "480"}, {"--measure": "2"}),
+    Small(("fx", "edit"), present={"--measure": "2"}, absent={"--width": "640", "--height": "480"}),
     Small(("fx", "export"), {"--quality": "low"}, {"--frames": "0:1", "--time": "0.1", "--voxel-size": "0.5"}, {"--voxels": "100000"}),
     Small(("fx", "bench", "particles"), FEW),
     Small(("fx", "bench", "many-small"), FEW),

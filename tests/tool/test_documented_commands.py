@@ -15,7 +15,7 @@ import tempfile
 import time
 import unittest
 
-from documented_commands import alternatives, commands_in, made_small, options_in, words_of
+from documented_commands import alternatives, commands_in, files_in, made_small, options_in, words_of
 from fx_program import FX, ROOT
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "benchmarks/README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -45,6 +45,7 @@ TESTED_ELSEWHERE = {
     ("fx", "edit", "FILE"): "opens a window; without one, tool.fx_edit",
     ("fx", "edit", "my-effect.fx.json"): "opens a window",
     ("fx", "edit", "library:sparks"): "opens a window",
+    ("fx", "edit", "torch.fx.json"): "opens a window",
     ("fx", "bench", "idle"): "counts instructions with valgrind; tool.idle_cost, tool.idle_cost_gl",
     ("fx", "bench", "soak"): "counts instructions with valgrind; tool.soak",
     ("fx", "accuracy", "all"): "takes minutes; each technique is run by itself",
@@ -100,7 +101,10 @@ class Workplace:
         subprocess.run([sys.executable, ROOT / "scripts/make_courtyard.py", self.root / "examples/scenes"], check=True,
                        stdout=subprocess.DEVNULL)
         (self.root / "tiny.fx.json").write_text(TINY)
-        (self.root / "edit.txt").write_text("click /emitters/0/maxParticles\ntype 2*100\nkey enter\nshot editor.png\n")
+        (self.root / "torch.fx.json").write_text(TINY)
+        for document in DOCUMENTS:
+            for name, content in files_in(document.read_text(encoding="utf-8")):
+                (self.root / name).write_text(content)
         (self.root / "points.csv").write_text("x,y,z,value\n" + "".join(
             f"{x},{y},{z},1\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)))
         (self.root / "numbers.raw").write_bytes(struct.pack("<8f", *range(8)))

@@ -29,6 +29,9 @@ struct Place
 {
     ImVec2 low;
     ImVec2 high;
+    bool isVisible = true; ///< false: its middle is scrolled out of its panel
+
+    ImVec2 middle() const { return {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)}; }
 };
 
 /// The difference from the saved file, which is found again when one of the texts has changed.
@@ -47,6 +50,7 @@ struct PanelState
     PictureState picture;
     /// Places of the widgets of this frame by name, for scripts and tests.
     std::map<std::string, Place> places;
+    std::string scrolledTo;             ///< name of a widget that its panel scrolls to; empty: none
     ImVec2 pictureSize{640.0f, 360.0f}; ///< [pixel] wanted for the next picture
 
     ImGuiID typedField = 0;    ///< field that is being typed into
@@ -63,7 +67,15 @@ struct PanelState
     ShownDifference difference;
 
     /// Keeps the place of the last widget under a name.
-    void mark(const std::string& name) { places[name] = {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()}; }
+    void mark(const std::string& name)
+    {
+        Place place{ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
+        const ImVec2 middle = place.middle();
+        place.isVisible = ImGui::IsRectVisible(middle, {middle.x + 1.0f, middle.y + 1.0f});
+        places[name] = place;
+        if (name == scrolledTo)
+            ImGui::SetScrollHereY();
+    }
 
     /// Number of the drag of the last widget: the same while it is active.
     uint64_t dragOf()

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -30,14 +31,20 @@ struct EditOptions
     float scale = 0.0f;
     int measuredEdits = 0;
     bool isHeadless = false;
+    bool isNew = false;
 };
 
 #ifdef FXSDK_EDITOR_PANELS
 
 base::Status runEditor(const EditOptions& options)
 {
-    auto session = options.recovery.empty() ? editor::Session::open(options.input)
-                                            : editor::Session::open(options.input, options.recovery);
+    const std::filesystem::path recovery =
+        options.recovery.empty() ? editor::recoveryFolder() : std::filesystem::path(options.recovery);
+    auto session = options.isNew ? editor::Session::begin(options.input, recovery)
+                                 : editor::Session::open(options.input, recovery);
+    const bool isFile = !options.input.starts_with("library:");
+    if (!session && session.status().code() == base::Code::NotFound && !options.isNew && isFile)
+        return {base::Code::NotFound, session.status().message() + "; --new begins a file"};
     if (!session)
         return session.status();
     if (!options.isHeadless) {
@@ -80,6 +87,8 @@ void addEditCommand(CLI::App& app, int& outExitCode)
     auto options = std::make_shared<EditOptions>();
     CLI::App* command = app.add_subcommand("edit", "Edit presets (*.fx.json) and scenes (*.scene.json)");
     command->add_option("FILE", options->input, "*.fx.json, *.scene.json or library:NAME")->required();
+    command->add_flag("--new", options->isNew,
+                      "Begin FILE, which does not exist yet, with a column of smoke or a campfire");
     command->add_flag("--headless", options->isHeadless, "Draw the same frames without a display");
     command->add_option("--script", options->script, "Events of mouse and keyboard, with --headless");
     command->add_option("-o,--output", options->output, "PNG of the last frame, with --headless");

@@ -120,6 +120,27 @@ private:
         return status.ok() ? frames(2) : status;
     }
 
+    /// Finds a widget, and scrolls its panel if the middle of the widget is not seen.
+    base::Status bringIntoView(const std::string& name, Place& outPlace)
+    {
+        PanelState& state = host_.state();
+        const auto unknown = [&](const char* why) {
+            return base::Status(base::Code::NotFound,
+                                why + (" \"" + name + "\"; the command places lists names"));
+        };
+        if (!state.places.contains(name))
+            return unknown("no widget has the name");
+        if (!state.places[name].isVisible) {
+            state.scrolledTo = name;
+            const base::Status status = frames(3);
+            state.scrolledTo.clear();
+            if (!status)
+                return status;
+        }
+        outPlace = state.places[name];
+        return outPlace.isVisible ? base::Status() : unknown("the window is too small to show the widget");
+    }
+
     /// Names may have blanks: those of tabs, buttons and choices.
     base::Status onWidget(const std::string& verb, std::istringstream& words)
     {
@@ -134,20 +155,16 @@ private:
                 return {base::Code::InvalidArgument, verb + " needs a name and two numbers"};
             name.resize(first);
         }
-        const auto& places = host_.state().places;
-        const auto found = places.find(name);
-        if (found == places.end())
-            return {base::Code::NotFound,
-                    "no widget has the name \"" + name + "\"; the command places lists names"};
-        const Place place = found->second;
-        const ImVec2 middle(0.5f * (place.low.x + place.high.x), 0.5f * (place.low.y + place.high.y));
+        Place place;
+        if (base::Status status = bringIntoView(name, place); !status)
+            return status;
         if (verb == "drag")
-            return drag(middle, {x, y});
+            return drag(place.middle(), {x, y});
         if (verb == "at")
             return click({place.low.x + x * (place.high.x - place.low.x),
                           place.low.y + y * (place.high.y - place.low.y)},
                          0, 1);
-        return click(middle, verb == "rightclick" ? 1 : 0, verb == "doubleclick" ? 2 : 1);
+        return click(place.middle(), verb == "rightclick" ? 1 : 0, verb == "doubleclick" ? 2 : 1);
     }
 
     base::Status write(const std::string& verb, std::istringstream& words)

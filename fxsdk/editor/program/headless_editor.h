@@ -2,7 +2,7 @@
 /// The editor without a display: the frames of the window, with the input of a script.
 ///
 /// A script has one command a line; "#" begins a comment. NAME is the place of a widget, such as
-/// "/emitters/0/lifetime/0" (`places` lists them).
+/// "/emitters/0/lifetime/0" (`places` lists them). Panels scroll to widgets that are used.
 ///   frames N              draws N frames
 ///   click NAME            clicks; also doubleclick and rightclick
 ///   drag NAME DX DY       drags from the middle of the widget by so many pixels

@@ -1,5 +1,7 @@
 #include "fxsdk/editor/session/session.h"
 
+#include "fxsdk/editor/document/starter.h"
+
 #include <utility>
 
 namespace fx::editor {
@@ -27,6 +29,16 @@ base::Result<std::unique_ptr<Session>> Session::open(const std::string& input, s
     if (!document)
         return document.status();
     return std::unique_ptr<Session>(new Session(std::move(*document), input, std::move(recovery)));
+}
+
+base::Result<std::unique_ptr<Session>> Session::begin(const std::string& path, std::filesystem::path recovery)
+{
+    auto document = newDocument(path);
+    if (!document)
+        return document.status();
+    std::unique_ptr<Session> session(new Session(std::move(*document), path, std::move(recovery)));
+    session->message = "A new file: Save writes it.";
+    return session;
 }
 
 Session::Session(Document opened, std::string name, std::filesystem::path recovery)

@@ -26,6 +26,9 @@ public:
     /// @param recovery folder of recovery files
     static base::Result<std::unique_ptr<Session>> open(const std::string& input,
                                                        std::filesystem::path recovery = recoveryFolder());
+    /// Begins a preset or a scene (see starter.h). Its file is written by save().
+    static base::Result<std::unique_ptr<Session>> begin(const std::string& path,
+                                                        std::filesystem::path recovery = recoveryFolder());
     ~Session() = default;
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
