@@ -3,7 +3,9 @@
 
 stage-falls.obj  a cliff with a notch for a waterfall of 8 m, boulders and a pool
 stage-range.obj  a barrel along +X that ends in the origin, 1.5 m above a floor
+stage-slope.obj  a snowy mountain side that falls towards +Z
 stage-yard.obj   a paved yard with a wall, a bench and crates
+props-*.obj      what stands on a stage: the logs of a fire, a burner, a grinder, a rifle, trees
 stage.mtl        their colors, linear Rec. 709
 
 Metres, +Y up, the same bytes on every machine. The build runs it; nothing but Python's own library is needed.
@@ -12,6 +14,7 @@ import math
 import pathlib
 import sys
 
+import preview_props
 from made_files import Polygons, noise, write_text
 
 COLORS = {
@@ -19,7 +22,11 @@ COLORS = {
     "moss": (0.07, 0.10, 0.035), "pool": (0.02, 0.035, 0.04), "steel": (0.035, 0.035, 0.04),
     "floor": (0.10, 0.095, 0.09), "slab_0": (0.15, 0.145, 0.135), "slab_1": (0.12, 0.115, 0.11),
     "slab_2": (0.18, 0.17, 0.155), "wall_0": (0.24, 0.19, 0.15), "wall_1": (0.20, 0.155, 0.12),
-    "wood": (0.16, 0.10, 0.05),
+    "wood": (0.16, 0.10, 0.05), "ash": (0.16, 0.155, 0.15), "bark": (0.10, 0.068, 0.042), "bottle": (0.30, 0.035, 0.025),
+    "char": (0.022, 0.02, 0.019), "crag": (0.13, 0.125, 0.12), "gun": (0.03, 0.03, 0.033), "gun_round": (0.04, 0.04, 0.043),
+    "needles": (0.028, 0.05, 0.024), "sack": (0.22, 0.18, 0.11), "scree": (0.40, 0.40, 0.41),
+    "snow": (0.84, 0.86, 0.89), "stone": (0.17, 0.16, 0.15),
+    "trunk": (0.08, 0.055, 0.04), "wood_end": (0.30, 0.21, 0.12),
 }  # fmt: skip
 
 
@@ -78,9 +85,11 @@ def falls():
         for i in range(COLUMNS):
             a, b, c, d = nodes[j][i], nodes[j][i + 1], nodes[j + 1][i + 1], nodes[j + 1][i]
             wet = abs(a[0]) < 3.6 + noise(i, j, 8)
-            dry = "rock_light" if noise(i, j, 9) < 0.3 else "moss" if noise(i, j, 10) < 0.22 else "rock"
-            for k, face in enumerate(([a, b, c], [a, c, d])):
-                mesh.polygon("rock_dark" if wet or noise(i, j, k, 11) < 0.15 else dry, face)
+            bed = noise(j // 2, 9) + 0.5 * noise(i // 4, j // 2, 10)  # beds of rock differ in color
+            dry = "rock_light" if bed < 0.5 else "rock"
+            mossy = noise(i // 2, j, 11) < 0.5 * (j / ROWS) ** 2 and not wet
+            for face in ([a, b, c], [a, c, d]):
+                mesh.polygon("moss" if mossy else "rock_dark" if wet else dry, face)
     for i in range(COLUMNS):
         a, b = nodes[ROWS][i], nodes[ROWS][i + 1]
         kind = "pool" if abs(a[0]) < 2.6 else "moss"
@@ -126,14 +135,40 @@ def yard():
     return mesh
 
 
+def round_normals(mesh):
+    """Normals of the round materials, by vertex, weighted by the areas of faces."""
+    sums = {}
+    for material in preview_props.ROUND & mesh.faces.keys():
+        for face in mesh.faces[material]:
+            area = [0.0, 0.0, 0.0]
+            for a, b in zip(face[1:], face[2:]):
+                part = preview_props.cross([q - p for p, q in zip(face[0], a)], [q - p for p, q in zip(face[0], b)])
+                area = [s + p for s, p in zip(area, part)]
+            for point in face:
+                sums[name(point)] = [s + p for s, p in zip(sums.get(name(point), (0.0, 0.0, 0.0)), area)]
+    return {point: preview_props.unit(normal) for point, normal in sums.items() if any(normal)}
+
+
+def name(point):
+    return " ".join(f"{c + 0.0:.4g}" for c in point)
+
+
 def obj(mesh):
-    points, body = {}, []
+    normals = round_normals(mesh)
+    points, directions, body = {}, {}, []
     for material in sorted(mesh.faces):
         body.append(f"usemtl {material}")
         for face in mesh.faces[material]:
-            names = [" ".join(f"{c + 0.0:.4g}" for c in point) for point in face]
-            body.append("f " + " ".join(str(points.setdefault(name, len(points) + 1)) for name in names))
-    return "\n".join(["# Made by scripts/make_preview_stages.py", "mtllib stage.mtl", *(f"v {p}" for p in points), *body]) + "\n"
+            words = []
+            for point in face:
+                word = str(points.setdefault(name(point), len(points) + 1))
+                if material in preview_props.ROUND and name(point) in normals:
+                    direction = " ".join(f"{c + 0.0:.2f}" for c in normals[name(point)])
+                    word += f"//{directions.setdefault(direction, len(directions) + 1)}"
+                words.append(word)
+            body.append("f " + " ".join(words))
+    head = ["# Made by scripts/make_preview_stages.py", "mtllib stage.mtl"]
+    return "\n".join([*head, *(f"v {p}" for p in points), *(f"vn {d}" for d in directions), *body]) + "\n"
 
 
 def main():
@@ -142,9 +177,12 @@ def main():
         return 2
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    for name, mesh in (("falls", falls()), ("range", shooting_range()), ("yard", yard())):
-        write_text(folder / f"stage-{name}.obj", obj(mesh))
-    kd = [f"newmtl {name}\nKd {r:.4f} {g:.4f} {b:.4f}" for name, (r, g, b) in sorted(COLORS.items())]
+    stages = (("falls", falls()), ("range", shooting_range()), ("slope", preview_props.slope()), ("yard", yard()))
+    for stage, mesh in stages:
+        write_text(folder / f"stage-{stage}.obj", obj(mesh))
+    for props in ("burner", "camp", "grinder", "rifle", "trees"):
+        write_text(folder / f"props-{props}.obj", obj(getattr(preview_props, props)()))
+    kd = [f"newmtl {color}\nKd {r:.4f} {g:.4f} {b:.4f}" for color, (r, g, b) in sorted(COLORS.items())]
     write_text(folder / "stage.mtl", "\n".join(kd) + "\n")
     return 0
 

@@ -4,6 +4,7 @@
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/scene_file/scene_members.h"
 #include "rendering/stage/scale_figure.h"
+#include "rendering/stage/stage_props.h"
 
 namespace fx::scene_file {
 
@@ -11,6 +12,19 @@ namespace {
 
 using preset::Findings;
 using preset::PresetValue;
+
+void readProps(const PresetValue& value, const asset::AssetResolver& resolver, Findings& findings,
+               render::StageMesh& io)
+{
+    const base::Result<render::StageMesh> mesh = readMeshMember(value, resolver, findings);
+    if (!mesh)
+        return;
+    render::PropPlacement placement;
+    value.read("position", placement.position);
+    value.read("headingDegrees", placement.headingDegrees);
+    value.read("scale", placement.scale);
+    render::addStageProps(io, *mesh, placement);
+}
 
 Preview readParts(const PresetValue& value, const asset::AssetResolver& resolver, Findings& findings,
                   SceneFile& scene)
@@ -29,6 +43,8 @@ Preview readParts(const PresetValue& value, const asset::AssetResolver& resolver
     if (value.has("background"))
         readBackground(value.child("background"), resolver, findings, scene);
     readSceneMesh(value.child("mesh"), resolver, findings, scene);
+    if (value.has("props"))
+        readProps(value.child("props"), resolver, findings, scene.mesh);
     if (value.has("figure")) {
         render::ScaleFigure figure;
         value.child("figure").read("position", figure.position);

@@ -28,6 +28,11 @@ SceneInstance readInstance(const preset::PresetValue& instance);
 void reportAsset(const preset::PresetValue& value, const char* member, const base::Status& status,
                  preset::Findings& findings);
 
+/// Reads the mesh that the member "file" of `value` names. A mesh that cannot be read is a finding.
+base::Result<render::StageMesh> readMeshMember(const preset::PresetValue& value,
+                                               const asset::AssetResolver& resolver,
+                                               preset::Findings& findings);
+
 /// Reads the member "mesh" of a scene into `scene`. If the member is absent, `scene` does not change.
 void readSceneMesh(const preset::PresetValue& mesh, const asset::AssetResolver& resolver,
                    preset::Findings& findings, SceneFile& scene);

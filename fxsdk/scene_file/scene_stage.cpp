@@ -25,6 +25,20 @@ void reportAsset(const PresetValue& value, const char* member, const base::Statu
     findings.error(value.pointer() + "/" + member, status.message(), status.code());
 }
 
+base::Result<render::StageMesh> readMeshMember(const PresetValue& value, const asset::AssetResolver& resolver,
+                                               Findings& findings)
+{
+    std::string name;
+    value.read("file", name);
+    std::string warning;
+    base::Result<render::StageMesh> mesh = readMesh(name, resolver, warning);
+    if (!warning.empty())
+        value.warning("file", warning);
+    if (!mesh)
+        reportAsset(value, "file", mesh.status(), findings);
+    return mesh;
+}
+
 void readSceneMesh(const PresetValue& value, const asset::AssetResolver& resolver, Findings& findings,
                    SceneFile& scene)
 {
@@ -32,12 +46,9 @@ void readSceneMesh(const PresetValue& value, const asset::AssetResolver& resolve
     value.read("file", name);
     if (name.empty())
         return;
-    std::string warning;
-    base::Result<render::StageMesh> mesh = readMesh(name, resolver, warning);
-    if (!warning.empty())
-        value.warning("file", warning);
+    base::Result<render::StageMesh> mesh = readMeshMember(value, resolver, findings);
     if (!mesh)
-        return reportAsset(value, "file", mesh.status(), findings);
+        return;
     glm::vec3 position(0.0f);
     float scale = 1.0f;
     value.read("position", position);

@@ -175,8 +175,8 @@ base::Status StageRenderer::setMesh(const StageMesh& mesh)
     impl_->meshOrigin = mesh.origin;
     impl_->isSoil = mesh.isSoil;
     // Flat ground shades nothing. A map over all of it would be too coarse for a figure.
-    const bool onlyFigures = mesh.isSoil && mesh.figureVertices > 0;
-    impl_->casters = onlyFigures ? uint32_t(mesh.figureVertices) : impl_->vertices;
+    const bool onlyAdded = mesh.isSoil && mesh.addedVertices() > 0;
+    impl_->casters = onlyAdded ? uint32_t(mesh.addedVertices()) : impl_->vertices;
     impl_->ball = boundingBall(std::span(mesh.positions).first(impl_->casters));
     impl_->shadowDirection = glm::vec3(0.0f);
     return {};

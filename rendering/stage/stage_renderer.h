@@ -31,12 +31,17 @@ struct StageMesh
     std::vector<glm::vec3> positions; ///< [m] positions relative to `origin`
     std::vector<glm::vec3> normals;   ///< unit vectors
     std::vector<glm::vec3> colors;    ///< [0, 1] linear albedo
-    /// True: relief and color of level ground vary by formula soil-texture. `colors` are the mean. Only the
-    /// figures cast shadows.
+    /// True: relief and color of level ground at the height of `origin` vary by formula soil-texture.
+    /// `colors` are the mean. Only the figures and props cast shadows.
     bool isSoil = false;
     /// Number of vertices, from the first on, of figures that show the scale; effects do not collide with
     /// them.
     size_t figureVertices = 0;
+    /// Number of vertices, from those of the figures on, of props (stage_props.h); effects do not collide
+    /// with them.
+    size_t propVertices = 0;
+
+    size_t addedVertices() const { return figureVertices + propVertices; } ///< all that is not the stage
 };
 
 /// Background behind the mesh.

@@ -46,7 +46,8 @@ void main()
     vec2 place = worldPosition.xz - meshOffset.xz;
     vec2 across = dFdx(place);
     vec2 along = dFdy(place);
-    if (horizon.w > 0.5 && worldNormal.y > 0.999) {
+    // Soil is level and at the height of the mesh's origin; figures and props stand on it.
+    if (horizon.w > 0.5 && worldNormal.y > 0.999 && abs(worldPosition.y - meshOffset.y) < 0.01) {
         bool isSwapped = dot(across, across) > dot(along, along);
         SoilSurface soil = soilAt(place, isSwapped ? across : along, length(isSwapped ? along : across));
         n = normalize(n - vec3(soil.slope.x, 0.0, soil.slope.y));

@@ -85,6 +85,22 @@ TEST(Preview, placesAFigureThatIsNotPartOfTheStageWithWhichEffectsCollide)
         EXPECT_LT(glm::length(with.mesh.positions[i] - glm::vec3(4, 0.9f, 2)), 1.0f);
 }
 
+TEST(Preview, placesPropsWithWhichEffectsDoNotCollideEither)
+{
+    SceneFile without = stage(), with = stage();
+    ASSERT_TRUE(read(R"(, "preview": {"mesh": {"file": "library:stage-yard.obj"}})", without));
+    ASSERT_TRUE(
+        read(R"(, "preview": {"mesh": {"file": "library:stage-yard.obj"}, "figure": {"position": [4, 0, 2]},
+        "props": {"file": "library:debris-brick.obj", "position": [3, 1, 2], "headingDegrees": 20, "scale": 0.5}})",
+             with));
+    ASSERT_GT(with.mesh.propVertices, 20u);
+    EXPECT_EQ(std::vector(with.mesh.positions.begin() + std::ptrdiff_t(with.mesh.addedVertices()),
+                          with.mesh.positions.end()),
+              without.mesh.positions);
+    for (size_t i = with.mesh.figureVertices; i < with.mesh.addedVertices(); ++i)
+        EXPECT_LT(glm::length(with.mesh.positions[i] - glm::vec3(3, 1, 2)), 1.0f);
+}
+
 TEST(Preview, leavesTheRestAsItWas)
 {
     for (const char* text : {"", R"(, "preview": {})"}) {
@@ -109,6 +125,9 @@ TEST(Preview, isCheckedAsASceneIs)
         {R"("lighting": {"sunDirection": [0, 0, 0]})", "/preview/lighting/sunDirection"},
         {R"("mesh": {"file": "none.obj"})", "/preview/mesh/file"},
         {R"("instance": {"preset": "library:rain"})", "/preview/instance/preset"},
+        {R"("props": {"file": "none.obj"})", "/preview/props/file"},
+        {R"("props": {"position": [0, 0, 0]})", "/preview/props"},
+        {R"("props": {"file": "library:debris-brick.obj", "scale": 0})", "/preview/props/scale"},
         {R"("figure": {})", "/preview/figure"},
         {R"("figure": {"position": [0, 0]})", "/preview/figure/position"},
         {R"("figure": {"position": [0, 0, 1e9]})", "/preview/figure/position/2"},

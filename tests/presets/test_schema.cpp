@@ -97,7 +97,9 @@ TEST_P(EachSchema, acceptsItsOwnDefaults)
     if (GetParam())
         document.update({{"camera", Json::object()}, {"mesh", {{"file", "m.obj"}}}});
     else
-        document["preview"] = {{"mesh", {{"file", "m.obj"}}}, {"figure", {{"position", {0, 0, 0}}}}};
+        document["preview"] = {{"mesh", {{"file", "m.obj"}}},
+                               {"figure", {{"position", {0, 0, 0}}}},
+                               {"props", {{"file", "p.obj"}}}};
     forEachMember(schema(), "", [&](const std::string& path, const Json& member) {
         if (member.contains("default") && path.find("/0") == std::string::npos)
             document[Json::json_pointer(path)] = member["default"];

@@ -156,7 +156,7 @@ base::Status EffectScene::addCollisionMesh(const scene_file::SceneFile& file)
 {
     sim::TriangleMesh mesh;
     mesh.origin = file.mesh.origin;
-    mesh.positions = std::span(file.mesh.positions).subspan(file.mesh.figureVertices);
+    mesh.positions = std::span(file.mesh.positions).subspan(file.mesh.addedVertices());
     std::filesystem::path kept;
     if (!file.meshFile.empty())
         kept = fieldFileOf(file.meshFile, mesh, file.meshCellSize);

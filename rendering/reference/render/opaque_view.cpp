@@ -15,7 +15,8 @@ namespace fx::render {
 
 namespace {
 
-constexpr double kLevel = 0.999; ///< [1] least upward part of the normal of soil
+constexpr double kLevel = 0.999;     ///< [1] least upward part of the normal of soil
+constexpr double kSoilHeight = 0.01; ///< [m] largest distance of soil from the height of the origin
 constexpr double kInvPi = std::numbers::inv_pi;
 
 } // namespace
@@ -100,8 +101,8 @@ glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, Ray
     const glm::dvec3 point = ray.origin + ray.direction * hit.distance;
     const double lift = kSurfaceLift * hit.distance;
     glm::dvec3 reflectance = interpolate(scene_.mesh.colors, hit) * kInvPi;
-    if (scene_.mesh.isSoil && n.y > kLevel) {
-        const glm::dvec3 place = point + eye_ - scene_.mesh.origin;
+    const glm::dvec3 place = point + eye_ - scene_.mesh.origin;
+    if (scene_.mesh.isSoil && n.y > kLevel && std::abs(place.y) < kSoilHeight) {
         const SoilSurface soil = soilSeen({place.x, place.z}, ray.direction, pixel_.at(point));
         n = soil.normal(n);
         reflectance *= soil.share;

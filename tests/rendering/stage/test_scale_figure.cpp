@@ -2,6 +2,7 @@
 #include "rendering/frame/exposure.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/stage/scale_figure.h"
+#include "rendering/stage/stage_props.h"
 #include "view_fixture.h"
 
 #include <glm/geometric.hpp>
@@ -149,5 +150,26 @@ TEST_F(ScaleFigureTest, castsItsShadowOnWideSoilAndOnNothingElse)
     EXPECT_LT(share({-2.0, 0.0, 0.0}), 0.7f); // of the trunk
     for (const glm::dvec3& lit : {glm::dvec3(-4.5, 0, 0), glm::dvec3(1.0, 0, 0), glm::dvec3(-2.0, 0, 1.2),
                                   glm::dvec3(-2.0, 0, -1.2), glm::dvec3(-40, 0, 0), glm::dvec3(60, 0, 7)})
+        EXPECT_NEAR(share(lit), 1.0f, 1e-3f) << lit.x << " " << lit.z;
+}
+
+// A board of 1 m by 1 m across the light, on the ground: its shadow is 2 m long.
+TEST_F(ScaleFigureTest, andPropsCastShadowsOnWideSoilTogether)
+{
+    render::StageMesh board;
+    for (const glm::vec3& p : {glm::vec3(0, 0, -0.5f), glm::vec3(0, 1, -0.5f), glm::vec3(0, 1, 0.5f),
+                               glm::vec3(0, 0, -0.5f), glm::vec3(0, 1, 0.5f), glm::vec3(0, 0, 0.5f)})
+        board.positions.push_back(p);
+    board.normals.assign(6, {1, 0, 0});
+    board.colors.assign(6, glm::vec3(0.5f));
+    render::StageMesh with = soil();
+    render::addStageProps(with, board, {{6, 0, 3}, 0.0f, 1.0f});
+    render::addScaleFigure(with, {});
+    const auto share = [&](const glm::dvec3& point) {
+        return groundAt(with, point) / groundAt(soil(), point);
+    };
+    EXPECT_LT(share({5.0, 0.0, 3.0}), 0.05f); // of the board
+    EXPECT_LT(share({-2.0, 0.0, 0.0}), 0.7f); // of the figure
+    for (const glm::dvec3& lit : {glm::dvec3(6.5, 0, 3), glm::dvec3(3.5, 0, 3), glm::dvec3(5, 0, 4)})
         EXPECT_NEAR(share(lit), 1.0f, 1e-3f) << lit.x << " " << lit.z;
 }
