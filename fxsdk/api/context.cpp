@@ -30,10 +30,10 @@ fx::base::Result<std::shared_ptr<const fx::sim::EffectDef>> FxContext::findPrese
     const fx::api::SharedCaller::Scope scope(tables);
     if (!scope.status())
         return scope.status();
-    const auto* effect = presets.find(ids.decode(id.bits, fx::api::kPresetIdType));
-    if (!effect)
+    const fx::api::HeldPreset* preset = presets.find(ids.decode(id.bits, fx::api::kPresetIdType));
+    if (!preset)
         return fx::base::Status(fx::base::Code::StaleId, "preset names no loaded preset of this context");
-    return *effect;
+    return preset->effect;
 }
 
 std::shared_ptr<const fx::sim::EffectDef> FxContext::findPreset(uint64_t fingerprint)
@@ -41,9 +41,9 @@ std::shared_ptr<const fx::sim::EffectDef> FxContext::findPreset(uint64_t fingerp
     const fx::api::SharedCaller::Scope scope(tables);
     std::shared_ptr<const fx::sim::EffectDef> found;
     if (scope.status().ok())
-        presets.forEach([&](uint32_t, const std::shared_ptr<const fx::sim::EffectDef>& effect) {
-            if (!found && effect->fingerprint == fingerprint)
-                found = effect;
+        presets.forEach([&](uint32_t, const fx::api::HeldPreset& preset) {
+            if (!found && preset.effect->fingerprint == fingerprint)
+                found = preset.effect;
         });
     return found;
 }

@@ -17,6 +17,7 @@
 
 #include <memory>
 #include <memory_resource>
+#include <string>
 #include <vector>
 
 namespace fx::api {
@@ -29,7 +30,14 @@ enum IdType : uint8_t
     kSnapshotIdType = 3,
 };
 
-using PresetTable = scene::IdTable<std::shared_ptr<const sim::EffectDef>>;
+/// A loaded preset.
+struct HeldPreset
+{
+    std::shared_ptr<const sim::EffectDef> effect;
+    std::string source; ///< file, or name under which it was loaded
+};
+
+using PresetTable = scene::IdTable<HeldPreset>;
 
 /// The techniques of a context: the parts that read presets and the parts that draw.
 struct TechniqueLists

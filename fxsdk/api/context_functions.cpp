@@ -58,8 +58,8 @@ std::vector<std::shared_ptr<const fx::base::GpuParticleProgram>> gpuPrograms(FxC
     const fx::api::SharedCaller::Scope tables(context.tables);
     if (!tables.status())
         return programs;
-    context.presets.forEach([&](uint32_t, const std::shared_ptr<const fx::sim::EffectDef>& effect) {
-        for (const auto& solver : effect->solvers)
+    context.presets.forEach([&](uint32_t, const fx::api::HeldPreset& preset) {
+        for (const auto& solver : preset.effect->solvers)
             if (auto program = solver->gpuProgram())
                 programs.push_back(std::move(program));
     });

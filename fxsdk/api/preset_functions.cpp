@@ -1,9 +1,10 @@
-// The functions of fx_preset.h.
+// The functions of fx_preset.h, and the one of fx_reload.h that loads.
 #include "fxsdk/api/check.h"
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/guarded.h"
 #include "fxsdk/api/text.h"
 #include "fxsdk/api/versioned_struct.h"
+#include "fxsdk/fx_reload.h"
 #include "fxsdk/presets/preset_loader.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ int readThroughHook(void* user, const char* name, uint64_t maxBytes,
 
 /// Loads a preset under the context's lock and enters what `load` returns into its table.
 template <class Load>
-Status loadInto(FxContext* context, FxPresetId* outPreset, Load&& load)
+Status loadInto(FxContext* context, std::string source, FxPresetId* outPreset, Load&& load)
 {
     const fx::api::SharedCaller::Scope loading(context->loading);
     if (!loading.status())
@@ -58,7 +59,7 @@ Status loadInto(FxContext* context, FxPresetId* outPreset, Load&& load)
     const fx::api::SharedCaller::Scope tables(context->tables);
     if (!tables.status())
         return tables.status();
-    const fx::scene::LocalId id = context->presets.add(std::move(loaded->effect));
+    const fx::scene::LocalId id = context->presets.add({std::move(loaded->effect), std::move(source)});
     if (id == 0)
         return {Code::Capacity, "no more presets can be loaded"};
     outPreset->bits = context->ids.encode(id, fx::api::kPresetIdType);
@@ -97,6 +98,31 @@ Result<LoadedPreset> loadFile(FxContext& context, const char* path)
     return fx::preset::loadPresetFile(path, nullptr, assetsOf(context), context.techniques.presets);
 }
 
+Status checkLength(size_t length)
+{
+    if (length == 0)
+        return fx::api::invalid("length is 0");
+    if (length > fx::preset::kPresetBytes)
+        return {Code::TooLarge, "length is " + std::to_string(length) + "; a preset has at most " +
+                                    std::to_string(fx::preset::kPresetBytes) + " bytes"};
+    return {};
+}
+
+/// Loads a text with the files that loadFile() finds for a preset at `path`.
+Result<LoadedPreset> loadTextAt(FxContext& context, std::string_view text, const std::string& path)
+{
+    FxAssetHook hook = context.def.assets;
+    const bool isInLibrary = path.starts_with(kLibraryPrefix);
+    const bool isHooked = hook.open && !isInLibrary && fx::asset::checkAssetName(path).ok();
+    const std::string folder = isInLibrary ? std::string() : fx::preset::folderOf(path);
+    const std::string root = isInLibrary ? std::string() : folder.empty() || isHooked ? "." : folder;
+    const fx::asset::AssetResolver resolver(root, fx::preset::libraryFiles(),
+                                            isHooked ? fx::asset::ReadHook{&hook, &readThroughHook}
+                                                     : fx::asset::ReadHook{});
+    return fx::preset::loadPresetText(text, path, nullptr, &resolver, assetsOf(context),
+                                      isHooked ? folder : std::string(), context.techniques.presets);
+}
+
 uint64_t capacityOf(const fx::sim::EffectDef& effect)
 {
     uint64_t sum = 0;
@@ -112,7 +138,7 @@ FxResult fxLoadPresetFile(FxContext* context, const char* path, FxPresetId* outP
     return fx::api::guarded("fxLoadPresetFile", fx::api::logOf(context), [&]() -> Status {
         if (Status status = checkLoad(context, path, "path", outPreset); !status)
             return status;
-        return loadInto(context, outPreset, [&] { return loadFile(*context, path); });
+        return loadInto(context, path, outPreset, [&] { return loadFile(*context, path); });
     });
 }
 
@@ -122,16 +148,27 @@ FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, c
     return fx::api::guarded("fxLoadPresetText", fx::api::logOf(context), [&]() -> Status {
         if (Status status = checkLoad(context, text, "text", outPreset); !status)
             return status;
-        if (length == 0)
-            return fx::api::invalid("length is 0");
-        if (length > fx::preset::kPresetBytes)
-            return {Code::TooLarge, "length is " + std::to_string(length) + "; a preset has at most " +
-                                        std::to_string(fx::preset::kPresetBytes) + " bytes"};
-        return loadInto(context, outPreset, [&] {
-            return fx::preset::loadPresetText({text, length}, displayName ? displayName : "preset text",
-                                              nullptr, nullptr, assetsOf(*context), {},
+        if (Status status = checkLength(length); !status)
+            return status;
+        const char* const name = displayName ? displayName : "preset text";
+        return loadInto(context, name, outPreset, [&] {
+            return fx::preset::loadPresetText({text, length}, name, nullptr, nullptr, assetsOf(*context), {},
                                               context->techniques.presets);
         });
+    });
+}
+
+FxResult fxLoadPresetTextAt(FxContext* context, const char* text, size_t length, const char* path,
+                            FxPresetId* outPreset)
+{
+    return fx::api::guarded("fxLoadPresetTextAt", fx::api::logOf(context), [&]() -> Status {
+        if (Status status = checkLoad(context, text, "text", outPreset); !status)
+            return status;
+        if (!path)
+            return fx::api::invalid("path is null");
+        if (Status status = checkLength(length); !status)
+            return status;
+        return loadInto(context, path, outPreset, [&] { return loadTextAt(*context, {text, length}, path); });
     });
 }
 
@@ -143,7 +180,7 @@ FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* o
         std::string full(name);
         if (!full.starts_with(kLibraryPrefix))
             full.insert(0, kLibraryPrefix);
-        return loadInto(context, outPreset, [&] {
+        return loadInto(context, full, outPreset, [&] {
             const fx::asset::AssetResolver library("", fx::preset::libraryFiles());
             return fx::preset::loadPresetAsset(full, library, nullptr, assetsOf(*context),
                                                context->techniques.presets);

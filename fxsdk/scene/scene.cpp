@@ -215,6 +215,8 @@ bool Scene::proceedPublication(base::Ticks tick, double interpolation)
     showsNothing_.store(false, std::memory_order_release);
     std::lock_guard lock(presentation_);
     ring_.publish();
+    if (std::exchange(replaced_, false))
+        ring_.forgetOlder();
     show(tick, interpolation);
     return true;
 }
@@ -232,6 +234,7 @@ void Scene::stageReturned(base::Ticks tick)
             return world_.dropPublication();
         ring_.stageOlder();
         emptyPublications_ = 0;
+        replaced_ = false;
     } catch (const std::bad_alloc&) {
         memoryFailed_ = true; // they appear a step later
     }

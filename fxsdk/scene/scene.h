@@ -74,6 +74,13 @@ enum class Reason : uint32_t
     Ended,
 };
 
+/// Local time at which an instance goes on with another effect.
+enum class Replacement
+{
+    Restart, ///< as a new instance that starts now
+    Seek,    ///< the local time that the instance has
+};
+
 /// An instance in the debug overlay.
 struct Mark
 {
@@ -182,6 +189,21 @@ public:
     /// @return NotFound (the preset has no event of this name), InvalidArgument (the instance has not
     ///     started)
     base::Status postEvent(LocalId id, std::string_view name, uint32_t count);
+    /// Lets all instances of the effect `from` that have not ended go on with the effect `to`, as if each had
+    /// been created with it and moved to its local time by seek(). Identities, placements, seeds, parameters,
+    /// hints and masks do not change. Ended instances get the effect and stay ended. An incomplete step is
+    /// completed first. Strong guarantee, except for that.
+    /// @param to may be equal to `from`
+    /// @return number of instances of `from` that have not ended
+    uint32_t replace(const sim::EffectDef& from, const std::shared_ptr<const sim::EffectDef>& to,
+                     Replacement mode);
+    const std::shared_ptr<const sim::EffectDef>& effectOf(LocalId id)
+    {
+        return instances_.find(id)->setup.effect;
+    }
+    const base::Placement& placementOf(LocalId id) { return instances_.find(id)->setup.placement; }
+    /// [tick] Local time at the present; negative before the start, 0 after the end.
+    base::Ticks localTime(LocalId id);
     void setHints(LocalId id, const ActivationHints& hints);
     /// Sets the bits of which a frame needs one to show an instance. Strong guarantee.
     void setVisibilityMask(LocalId id, uint32_t mask) { masks_.set(id, mask); }
@@ -303,7 +325,9 @@ private:
         /// extremes of past placements and winds; null: the present values suffice for the bounds
         std::unique_ptr<MotionHistory> past;
     };
-    struct Restored; ///< a state that is being restored
+    struct Restored;  ///< a state that is being restored
+    struct Successor; ///< an instance with its next effect
+    class Succession; ///< all successors of a call of replace()
 
     void wake(base::Ticks until);
     void enterWorld(uint32_t index);
@@ -327,6 +351,9 @@ private:
     void makeChanges();
     void letArrive();
     void wait(uint32_t index);
+    Successor successorOf(uint32_t index, const std::shared_ptr<const sim::EffectDef>& effect,
+                          Replacement mode) const;
+    void succeed(Successor& successor);
     /// Tick from which a present change takes effect.
     base::Ticks present() const
     {
@@ -424,6 +451,9 @@ private:
     bool visibilityStale_ = false; ///< true: an instance or a camera has moved since visibility was tested
     bool memoryFailed_ = false;
     bool sought_ = false; ///< true: the result of a seek() is not published yet
+    /// true: instances have another effect than in the last published step, which views must not
+    /// interpolate from
+    bool replaced_ = false;
     UpdateCounters update_;
     /// Number of empty publications after which a further empty publication has no effect.
     static constexpr uint32_t kMaxEmptyPublications = 2;

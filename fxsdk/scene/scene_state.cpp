@@ -400,6 +400,7 @@ void Scene::take(Restored& state)
     published_ = simulated;
     arrived_.clear();
     seeks_.clear();
+    replaced_ = false;
     std::swap(moved_, state.moved);
     preferring_ = {};
     hints_.store({}, std::memory_order_relaxed);

@@ -84,6 +84,7 @@ void Scene::showSought()
         ring_.publish();
         ring_.forgetOlder();
         show(now, clock_.interpolation());
+        replaced_ = false;
     }
     sought_ = false;
 }

@@ -111,6 +111,39 @@ public:
         return preset;
     }
 
+    /// @param path file of which the text is an edited version
+    FxPresetId loadTextAt(std::string_view text, const std::string& path)
+    {
+        FxPresetId preset{};
+        check(fxLoadPresetTextAt(get(), text.data(), text.size(), path.c_str(), &preset));
+        return preset;
+    }
+
+    /// Instances that are created with `preset` from now on have the effect of `target`.
+    void redirect(FxPresetId preset, FxPresetId target) { check(fxRedirectPreset(get(), preset, target)); }
+
+    std::vector<FxPresetId> presets()
+    {
+        uint32_t count = 0;
+        check(fxGetPresets(get(), nullptr, 0, &count));
+        std::vector<FxPresetId> all(count);
+        if (count > 0)
+            check(fxGetPresets(get(), all.data(), count, &count));
+        all.resize(count);
+        return all;
+    }
+
+    /// File of a preset, or the name of its text.
+    std::string source(FxPresetId preset)
+    {
+        size_t size = 0;
+        check(fxGetPresetSource(get(), preset, nullptr, 0, &size));
+        std::string text(size, '\0');
+        check(fxGetPresetSource(get(), preset, text.data(), size, &size));
+        text.resize(size - 1);
+        return text;
+    }
+
     /// Living instances continue.
     void unload(FxPresetId preset) { check(fxUnloadPreset(get(), preset)); }
 
@@ -187,6 +220,20 @@ public:
     void seek(FxInstanceId instance, double seconds)
     {
         check(fxScene_SeekInstance(get(), instance, seconds));
+    }
+
+    /// Lets all instances of `oldPreset` continue with `newPreset`. @return their number
+    uint32_t replacePreset(FxPresetId oldPreset, FxPresetId newPreset, FxReplaceMode mode = FX_REPLACE_SEEK)
+    {
+        uint32_t count = 0;
+        check(fxScene_ReplacePreset(get(), oldPreset, newPreset, uint32_t(mode), &count));
+        return count;
+    }
+
+    FxInstanceInfo info(FxInstanceId instance)
+    {
+        return detail::filled<FxInstanceInfo>(
+            [&](auto* out) { return fxScene_GetInstanceInfo(get(), instance, out); });
     }
 
     FxInstanceState state(FxInstanceId instance)
