@@ -141,6 +141,19 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     return effect;
 }
 
+/// The validator of the built-in techniques is kept for the life of the process: to compile their schema
+/// takes longer than to load most presets.
+void validateSchema(Json& document, Techniques techniques, Findings& findings)
+{
+    const Techniques builtIn = preset::techniques();
+    if (techniques.data() == builtIn.data() && techniques.size() == builtIn.size()) {
+        static const SchemaValidator kept{Json(presetSchema(builtIn))};
+        return kept.validate(document, {}, findings);
+    }
+    const SchemaValidator validator{Json(presetSchema(techniques))};
+    validator.validate(document, {}, findings);
+}
+
 /// The effect, or null when `findings` has errors.
 std::shared_ptr<const sim::EffectDef> readPreset(std::string_view text, const std::string& displayName,
                                                  Techniques techniques, Findings& findings)
@@ -148,8 +161,7 @@ std::shared_ptr<const sim::EffectDef> readPreset(std::string_view text, const st
     std::optional<Json> document = parseJson(text, kPresetLimits, findings);
     if (!document || !migrate(*document, kPresetVersion, presetMigrations(), findings))
         return nullptr;
-    const SchemaValidator validator{Json(presetSchema(techniques))};
-    validator.validate(*document, {}, findings);
+    validateSchema(*document, techniques, findings);
     if (findings.hasErrors())
         return nullptr;
     std::shared_ptr<const sim::EffectDef> effect = buildEffect(*document, displayName, techniques, findings);
