@@ -22,6 +22,11 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/fxsdk/include/fxsdk" DESTINATION "${CMA
 if(TARGET fxsdk_static)
     install(FILES "$<TARGET_FILE:fxsdk_static>" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 endif()
+if(TARGET fx_livelink)
+    install(FILES "$<TARGET_FILE:fx_livelink>" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev OPTIONAL)
+    install(FILES "${PROJECT_SOURCE_DIR}/fxsdk/livelink/include/fxsdk/fx_livelink.h"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fxsdk" COMPONENT dev)
+endif()
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/fxsdkConfig.cmake.in" "${PROJECT_BINARY_DIR}/fxsdkConfig.cmake"
     INSTALL_DESTINATION "${FX_PACKAGE_DIR}" PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/fxsdkConfigVersion.cmake" COMPATIBILITY SameMajorVersion)

@@ -35,6 +35,7 @@ EXCEPTIONS = {
     "cmake --preset tsan": "configures another build",
     "cmake --build build/tsan --target test_api_threads": "builds",
     "build/tsan/tests/test_api_threads": "of that build",
+    "build/bin/04_live_link my-effect.fx.json --link my-game": "runs without end; tool.fx_link",
     "scripts/fit_multiple_scattering.py": "takes minutes",
     "scripts/fit_multiple_scattering.py --fit": "takes minutes",
     "scripts/fit_multiple_scattering.py --check": "tool.multiple_scattering",
@@ -46,6 +47,7 @@ TESTED_ELSEWHERE = {
     ("fx", "edit", "my-effect.fx.json"): "opens a window",
     ("fx", "edit", "library:sparks"): "opens a window",
     ("fx", "edit", "torch.fx.json"): "opens a window",
+    ("fx", "link", "send"): "needs a running game; tool.fx_link",
     ("fx", "bench", "idle"): "counts instructions with valgrind; tool.idle_cost, tool.idle_cost_gl",
     ("fx", "bench", "soak"): "counts instructions with valgrind; tool.soak",
     ("fx", "accuracy", "all"): "takes minutes; each technique is run by itself",
@@ -136,7 +138,7 @@ class Checker:
 
     def help_of(self, words):
         """What `fx SUBCOMMAND... --help` prints for the subcommands that `words` begins with; None: there is no such."""
-        names = [word for word in words[1:3] if not word.startswith("-")][: 2 if words[1:2] == ["bench"] else 1]
+        names = [word for word in words[1:3] if not word.startswith("-")][: 2 if words[1:2] in (["bench"], ["link"]) else 1]
         key = tuple(names)
         if key not in self.helps:
             parent = self.help_of(["fx", *names[:-1]]) if names else ""

@@ -4,6 +4,7 @@
 
 #include "fxsdk/editor/document/text_difference.h"
 #include "fxsdk/editor/session/session.h"
+#include "fxsdk/livelink/client/live_edit.h"
 
 #include <imgui.h>
 
@@ -42,6 +43,22 @@ struct ShownDifference
     std::vector<DifferenceLine> lines;
 };
 
+/// A running game that was found, and what it says.
+struct FoundGame
+{
+    link::Game game;
+    nlohmann::json list; ///< presets and instances; null: see `failure`
+    std::string failure; ///< why there is no list
+};
+
+/// The link to a running game, and the games that were found when somebody asked.
+struct GameLink
+{
+    link::LiveEdit edit;
+    std::vector<FoundGame> games;
+    bool hasLooked = false;
+};
+
 struct PanelState
 {
     explicit PanelState(Session& shown) : session(shown) {}
@@ -65,6 +82,7 @@ struct PanelState
     bool asksWhy = false; ///< the host shall answer "why is nothing visible"
     std::string why;      ///< the answer
     ShownDifference difference;
+    GameLink link;
 
     /// Keeps the place of the last widget under a name.
     void mark(const std::string& name)

@@ -14,9 +14,16 @@ void timelinePanel(PanelState& state);  ///< play, scrub, marks of bursts
 void curvePanel(PanelState& state);     ///< keys of the curve or gradient that is edited
 void findingsPanel(PanelState& state);  ///< errors and warnings with remedies
 void changesPanel(PanelState& state);   ///< A and B, and the difference as text
+void gamesPanel(PanelState& state);     ///< running games with a live link, and the one that shows the edits
 
 /// Questions that must be answered first: recovery after a crash, a file that has changed outside.
 void questionPanel(PanelState& state);
+
+/// Begins to show the edited preset in the game at `address`. The token is that of FXSDK_LINK_TOKEN.
+void startLink(PanelState& state, const link::Address& address);
+
+/// State of the link, for people, such as "my-game: shown by 3 instances".
+std::string linkText(const PanelState& state);
 
 /// Title of an element for people, such as "Emitter flames".
 std::string elementTitle(const Document& document, const std::string& pointer);

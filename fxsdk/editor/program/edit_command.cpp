@@ -32,6 +32,8 @@ struct EditOptions
     int measuredEdits = 0;
     bool isHeadless = false;
     bool isNew = false;
+    bool isLinked = false;
+    std::string link;
 };
 
 #ifdef FXSDK_EDITOR_PANELS
@@ -49,15 +51,17 @@ base::Status runEditor(const EditOptions& options)
         return session.status();
     if (!options.isHeadless) {
 #ifdef FXSDK_EDITOR_WINDOW
-        return editor::runWindow(std::move(*session), options.width, options.height, options.scale);
+        return editor::runWindow(std::move(*session), {options.width, options.height, options.scale,
+                                                       options.isLinked, options.link});
 #else
         return {base::Code::NotFound,
                 "this build has no window: GLFW was missing (Debian: libglfw3-dev); use --headless"};
 #endif
     }
     const float scale = options.scale > 0.0f ? options.scale : 1.0f;
-    return editor::runHeadless(std::move(*session), {options.width, options.height, scale, options.script,
-                                                     options.output, options.measuredEdits});
+    return editor::runHeadless(std::move(*session),
+                               {options.width, options.height, scale, options.script, options.output,
+                                options.measuredEdits, options.isLinked, options.link});
 }
 
 #else
@@ -102,8 +106,15 @@ void addEditCommand(CLI::App& app, int& outExitCode)
         ->check(CLI::Range(480, 8192));
     command->add_option("--scale", options->scale, "Size of text [1]; default: that of the monitor")
         ->check(CLI::Range(0.5, 4.0));
+    CLI::Option* const link = command->add_option(
+        "--link", options->link,
+        "Shows each edit in a running game: NAME, unix:PATH or tcp:127.0.0.1:PORT; default: the only one");
+    link->expected(0, 1);
     command->add_option("--recovery", options->recovery, "Folder of recovery files");
-    command->callback([options, &outExitCode] { outExitCode = runEdit(*options); });
+    command->callback([options, link, &outExitCode] {
+        options->isLinked = link->count() > 0;
+        outExitCode = runEdit(*options);
+    });
 }
 
 } // namespace fx::cli

@@ -2,6 +2,7 @@
 
 #include "fxsdk/cli/scene/picture.h"
 #include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/editor/panels/panels.h"
 #include "fxsdk/editor/preview/why_invisible.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/image/image.h"
@@ -9,6 +10,7 @@
 #include <imgui.h>
 #include <imgui_impl_opengl3.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -131,9 +133,48 @@ void EditorHost::answerWhy()
         state_->why += "- " + reason + "\n";
 }
 
+base::Status EditorHost::link(const std::string& address)
+{
+    if (session_->document.kind() != DocumentKind::Preset)
+        return {base::Code::InvalidArgument, "a running game shows presets (*.fx.json), no scenes"};
+    if (!address.empty()) {
+        const base::Result<link::Address> parsed = link::parseAddress(address);
+        if (parsed)
+            startLink(*state_, *parsed);
+        return parsed.status();
+    }
+    const std::vector<link::Game> games = link::findGames();
+    if (games.size() != 1)
+        return {games.empty() ? base::Code::NotFound : base::Code::Capacity,
+                std::to_string(games.size()) + " games are running in " + link::linkFolder() +
+                    "; write --link ADDRESS (`fx link list` lists them)"};
+    startLink(*state_, games.front().address);
+    return {};
+}
+
+/// Offers each valid state of the document to the game, which gets the newest as fast as it takes them.
+void EditorHost::updateLink(double seconds)
+{
+    link::LiveEdit& edit = state_->link.edit;
+    if (edit.state() == link::LinkState::Off) {
+        offeredRevision_ = 0;
+        return;
+    }
+    const uint64_t revision = session_->document.revision();
+    const auto isError = [](const DocumentFinding& finding) { return !finding.diagnostic.warning; };
+    if (revision != offeredRevision_) {
+        offeredRevision_ = revision;
+        const std::vector<DocumentFinding>& findings = session_->findings();
+        if (std::none_of(findings.begin(), findings.end(), isError))
+            edit.offer(session_->document.text(), revision);
+    }
+    edit.update(seconds);
+}
+
 base::Status EditorHost::frame(double seconds, uint32_t framebuffer)
 {
     session_->update(seconds);
+    updateLink(seconds); // before the picture, which takes longer
     updatePicture();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();

@@ -34,6 +34,11 @@ public:
     /// called within. @param seconds [s] real time since the last frame
     base::Status frame(double seconds, uint32_t framebuffer);
 
+    /// Shows each valid edit in a running game from now on. Presets only.
+    /// @param address see link::parseAddress(); empty: the only game that is running
+    /// @return InvalidArgument, NotFound, Capacity (several games are running)
+    base::Status link(const std::string& address);
+
     PanelState& state() { return *state_; }
     Session& session() { return *session_; }
     Preview& preview() { return *preview_; }
@@ -60,11 +65,13 @@ private:
     void updatePicture();
     base::Status writePicture(const std::string& file);
     void answerWhy();
+    void updateLink(double seconds);
 
     std::unique_ptr<Session> session_;
     std::unique_ptr<Preview> preview_;
     std::unique_ptr<PanelState> state_;
     uint64_t shownRevision_ = 0;
+    uint64_t offeredRevision_ = 0;         ///< of the document, for the running game
     std::optional<PictureKey> pictureKey_; ///< of the last picture
 };
 

@@ -4,6 +4,7 @@
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/editor/inspector/member.h"
+#include "fxsdk/editor/panels/panels.h"
 #include "fxsdk/editor/program/editor_host.h"
 #include "fxsdk/editor/program/input.h"
 #include "rendering/platform/gl_context.h"
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <cstdio>
 #include <sstream>
+#include <thread>
 
 namespace fx::editor {
 
@@ -21,6 +23,7 @@ namespace {
 
 constexpr uint64_t kScriptBytes = uint64_t(1) << 20;
 constexpr double kFrameSeconds = 1.0 / 60.0;
+constexpr std::chrono::seconds kGameTime{60}; ///< that a game has for an answer
 
 struct ImGuiOwner
 {
@@ -87,6 +90,8 @@ public:
             return write(verb, words);
         if (verb == "places")
             return listPlaces();
+        if (verb == "linked")
+            return waitForGame();
         return input(verb, words, line);
     }
 
@@ -179,6 +184,23 @@ private:
         for (const auto& [name, place] : host_.state().places)
             std::printf("%s %.0f %.0f %.0f %.0f\n", name.c_str(), double(place.low.x), double(place.low.y),
                         double(place.high.x), double(place.high.y));
+        return {};
+    }
+
+    base::Status waitForGame()
+    {
+        const auto end = std::chrono::steady_clock::now() + kGameTime;
+        const auto hasAnswered = [this] {
+            return host_.state().link.edit.outcome().revision == host_.session().document.revision();
+        };
+        while (!hasAnswered()) {
+            if (base::Status status = frames(1); !status)
+                return status;
+            if (std::chrono::steady_clock::now() > end)
+                return {base::Code::Interrupted, "the game has not answered: " + linkText(host_.state())};
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        std::printf("%s\n", linkText(host_.state()).c_str());
         return {};
     }
 
@@ -280,7 +302,9 @@ base::Status runHeadless(std::unique_ptr<Session> session, const HeadlessOptions
     if (!host)
         return host.status();
     Runner runner(**host, options);
-    base::Status status = runner.frames(3);
+    base::Status status = options.isLinked ? (*host)->link(options.link) : base::Status();
+    if (status.ok())
+        status = runner.frames(3);
     if (status.ok() && !options.script.empty())
         status = runScript(runner, options.script);
     if (status.ok() && options.measuredEdits > 0)

@@ -14,6 +14,7 @@
 ///   text FILE             writes the document as the editor would save it
 ///   time SECONDS          scrubs
 ///   places                prints the names of all widgets
+///   linked                waits until the running game has answered to the last edit, and prints the answer
 #pragma once
 
 #include "foundation/result/status.h"
@@ -32,6 +33,8 @@ struct HeadlessOptions
     std::string script;    ///< file; empty: none
     std::string output;    ///< PNG of the last frame; empty: none
     int measuredEdits = 0; ///< edits whose time until the picture is measured
+    bool isLinked = false; ///< shows edits in a running game
+    std::string link;      ///< its address; empty: the only one that is running
 };
 
 /// Runs the editor and prints what `places` and measuredEdits ask for.

@@ -42,14 +42,14 @@ private:
 
 } // namespace
 
-base::Status runWindow(std::unique_ptr<Session> session, int width, int height, float scale)
+base::Status runWindow(std::unique_ptr<Session> session, const WindowOptions& options)
 {
-    render::GlContextOptions options;
-    options.visible = true;
-    options.width = width;
-    options.height = height;
-    options.title = "fx edit";
-    auto context = render::createGlfwContext(options);
+    render::GlContextOptions contextOptions;
+    contextOptions.visible = true;
+    contextOptions.width = options.width;
+    contextOptions.height = options.height;
+    contextOptions.title = "fx edit";
+    auto context = render::createGlfwContext(contextOptions);
     if (!context)
         return {context.status().code(),
                 std::string(context.status().message()) + "; without a display use --headless"};
@@ -60,10 +60,12 @@ base::Status runWindow(std::unique_ptr<Session> session, int width, int height, 
     const WindowImGui imgui(window);
     if (!imgui.isListening())
         return {base::Code::GlUnsupported, "Dear ImGui cannot listen to the window"};
-    applyStyle(scale > 0.0f ? scale : std::max(ofMonitor, 1.0f));
+    applyStyle(options.scale > 0.0f ? options.scale : std::max(ofMonitor, 1.0f));
     auto host = EditorHost::create(std::move(session), (*context)->loader());
     if (!host)
         return host.status();
+    if (options.isLinked)
+        (*host)->session().run((*host)->link(options.link));
     while (!(*context)->closeRequested() && !cli::interruptRequested()) {
         ImGui_ImplGlfw_NewFrame();
         if (base::Status status = (*host)->frame(double(ImGui::GetIO().DeltaTime), 0); !status)

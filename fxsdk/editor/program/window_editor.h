@@ -6,11 +6,21 @@
 #include "fxsdk/editor/session/session.h"
 
 #include <memory>
+#include <string>
 
 namespace fx::editor {
 
-/// Runs until the window is closed. @param scale [1] of text; 0: that of the monitor
+struct WindowOptions
+{
+    int width = 1600;      ///< [pixel]
+    int height = 1000;     ///< [pixel]
+    float scale = 0.0f;    ///< [1] of text; 0: that of the monitor
+    bool isLinked = false; ///< shows edits in a running game
+    std::string link;      ///< its address; empty: the only one that is running
+};
+
+/// Runs until the window is closed. A game that is not found is named in the window.
 /// @return GlUnsupported if there is no display or no OpenGL 4.5
-base::Status runWindow(std::unique_ptr<Session> session, int width, int height, float scale);
+base::Status runWindow(std::unique_ptr<Session> session, const WindowOptions& options);
 
 } // namespace fx::editor

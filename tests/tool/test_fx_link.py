@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""fx link and fx edit --link change a preset of a game that runs: examples/04_live_link."""
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from fx_program import LIBRARY, PATIENCE, FxTest, fx
+
+HOST = os.environ.get("FX_LIVE_LINK_HOST", "build/bin/04_live_link")
+
+PRESET = """{"version": 1, "name": "fountain", "ground": false, "emitters": [{
+  "maxParticles": 300, "position": [0, %g, 0], "emission": {"rate": 60}, "lifetime": 3, "speed": 0.2,
+  "radius": 0.1, "forces": {"gravity": 0}}]}
+"""
+
+
+class Link(FxTest):
+    def setUp(self):
+        super().setUp()
+        self.runtime = self.folder / "run"
+        self.runtime.mkdir(mode=0o700)
+        self.env = dict(os.environ, XDG_RUNTIME_DIR=str(self.runtime))
+        self.preset = self.write("fountain.fx.json", PRESET % 1)
+        self.host = subprocess.Popen([HOST, str(self.preset), "--link", "test-game"], env=self.env,
+                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def tearDown(self):
+        self.host.kill()
+        self.host.wait()
+        self.host.stdout.close()
+        super().tearDown()
+
+    def height(self):
+        """Mean height in the next line of the game."""
+        line = self.host.stdout.readline()
+        return float(re.search(r"mean height (\S+) m", line).group(1))
+
+    def wait_for_height(self, wanted):
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if abs(self.height() - wanted) < 0.6:
+                return
+        self.fail("the game does not show the edit")
+
+    def link(self, *arguments):
+        return fx("link", *arguments, env=self.env)
+
+    def test_a_preset_is_listed_and_replaced_while_the_game_runs(self):
+        self.wait_for_height(1)
+        listed = self.link("list", "--json")
+        self.assertEqual(listed.code, 0, listed.err)
+        game = json.loads(listed.out)
+        self.assertEqual([p["name"] for p in game["presets"]], ["fountain"])
+        self.assertEqual(game["presets"][0]["instances"], 1)
+        self.assertIn("fountain.fx.json", self.link("list").out)
+
+        self.preset.write_text(PRESET % 50)
+        sent = self.link("send", self.preset, "--to", "test-game")
+        self.assertEqual(sent.code, 0, sent.err)
+        self.assertIn("shown by 1 instances", sent.out)
+        self.wait_for_height(50)
+
+        self.preset.write_text(PRESET.replace("lifetime", "lifetme") % 70)
+        refused = self.link("send", self.preset, "--to", "test-game")
+        self.assertEqual(refused.code, 1)
+        self.assertIn("lifetme", refused.err)
+        self.wait_for_height(50)
+
+        unknown = self.link("send", "library:sparks", "--to", "test-game")
+        self.assertEqual(unknown.code, 1)
+        self.assertIn("has no preset", unknown.err)
+        named = self.link("send", "library:sparks", "--to", "test-game", "--name", "fountain")
+        self.assertEqual(named.code, 0, named.err)
+        wrong = self.link("send", self.preset, "--to", "other-game")
+        self.assertEqual(wrong.code, 1)
+        self.assertIn("test-game", wrong.err)
+
+    def test_the_editor_shows_its_edits_in_the_game(self):
+        self.wait_for_height(1)
+        script = self.write("events.txt", """
+click select/emitters/0
+click /emitters/0/position/1
+type 40
+key enter
+linked
+""")
+        outcome = fx("edit", self.preset, "--headless", "--width", 960, "--height", 640, "--script", script,
+                     "--recovery", self.folder / "recovery", "--link", "test-game", env=self.env)
+        if "has no editor" in outcome.err:
+            self.skipTest(outcome.err)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertIn("shown by 1 instance", outcome.out)
+        self.wait_for_height(40)
+
+
+if __name__ == "__main__":
+    unittest.main()
