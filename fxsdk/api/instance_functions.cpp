@@ -83,6 +83,7 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         fx::scene::InstanceSetup setup;
         setup.effect = std::move(*effect);
         setup.seed = known.seed;
+        setup.userData = known.userData;
         setup.startTick = known.startTick;
         setup.placement = toPlacement(known.position, known.rotation, known.scale);
         setup.parameters = toParameters(known.intensity, known.wind, known.emitting);

@@ -1,4 +1,5 @@
 // The functions of fx_preset.h, and the one of fx_reload.h that loads.
+#include "foundation/result/nearest_name.h"
 #include "fxsdk/api/check.h"
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/guarded.h"
@@ -223,7 +224,48 @@ FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* io
         info.memoryBytes = (*effect)->cost.memory;
         info.stepWork = uint64_t(std::min((*effect)->cost.stepWork, kMaxWork));
         info.startWork = uint64_t(std::min((*effect)->cost.startWork, kMaxWork));
+        info.cueCount = uint32_t((*effect)->cues.size());
         fx::api::copyText((*effect)->name, info.name, sizeof info.name);
         return fx::api::writeStruct(info, ioInfo, "ioInfo");
+    });
+}
+
+FxResult fxGetPresetCue(FxContext* context, FxPresetId preset, uint32_t cue, FxPresetCue* ioCue)
+{
+    return fx::api::guarded("fxGetPresetCue", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        const Result<std::shared_ptr<const fx::sim::EffectDef>> effect = context->findPreset(preset);
+        if (!effect)
+            return effect.status();
+        if (cue >= (*effect)->cues.size())
+            return fx::api::invalid("the preset has " + std::to_string((*effect)->cues.size()) +
+                                    " cues, and none of this index");
+        FxPresetCue out{};
+        out.cue = cue;
+        fx::api::copyText((*effect)->cues[cue], out.name, sizeof out.name);
+        return fx::api::writeStruct(out, ioCue, "ioCue");
+    });
+}
+
+FxResult fxFindPresetCue(FxContext* context, FxPresetId preset, const char* name, uint32_t* outCue)
+{
+    return fx::api::guarded("fxFindPresetCue", fx::api::logOf(context), [&]() -> Status {
+        fx::api::Checks check;
+        check.notNull(context, "context");
+        check.notNull(name, "name");
+        check.notNull(outCue, "outCue");
+        if (!check.status())
+            return check.status();
+        const Result<std::shared_ptr<const fx::sim::EffectDef>> effect = context->findPreset(preset);
+        if (!effect)
+            return effect.status();
+        const std::vector<std::string>& cues = (*effect)->cues;
+        const auto found = std::find(cues.begin(), cues.end(), name);
+        if (found == cues.end())
+            return {Code::NotFound,
+                    "the preset has no cue \"" + std::string(name) + "\"" + fx::base::didYouMean(name, cues)};
+        *outCue = uint32_t(found - cues.begin());
+        return {};
     });
 }

@@ -10,6 +10,7 @@ using fx::base::Code;
 using fx::base::Status;
 
 constexpr int64_t kLongestAbsence = 3600 * FX_TICKS_PER_SECOND;
+constexpr uint32_t kAllEvents = FX_EVENTS_FINISHED | FX_EVENTS_CUES | FX_EVENTS_UNNAMED;
 
 Status checkDef(const FxSceneDef& def)
 {
@@ -26,13 +27,15 @@ Status checkDef(const FxSceneDef& def)
     check.range(def.maxCatchUpTicks, INT64_C(0), kLongestAbsence, "def.maxCatchUpTicks");
     check.range(def.catchUpSteps, 1u, UINT32_MAX, "def.catchUpSteps");
     check.range(def.reserved, 0u, 0u, "def.reserved");
+    check.range(def.eventCapacity, 0u, 1'000'000u, "def.eventCapacity");
+    check.range(def.eventKinds, 0u, kAllEvents, "def.eventKinds");
     fx::api::checkQuality(check, def.quality, "def.quality");
     return check.status();
 }
 
-FxSceneStatistics gatherStatistics(const FxScene& object)
+FxSceneStatistics gatherStatistics(FxScene& object)
 {
-    const fx::scene::Scene& scene = object.scene;
+    fx::scene::Scene& scene = object.scene;
     const fx::scene::SceneCounters counters = scene.counters();
     FxSceneStatistics statistics{};
     statistics.instances = counters.instances;
@@ -61,6 +64,8 @@ FxSceneStatistics gatherStatistics(const FxScene& object)
     statistics.catchUpsSkipped = counters.catchUpsSkipped;
     statistics.timeDebtTicks = scene.clock().debt();
     statistics.updateWork = scene.lastUpdate().workUnits;
+    statistics.eventsLost = scene.lostEvents();
+    statistics.eventsPending = scene.eventCount();
     return statistics;
 }
 
@@ -104,7 +109,11 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
             known.releaseAfterTicks,
             known.maxCatchUpTicks,
             known.catchUpSteps,
-            known.workBudget == 0 ? fx::base::kNoWorkLimit : known.workBudget};
+            known.workBudget == 0 ? fx::base::kNoWorkLimit : known.workBudget,
+            known.eventCapacity,
+            (known.eventKinds & FX_EVENTS_FINISHED) != 0,
+            (known.eventKinds & FX_EVENTS_CUES) != 0,
+            (known.eventKinds & FX_EVENTS_UNNAMED) != 0};
         FxScene* scene =
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
         scene->quality = fx::api::toQuality(known.quality, fx::sim::QualityLevel::Medium);

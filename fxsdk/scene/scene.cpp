@@ -17,6 +17,11 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
       newMarks_(memory)
 {
     world_.allowRest(options.culling);
+    if (options.eventCapacity > 0) {
+        events_.emplace(memory, options.eventCapacity);
+        if (options.cueEvents || options.unnamedEvents)
+            world_.recordCues(options.eventCapacity, options.cueEvents, options.unnamedEvents);
+    }
     ring_.beginWrite(0); // so that acquire() always has something to show
     ring_.publish();
 }
@@ -171,6 +176,15 @@ void Scene::retireFinished(base::Ticks now)
 void Scene::finish(uint32_t index)
 {
     countHints(instances_.at(index), -1);
+    if (events_ && options_.finishedEvents) {
+        const Instance& instance = instances_.at(index);
+        SceneEvent event;
+        event.instance = instances_.idAt(index);
+        event.userData = instance.setup.userData;
+        event.tick = stepEnd_;
+        event.position = instance.setup.placement.position;
+        events_->add(event, instance.serial);
+    }
     if (instances_.at(index).setup.destroyWhenFinished) {
         masks_.remove(instances_.idAt(index));
         instances_.remove(instances_.idAt(index));

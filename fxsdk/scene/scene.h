@@ -12,6 +12,7 @@
 #include "fxsdk/activation/focus.h"
 #include "fxsdk/activation/sphere_hierarchy.h"
 #include "fxsdk/activation/timer_queue.h"
+#include "fxsdk/scene/event_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/scene/motion_history.h"
 #include "fxsdk/scene/visibility_masks.h"
@@ -46,6 +47,10 @@ struct SceneOptions
     uint64_t catchUpSteps = 200'000; ///< particle steps that one update may spend on replays
     /// [unit of base::WorkBudget] largest amount of work of one update
     uint64_t workBudget = base::kNoWorkLimit;
+    uint32_t eventCapacity = 0; ///< maximum number of events that the host has not read; 0: no events
+    bool finishedEvents = true; ///< true: ends of instances are events
+    bool cueEvents = true;      ///< true: events with a cue in the preset are recorded
+    bool unnamedEvents = false; ///< true: events without a cue that cause births are recorded
 };
 
 /// Lifecycle state of an instance. An update visits only active and waking instances.
@@ -121,6 +126,7 @@ struct InstanceSetup
     /// Placement at the last step, if the host has moved the instance since the last step. Set only if the
     /// effect depends on its placement.
     std::optional<base::Placement> cameFrom = {};
+    uint64_t userData = 0; ///< number of the host
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
     sim::QualityLevel quality = sim::QualityLevel::Medium;
@@ -177,6 +183,7 @@ public:
     /// does not depend on cameras.
     InstanceState state(LocalId id);
     uint32_t particles(LocalId id);
+    uint64_t userData(LocalId id) { return instances_.find(id)->setup.userData; }
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     /// @param rate see sim::InstanceClock
@@ -257,6 +264,18 @@ public:
     /// @return false if dt is negative or not finite; the scene then does not change, except for the counter
     ///     of refused updates
     bool update(double dt);
+
+    /// Number of events that takeEvents() can return.
+    uint32_t eventCount();
+    /// Calls f(event) for the oldest events and removes them.
+    /// @param number at most eventCount()
+    template <class F>
+    void takeEvents(uint32_t number, F&& f)
+    {
+        if (events_)
+            events_->take(number, f);
+    }
+    uint64_t lostEvents() const { return events_ ? events_->lost() : 0; }
 
     SceneCounters counters() const;
     uint32_t particles() const; ///< sum over all active instances
@@ -362,6 +381,7 @@ private:
     void moveOn(uint32_t step, uint32_t steps);
     void endMoves(bool isComplete);
     void retireFinished(base::Ticks now);
+    void recordEvents();
     void finish(uint32_t index);
     void countHints(const Instance& instance, int more);
 
@@ -412,6 +432,8 @@ private:
     void saveRules(sim::StateWriter& writer) const;
     void saveInstances(sim::StateWriter& writer) const;
     void saveMasks(sim::StateWriter& writer) const;
+    void saveUserData(sim::StateWriter& writer) const;
+    static void restoreUserData(sim::StateReader& reader, Restored& state);
     void restoreMasks(sim::StateReader& reader, Restored& state) const;
     void checkRules(sim::StateReader& reader) const;
     Effects restoreEffects(sim::StateReader& reader, const FindEffect& findEffect) const;
@@ -445,7 +467,9 @@ private:
     /// [unit of base::WorkBudget] work of the present publication, or of the last publication if none is in
     /// progress
     uint64_t shownWork_ = 0;
-    base::Ticks published_ = 0; ///< scene time of the last publication
+    base::Ticks published_ = 0;        ///< scene time of the last publication
+    base::Ticks stepEnd_ = 0;          ///< scene time at which the last step that has begun ends
+    std::optional<EventQueue> events_; ///< empty: no events are recorded
     /// ids of all instances whose InstanceSetup::cameFrom is set; may contain additional ids
     std::pmr::vector<LocalId> moved_;
     bool visibilityStale_ = false; ///< true: an instance or a camera has moved since visibility was tested

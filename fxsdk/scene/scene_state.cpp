@@ -212,6 +212,19 @@ void Scene::restoreMasks(sim::StateReader& reader, Restored& state) const
     }
 }
 
+/// Not a part of the simulation hash, because steps do not depend on it.
+void Scene::saveUserData(sim::StateWriter& writer) const
+{
+    instances_.forEach([&](uint32_t, const Instance& instance) { writer.value(instance.setup.userData); });
+}
+
+void Scene::restoreUserData(sim::StateReader& reader, Restored& state)
+{
+    std::as_const(state.instances).forEach([&](uint32_t index, const Instance&) {
+        state.instances.at(index).setup.userData = reader.value<uint64_t>();
+    });
+}
+
 void Scene::save(sim::StateWriter& writer)
 {
     completeStep();
@@ -219,6 +232,7 @@ void Scene::save(sim::StateWriter& writer)
     saveRules(writer);
     saveInstances(writer);
     saveMasks(writer);
+    saveUserData(writer);
     const base::ClockState clock = clock_.state();
     writer.value(clock.steps);
     writer.value(clock.now);
@@ -247,6 +261,7 @@ base::Status Scene::restore(std::span<const std::byte> bytes, const FindEffect& 
     const Effects effects = restoreEffects(reader, findEffect);
     restoreInstances(reader, effects, state);
     restoreMasks(reader, state);
+    restoreUserData(reader, state);
     state.clock = restoreClock(reader);
     const SceneCounters counters = restoreCounters(reader);
     state.counters = counters;
@@ -397,7 +412,9 @@ void Scene::take(Restored& state)
     world_.swap(state.world);
     world_.setNow(simulated);
     forgetSight();
-    published_ = simulated;
+    published_ = stepEnd_ = simulated;
+    if (events_)
+        events_->clear();
     arrived_.clear();
     seeks_.clear();
     replaced_ = false;

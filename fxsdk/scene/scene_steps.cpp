@@ -148,6 +148,7 @@ bool Scene::isShort() const
 {
     const base::Ticks to = from + clock_.stepTicks();
     stepWork_ = 0;
+    stepEnd_ = to;
     if (!dormant_.empty())
         wake(to);
     if (!alarms_.empty())
@@ -185,10 +186,14 @@ bool Scene::isShort() const
         for (const sim::Slot slot : coarse_.slots())
             world_.stepCoarsely(slot, clock_.stepTicks(), counters_.work, work_);
     ++counters_.steps;
+    if (events_)
+        recordEvents();
     if (active_.size() > 0) {
         retireFinished(to);
         restOrNot(to);
     }
+    if (events_)
+        events_->closeStep();
     if (world_.freeSolvers() > 0)
         world_.trimFreeList(to - options_.releaseAfter);
 }

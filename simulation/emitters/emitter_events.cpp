@@ -4,6 +4,7 @@
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
 #include "foundation/tasks/parallel_rows.h"
+#include "simulation/emitters/events/cue_sink.h"
 #include "simulation/emitters/events/event_board.h"
 
 #include <algorithm>
@@ -18,20 +19,27 @@ constexpr uint32_t kMinTiles = 4;                  // fewer cost less than handi
 constexpr uint32_t kMaxScheduledBirths = 1u << 16; // births by the clock in one step
 constexpr uint32_t kMaxBirthEvents = 1u << 16;     // of particles that are born in one step
 
-/// How many are born of one event, equal for any partition of time.
-uint32_t drawCount(const StepContext& context, const EventRule& rule, uint32_t number,
-                   const ParticleEvent& event)
+/// Consequence of an event by one rule.
+struct Answer
+{
+    bool applies;
+    uint32_t births;
+};
+
+/// Draws the consequence, which is equal for any partition of time.
+Answer drawAnswer(const StepContext& context, const EventRule& rule, uint32_t number,
+                  const ParticleEvent& event)
 {
     const uint32_t fewest = std::min(rule.fewest, rule.most);
     if (fewest == rule.most && rule.probability >= 1.0f)
-        return fewest;
+        return {true, fewest};
     uint64_t key = base::hashWord(event.index, uint64_t(event.tick));
     key = base::hashWord(key, uint64_t(number) << 8 | uint64_t(event.kind));
     const auto u = base::randomUnit4(context.seed, context.solverIndex, key, base::RandomPurpose::Events);
     if (!(u[0] < rule.probability))
-        return 0;
+        return {false, 0};
     const uint32_t choices = rule.most - fewest + 1;
-    return fewest + std::min(uint32_t(u[1] * float(choices)), choices - 1);
+    return {true, fewest + std::min(uint32_t(u[1] * float(choices)), choices - 1)};
 }
 
 } // namespace
@@ -279,6 +287,8 @@ bool EmitterSolver::answerEvents(const StepContext& context, base::WorkBudget& w
                 continue;
             context.counters->dropped += list.dropped();
             dropped_ += list.dropped();
+            if (context.cues)
+                context.cues->lose(list.dropped());
         }
     return true;
 }
@@ -291,7 +301,10 @@ void EmitterSolver::answerList(const StepContext& context, const EventList& list
     for (; linked.answered < list.events().size(); ++linked.answered) {
         const ParticleEvent& event = list.events()[linked.answered];
         if (context.board && interest_.answers(rule, event)) {
-            EventBirth birth{event, linked.number, drawCount(context, rule, linked.number, event)};
+            const Answer answer = drawAnswer(context, rule, linked.number, event);
+            if (context.cues && answer.applies)
+                context.cues->post(event, rule, linked.number, space_ ? &space_->home() : nullptr);
+            EventBirth birth{event, linked.number, answer.births};
             birth.cause.velocity *= rule.inheritVelocity;
             birth.cause.color = glm::vec3(1.0f) + rule.inheritColor * (event.color - glm::vec3(1.0f));
             context.board->post(rule.target, birth);

@@ -193,7 +193,8 @@ private:
         const glm::vec3 along = velocity + speed * normal;
         context.listener->touch(context, tile, i,
                                 {share, speed, from + share * (to - from),
-                                 (1.0f - friction_) * along + restitution_ * speed * normal, false, 0});
+                                 (1.0f - friction_) * along + restitution_ * speed * normal, false, 0,
+                                 normal});
     }
 
     void bounceRow(const TileContext& context, const GroundContact& ground, Tile& tile, uint32_t i) const

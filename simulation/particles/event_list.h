@@ -67,8 +67,9 @@ struct ParticleEvent
     bool scheduled = false; ///< true: the schedule or the host caused the event; false: a particle caused it
     /// For EventKind::Age: index among the ages of the emitter. For EventKind::Collision: see TileContact.
     uint32_t number = 0;
-    float speed = 0.0f;  ///< [m/s] for EventKind::Collision: see TileContact
-    bool isLast = false; ///< for EventKind::Collision: see TileContact
+    float speed = 0.0f;     ///< [m/s] for EventKind::Collision: see TileContact
+    bool isLast = false;    ///< for EventKind::Collision: see TileContact
+    glm::vec3 normal{0.0f}; ///< [1] for EventKind::Collision: see TileContact
 };
 
 /// The order of events by equation (3).

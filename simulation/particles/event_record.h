@@ -31,6 +31,7 @@ inline ParticleEvent collisionOf(const TileContext& context, const Tile& tile, u
     event.speed = contact.speed;
     event.isLast = contact.isLast;
     event.number = contact.number;
+    event.normal = contact.normal;
     return event;
 }
 

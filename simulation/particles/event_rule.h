@@ -8,12 +8,15 @@
 
 namespace fx::sim {
 
+constexpr uint32_t kNoCue = ~0u;        ///< the rule has no cue
+constexpr uint32_t kNoTarget = ~0u;     ///< the rule causes no births
 constexpr uint32_t kMaxEventAges = 256; ///< maximum number of ages for one emitter, repetitions included
 /// [m/s] Default minimum speed against the surface at a contact. A particle has this speed after a fall of 13
 /// mm. A bouncing particle with a lower speed counts as resting.
 constexpr float kUsualContactSpeed = 0.5f;
 
-/// Rule of an emitter: an event of one of its particles causes births in another emitter.
+/// Rule of an emitter: an event of one of its particles causes births in another emitter, is reported to the
+/// host, or both.
 struct EventRule
 {
     EventKind on = EventKind::Death;
@@ -24,11 +27,12 @@ struct EventRule
     /// [m/s] like minSpeed, but for a contact at which the particle dies or sticks
     float minLastSpeed = 0.0f;
     uint32_t hostEvent = 0; ///< for EventKind::Host: index in EffectDef::hostEvents
-    uint32_t target = 0;    ///< solver index of the emitter in which births happen
+    uint32_t cue = kNoCue;  ///< index in EffectDef::cues
+    uint32_t target = 0;    ///< solver index of the emitter in which births happen, or kNoTarget
     uint32_t fewest =
         1; ///< smallest number of births that one event causes; the number is random in [fewest, most]
     uint32_t most = 1;
-    float probability = 1.0f;     ///< [1] probability that an event causes births, 0..1
+    float probability = 1.0f;     ///< [1] probability that the rule applies to an event, 0..1
     float inheritVelocity = 0.0f; ///< [1] fraction of the particle's velocity that is added to births, 0..1
     /// [1] Weight w of the particle's color, 0..1. The color of a birth is multiplied by (1 - w) + w times
     /// the particle's color.

@@ -88,9 +88,10 @@ struct TileContact
     float speed;        ///< [m/s] speed against the surface along its normal, just before the contact, >= 0
     glm::vec3 position; ///< [m]
     glm::vec3
-        velocity;    ///< [m/s] velocity just after the contact; just before the contact if the particle dies
-    bool isLast;     ///< true if the particle dies or sticks at this contact
-    uint32_t number; ///< lower bound of the number of previous contacts of the row in this step
+        velocity;     ///< [m/s] velocity just after the contact; just before the contact if the particle dies
+    bool isLast;      ///< true if the particle dies or sticks at this contact
+    uint32_t number;  ///< lower bound of the number of previous contacts of the row in this step
+    glm::vec3 normal; ///< [1] normal of the surface, towards the particle
 };
 
 struct TileContext;

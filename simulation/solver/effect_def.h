@@ -43,6 +43,7 @@ struct EffectDef
     /// order.
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of the host's events
+    std::vector<std::string> cues;       ///< names that rules give to events for the host
     EffectCost cost;                     ///< cost estimated by the loader of presets
     DrawingHints hints;
 

@@ -124,6 +124,7 @@ struct HostContact
 
 class SpawnBatch;
 class EventBoard;
+class CueSink;
 
 /// An event that the host has triggered.
 struct HostEvent
@@ -150,7 +151,8 @@ struct StepContext
     StepCounters* counters;
     const ContactHook* contactHook = nullptr; ///< the host's contact callback; null: no callback
     EventBoard* board = nullptr;              ///< events between solvers in this step; null: no events
-    std::span<const HostEvent> hostEvents{};  ///< host events, which happen at `tick`
+    CueSink* cues = nullptr; ///< receives the events that the host wants to know; null: none are reported
+    std::span<const HostEvent> hostEvents{}; ///< host events, which happen at `tick`
     /// batch to which births may be deferred until the end of the step; null: births are computed at once
     SpawnBatch* spawnBatch = nullptr;
     /// placement to which the instance moves; identity unless the effect depends on the placement

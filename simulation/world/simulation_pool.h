@@ -123,7 +123,10 @@ struct SharedSimulation
     uint64_t visitedIn = 0; ///< number of the last step whose list contained an instance of the simulation
     uint64_t dividedIn =
         0; ///< number of the last step whose list contained only some instances of the simulation
-    uint32_t visits = 0; ///< number of instances of the simulation in the list of step `visitedIn`
+    uint32_t visits = 0;   ///< number of instances of the simulation in the list of step `visitedIn`
+    uint64_t cuesIn = 0;   ///< number of the last step that recorded events for the host
+    uint64_t cues = 0;     ///< number of events of that step, including those that were not kept
+    uint32_t cueOrder = 0; ///< order of the simulation in that step
     uint32_t division =
         0; ///< index of the simulation to which the instances in the list of step `dividedIn` are moved
 

@@ -19,6 +19,7 @@
 #include "simulation/emitters/pools/emitter_pools.h"
 #include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/solver/effect_def.h"
+#include "simulation/world/cue_record.h"
 #include "simulation/world/simulation_pool.h"
 
 #include <algorithm>
@@ -220,6 +221,38 @@ public:
     void makeChanges();
     bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
 
+    /// Records events of particles for the host from the next step on.
+    /// @param capacity    maximum number of events that one step keeps
+    /// @param named   true: events of rules with a cue are recorded
+    /// @param unnamed true: events of rules without a cue are recorded
+    void recordCues(uint32_t capacity, bool named, bool unnamed)
+    {
+        cues_.emplace(memory_, capacity, named, unnamed);
+    }
+    /// Reads the events that the last step has recorded. Must be called once, after the step is complete.
+    /// Calls f(place, event) for the kept events of each slot of `active` in the order of the list, with
+    /// vectors in world space. Events that replays, prewarms and seeks pass are not recorded.
+    /// @return number of events of the slots, including those that were not kept
+    template <class F>
+    uint64_t readCues(std::span<const Slot> active, F&& f)
+    {
+        uint64_t count = 0;
+        if (!cues_ || !cues_->hasAny())
+            return count;
+        cues_->sort();
+        for (uint32_t place = 0; place < active.size(); ++place) {
+            const Instance& instance = instances_[active[place]];
+            const SharedSimulation& simulation = simulations_.at(instance.simulation);
+            if (simulation.cuesIn != stepNumber_)
+                continue;
+            count += simulation.cues;
+            for (const CueEvent& event : cues_->of(simulation.cueOrder))
+                f(place, event.isInWorld ? event : inWorld(event, instance.start.placement));
+        }
+        cues_->clear();
+        return count;
+    }
+
     /// Executes a step without instances. The time advances to `now`.
     void passTime(base::Ticks now)
     {
@@ -352,6 +385,8 @@ private:
     }
     bool publishSlot(Slot slot, base::WorkBudget& work);
 
+    static CueEvent inWorld(const CueEvent& event, const base::Placement& placement);
+    void selectCues(SharedSimulation& simulation);
     SimulationConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
     Slot takeSlot(const InstanceStart& start, SimulationIndex simulation);
     /// Moves an instance to a simulation with the conditions of `start`.
@@ -428,6 +463,8 @@ private:
     std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_;
     std::shared_ptr<base::GroupRoster> roster_; ///< roster of the last publication
     std::vector<uint32_t> ends_;                ///< see FrameSnapshot::setRoster()
+    std::optional<CueRecord> cues_; ///< events of the last step for the host; empty: they are not recorded
+    uint32_t cueOrders_ = 0;        ///< number of simulations that have recorded events in the step
     uint64_t stepNumber_ = 0;
     uint64_t boards_ = 0; ///< number of EventBoards that have been created
     base::Ticks now_ = 0; ///< end of the last step

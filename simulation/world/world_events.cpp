@@ -102,6 +102,29 @@ std::span<const HostEvent> World::takeEvents(SimulationIndex index, base::Ticks 
     return hostEvents;
 }
 
+/// Makes a simulation that is stepped with the others the source of the events that follow.
+void World::selectCues(SharedSimulation& simulation)
+{
+    if (simulation.cuesIn != stepNumber_) {
+        simulation.cuesIn = stepNumber_;
+        simulation.cues = 0;
+        simulation.cueOrder = cueOrders_++;
+    }
+    cues_->select(simulation.cueOrder, simulation.conditions.clock, simulation.cues);
+}
+
+CueEvent World::inWorld(const CueEvent& event, const base::Placement& placement)
+{
+    CueEvent out = event;
+    const float scale = placement.scale;
+    out.position = placement.position + glm::dvec3(placement.rotation * (scale * event.event.position));
+    out.event.velocity = placement.rotation * (scale * event.event.velocity);
+    out.event.normal = placement.rotation * event.event.normal;
+    out.event.speed = scale * event.event.speed;
+    out.isInWorld = true;
+    return out;
+}
+
 void World::restorePending(SharedSimulation& simulation, StateReader& reader)
 {
     const size_t known = simulation.effect->hostEvents.size();

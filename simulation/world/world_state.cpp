@@ -127,6 +127,8 @@ void World::swap(World& other) noexcept
     std::swap(instances_, other.instances_);
     std::swap(free_, other.free_);
     std::swap(stepNumber_, other.stepNumber_);
+    if (cues_)
+        cues_->clear();
     std::swap(now_, other.now_);
 }
 

@@ -39,6 +39,9 @@ void World::beginStep(std::span<const Slot> active, base::Ticks tick, base::Tick
     ++stepNumber_;
     spawnBatch_.forget();
     joining_.clear();
+    cueOrders_ = 0;
+    if (cues_)
+        cues_->clear();
     divideSimulations(active);
     if (!mayPool_ || pools_.now() != tick || stepTicks > kLongestPoolStep)
         endPools();
@@ -166,6 +169,10 @@ bool World::stepSimulation(SimulationIndex index, const SimulationStep& step, ba
         const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
         const base::Ticks parts = partsOf(*simulation.effect) * std::max<base::Ticks>(turns, 1);
         context.spawnBatch = parts == 1 ? step.spawnBatch : nullptr;
+        if (cues_ && step.board && !simulation.effect->order.empty()) {
+            selectCues(simulation); // of a simulation that catches up, the host hears nothing
+            context.cues = &*cues_;
+        }
         LinkedPart* const own = step.board ? nullptr : linkedPartOf(simulation);
         std::optional<EventBoard> none; // of solvers without events
         std::optional<EventBoard>& board = own ? own->board : step.board ? *step.board : none;

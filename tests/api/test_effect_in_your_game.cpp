@@ -21,6 +21,13 @@ FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3
 int drawEffectsAroundGlass(const Effects* effects, FxFrameDef target, float glassDepth,
                            void (*drawGlass)(void));
 int showInMainViewOnly(const Effects* effects, FxInstanceId instance);
+struct Sounds
+{
+    uint32_t bang, impact;
+    void (*play)(uint32_t cue, const double position[3], float loudness, uint64_t userData);
+    void (*addDecal)(const double position[3], const float normal[3]);
+};
+int hearEffects(FxScene* scene, const Sounds* sounds);
 }
 
 using EffectInYourGame = fx::test::EncodedTargetTest;
@@ -50,6 +57,32 @@ TEST_F(EffectInYourGame, theCodeOfThePageDrawsAnExplosionIntoBothKindsOfTargets)
         EXPECT_NE(stored(target), before);
         EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
     }
+}
+
+TEST_F(EffectInYourGame, theCodeOfThePageHearsImpactsAndPlacesDecals)
+{
+    static int played, decals;
+    played = decals = 0;
+    const float sky[3] = {0.3f, 0.4f, 0.6f};
+    const FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky);
+    Effects effects{};
+    ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
+    FxInstanceDef def = fxDefaultInstanceDef();
+    ASSERT_EQ(fxLoadPresetLibrary(effects.context, "debris", &def.preset), FX_OK) << fxGetLastErrorMessage();
+    def.userData = 42;
+    FxInstanceId instance{};
+    ASSERT_EQ(fxScene_CreateInstance(effects.scene, &def, &instance), FX_OK) << fxGetLastErrorMessage();
+    Sounds sounds{FX_NO_CUE, 0, nullptr, nullptr};
+    ASSERT_EQ(fxFindPresetCue(effects.context, def.preset, "impact", &sounds.impact), FX_OK);
+    sounds.play = [](uint32_t, const double*, float, uint64_t userData) { played += userData == 42; };
+    sounds.addDecal = [](const double*, const float normal[3]) { decals += normal[1] > 0.0f; };
+    for (int i = 0; i < 180; ++i) {
+        ASSERT_EQ(fxScene_Update(effects.scene, 1.0 / 60.0), FX_OK);
+        ASSERT_EQ(hearEffects(effects.scene, &sounds), 0) << fxGetLastErrorMessage();
+    }
+    EXPECT_GT(decals, 0);
+    EXPECT_EQ(played, decals);
+    EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
 }
 
 TEST_F(EffectInYourGame, theCodeOfThePageDrawsEffectsBeforeAndBehindGlass)

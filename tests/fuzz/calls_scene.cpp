@@ -55,6 +55,8 @@ void CallsPlayer::createScene()
         def.maxCatchUpTicks = int64_t(input_.below(3)) * FX_TICKS_PER_SECOND / 10;
         def.catchUpSteps = 1 + input_.below(200);
         def.gravity[1] = floatNumber(20.0);
+        def.eventCapacity = input_.below(100);
+        def.eventKinds = input_.below(10);
     }
     FxScene* made = nullptr;
     const FxResult result = checked(fxCreateScene(played.context, &def, &made));
@@ -251,6 +253,14 @@ void CallsPlayer::readScene()
     uint32_t count = 0;
     checked(
         fxScene_GetInstances(slot.scene, input_.one(2) ? ids.data() : nullptr, uint32_t(ids.size()), &count));
+    std::array<FxEvent, 6> events{};
+    events[0].structSize = structSize(sizeof(FxEvent));
+    uint64_t lost = 0, userData = 0;
+    if (checked(fxScene_GetEvents(slot.scene, input_.one(4) ? nullptr : events.data(),
+                                  events[0].structSize <= sizeof(FxEvent) ? uint32_t(events.size()) : 0,
+                                  &count, &lost)) == FX_OK)
+        require(count <= 100, "a scene has no more events than its definition allows");
+    checked(fxScene_GetUserData(slot.scene, id, &userData));
 }
 
 /// Saves one scene and restores another, or the same, from the bytes.

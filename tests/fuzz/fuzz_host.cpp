@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 7> kPresets{
         {"maxParticles": 32, "emission": {"bursts": [{"time": 0.3, "count": 20}]}, "lifetime": 100}]})",
     R"({"version": 1, "name": "chain", "emitters": [
         {"name": "shells", "space": "world", "maxParticles": 20, "emission": {"rate": 5}, "lifetime": 0.4, "speed": 3,
-         "radius": 0.05, "events": [{"on": "death", "emit": "stars", "count": 4}, {"on": "host", "name": "burst", "emit": "stars", "count": 8}],
+         "radius": 0.05, "events": [{"on": "death", "emit": "stars", "count": 4, "cue": "bang"}, {"on": "birth", "cue": "start"}, {"on": "host", "name": "burst", "cue": "burst", "emit": "stars", "count": 8}],
          "appearance": {"kind": "sprite", "luminance": 100}, "trail": {"lifetime": 0.3}},
         {"name": "stars", "space": "world", "maxParticles": 100, "emission": {"rate": 0}, "lifetime": {"min": 0.2, "max": 0.5},
          "speed": 1, "radius": 0.02, "forces": {"drag": 1}, "appearance": {"kind": "sprite", "luminance": 100}}]})",

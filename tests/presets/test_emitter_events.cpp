@@ -84,7 +84,28 @@ TEST(EmitterEventsPreset, mistakesAreExplained)
     expect(R"({"on":"death","age":1,"emit":"sparks"})", "only the event age has one");
     expect(R"({"on":"host","emit":"sparks"})", "the event host needs one");
     expect(R"({"on":"death","emit":"sparks","count":1.5})", "whole numbers");
+    expect(R"({"on":"death"})", "needs one of them");
+    expect(R"({"on":"death","cue":"end","count":2})", "an event without \"emit\"");
+    expect(R"({"on":"death","cue":""})", "cue");
     EXPECT_NE(messageOf(kSparks).find("is missing"), std::string::npos);
+}
+
+TEST(EmitterEventsPreset, cuesOfEqualNamesAreOneAndNeedNoBirths)
+{
+    const auto loaded = load(kSparks + R"(,{"name":"drop","emission":{"rate":1},"events":[
+        {"on":"collision","cue":"hit","probability":0.5}, {"on":"death","cue":"end","emit":"sparks"}]},
+        {"name":"stone","emission":{"rate":1},"events":[{"on":"collision","cue":"hit"}]})");
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    EXPECT_EQ(loaded->effect->cues, (std::vector<std::string>{"hit", "end"}));
+    const auto& drop = dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers[1]);
+    const auto& stone = dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers[2]);
+    EXPECT_EQ(drop.events[0].cue, 0u);
+    EXPECT_EQ(drop.events[0].target, sim::kNoTarget);
+    EXPECT_EQ(drop.events[0].probability, 0.5f);
+    EXPECT_EQ(drop.events[1].cue, 1u);
+    EXPECT_EQ(drop.events[1].target, 0u);
+    EXPECT_EQ(stone.events[0].cue, 0u);
+    EXPECT_EQ(loaded->effect->order.size(), 3u);
 }
 
 TEST(EmitterEventsPreset, trailsLightsAndPrewarmAreRead)

@@ -40,7 +40,26 @@ typedef struct FxPresetInfo
 
     /// Number of work units of the prewarm, see FxSceneDef::workBudget.
     uint64_t startWork;
+
+    /// Number of cues, the names that the preset gives to events for the host; see fxGetPresetCue().
+    uint32_t cueCount;
+
+    /// Reserved; 0.
+    uint32_t reserved;
 } FxPresetInfo;
+
+/// A cue of a preset. Fill structSize with sizeof before the call.
+typedef struct FxPresetCue
+{
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// Index of the cue, as in FxEvent::cue.
+    uint32_t cue;
+
+    /// Name, UTF-8, zero-terminated.
+    char name[64];
+} FxPresetCue;
 
 /// Loads a preset from a file of at most 4 MiB. Warnings go to the log. [any]
 /// @param path      UTF-8; a relative path without ".." is passed to the context's asset hook before the
@@ -76,6 +95,20 @@ FX_API FxResult fxUnloadPreset(FxContext* context, FxPresetId preset);
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize),
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* ioInfo);
+
+/// Reads a cue of a preset. [any]
+/// @param cue   0..FxPresetInfo::cueCount - 1
+/// @param ioCue structSize must be set; other members are overwritten on success, untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or no such cue), FX_ERROR_STALE_ID, FX_ERROR_VERSION
+///         (structSize), FX_ERROR_RE_ENTRANT
+FX_API FxResult fxGetPresetCue(FxContext* context, FxPresetId preset, uint32_t cue, FxPresetCue* ioCue);
+
+/// Finds a cue of a preset by its name. [any]
+/// @param name   name of the cue in the preset
+/// @param outCue receives the index, as in FxEvent::cue; untouched on failure
+/// @return FX_OK, FX_ERROR_NOT_FOUND (the message states the nearest name), FX_ERROR_INVALID_ARGUMENT,
+///         FX_ERROR_STALE_ID, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxFindPresetCue(FxContext* context, FxPresetId preset, const char* name, uint32_t* outCue);
 
 #ifdef __cplusplus
 }

@@ -15,6 +15,7 @@
 
 #include "fxsdk/fx_base.h"
 #include "fxsdk/fx_collision.h"
+#include "fxsdk/fx_events.h"
 #include "fxsdk/fx_state.h"
 
 #ifdef __cplusplus
@@ -89,6 +90,13 @@ typedef struct FxSceneDef
     /// The next updates do the remaining work, in the same steps and with the same results. See
     /// fxScene_Update.
     uint64_t workBudget;
+
+    /// Maximum number of events that the host has not read, 0..1,000,000; default 0: no events are recorded.
+    /// The memory, about 300 bytes each, is allocated when the scene is created. See fx_events.h.
+    uint32_t eventCapacity;
+
+    /// FxEventKinds, bits of the events that are recorded; default FX_EVENTS_FINISHED | FX_EVENTS_CUES.
+    uint32_t eventKinds;
 } FxSceneDef;
 
 /// The definition of a scene that steps 60 times a second.
@@ -108,7 +116,9 @@ static inline FxSceneDef fxDefaultSceneDef(void)
                       30 * FX_TICKS_PER_SECOND,
                       200000,
                       0,
-                      10000000};
+                      10000000,
+                      0,
+                      FX_EVENTS_FINISHED | FX_EVENTS_CUES};
     return def;
 }
 
@@ -185,6 +195,9 @@ typedef struct FxInstanceDef
 
     /// Reserved; must be 0.
     uint32_t reserved2;
+
+    /// Any number of the host, returned by events and by fxScene_GetUserData(); default 0.
+    uint64_t userData;
 } FxInstanceDef;
 
 /// The definition of an instance that starts at once at the world's origin; only its preset is missing.
@@ -303,6 +316,12 @@ typedef struct FxSceneStatistics
 
     /// Number of work units spent by the last update, see FxSceneDef::workBudget.
     uint64_t updateWork;
+
+    /// Number of events that were lost since the scene was created, see fxScene_GetEvents().
+    uint64_t eventsLost;
+
+    /// Number of events that the host has not read.
+    uint64_t eventsPending;
 } FxSceneStatistics;
 
 /// Creates an empty scene at time 0; the calling thread becomes its scene thread. [any]

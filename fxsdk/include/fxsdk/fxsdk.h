@@ -13,6 +13,7 @@
 #include "fxsdk/fx_collision.h"
 #include "fxsdk/fx_context.h"
 #include "fxsdk/fx_defaults.h"
+#include "fxsdk/fx_events.h"
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/fx_reload.h"
 #include "fxsdk/fx_scene.h"

@@ -152,6 +152,21 @@ public:
         return detail::filled<FxPresetInfo>([&](auto* out) { return fxGetPresetInfo(get(), preset, out); });
     }
 
+    /// Index of a cue of a preset, as in FxEvent::cue.
+    uint32_t findCue(FxPresetId preset, const std::string& name)
+    {
+        uint32_t cue = FX_NO_CUE;
+        check(fxFindPresetCue(get(), preset, name.c_str(), &cue));
+        return cue;
+    }
+
+    /// Name of a cue of a preset.
+    std::string cueName(FxPresetId preset, uint32_t cue)
+    {
+        return detail::filled<FxPresetCue>([&](auto* out) { return fxGetPresetCue(get(), preset, cue, out); })
+            .name;
+    }
+
     /// Compiles all GPU programs.
     void warmUp() { check(fxContext_WarmUp(get())); }
 
@@ -214,6 +229,28 @@ public:
     void trigger(FxInstanceId instance, const std::string& event, uint32_t count = 1)
     {
         check(fxScene_TriggerEvent(get(), instance, event.c_str(), count));
+    }
+
+    /// Reads all events and removes them from the scene, see fxScene_GetEvents().
+    /// @param outLost receives the number of lost events; may be null
+    std::vector<FxEvent> takeEvents(uint64_t* outLost = nullptr)
+    {
+        uint32_t count = 0;
+        check(fxScene_GetEvents(get(), nullptr, 0, &count, outLost));
+        std::vector<FxEvent> events(count);
+        if (count > 0) {
+            events.front().structSize = sizeof(FxEvent);
+            check(fxScene_GetEvents(get(), events.data(), count, &count, outLost));
+        }
+        events.resize(count);
+        return events;
+    }
+
+    uint64_t userData(FxInstanceId instance)
+    {
+        uint64_t number = 0;
+        check(fxScene_GetUserData(get(), instance, &number));
+        return number;
     }
 
     /// @param seconds [s] local time of the instance

@@ -46,7 +46,8 @@ BirthCount::BirthCount(const std::vector<const sim::EmitterDef*>& emitters)
     for (size_t cause = 0; cause < emitters.size(); ++cause) {
         lives_.push_back(double(emitters[cause]->lifetime.max));
         for (const sim::EventRule& rule : emitters[cause]->events)
-            causes_[rule.target].push_back({cause, &rule});
+            if (rule.target != sim::kNoTarget)
+                causes_[rule.target].push_back({cause, &rule});
     }
     std::sort(lives_.begin(), lives_.end());
     lives_.erase(std::unique(lives_.begin(), lives_.end()), lives_.end());

@@ -62,7 +62,9 @@ private:
 
     void readRule(const PresetValue& value, uint32_t emitter);
     bool findTarget(const PresetValue& value, uint32_t& out) const;
-    uint32_t hostEvent(const std::string& name);
+    static uint32_t placeIn(std::vector<std::string>& names, const std::string& name);
+    void readBirths(const PresetValue& value, sim::EventRule& rule) const;
+    bool readTarget(const PresetValue& value, uint32_t emitter, sim::EventRule& rule);
     void demandBirths(uint32_t emitter) const;
     void visit(uint32_t emitter);
 
@@ -96,9 +98,9 @@ bool EventLinks::findTarget(const PresetValue& value, uint32_t& out) const
     return true;
 }
 
-uint32_t EventLinks::hostEvent(const std::string& name)
+/// Index of `name`, which is added if it is new.
+uint32_t EventLinks::placeIn(std::vector<std::string>& names, const std::string& name)
 {
-    std::vector<std::string>& names = effect_.hostEvents;
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end())
         return uint32_t(found - names.begin());
@@ -136,20 +138,47 @@ void EventLinks::readRule(const PresetValue& value, uint32_t emitter)
     std::string name;
     value.read("name", name);
     if (rule.on == sim::EventKind::Host)
-        rule.hostEvent = hostEvent(name);
+        rule.hostEvent = placeIn(effect_.hostEvents, name);
+    value.read("probability", rule.probability);
+    hasRules_ = true;
+    if (value.has("cue")) {
+        value.read("cue", name);
+        rule.cue = placeIn(effect_.cues, name);
+    }
+    readBirths(value, rule);
+    if (value.has("emit") ? readTarget(value, emitter, rule) : value.has("cue"))
+        emitters_[emitter].events.push_back(rule);
+}
+
+/// Members of births, which a rule without "emit" does not have.
+void EventLinks::readBirths(const PresetValue& value, sim::EventRule& rule) const
+{
+    if (!value.has("emit")) {
+        if (!value.has("cue"))
+            value.error("", "found neither the member \"emit\" nor \"cue\"; an event needs one of them");
+        for (const char* member : {"count", "inheritVelocity", "inheritColor"})
+            if (value.has(member))
+                value.error(member, "found a member of births in an event without \"emit\"; take it out, or "
+                                    "name the emitter that gives birth");
+        rule.target = sim::kNoTarget;
+        return;
+    }
     base::Range count{1, 1};
     value.read("count", count);
     if (count.min != std::floor(count.min) || count.max != std::floor(count.max))
         value.error("count", "found a fraction; births are counted in whole numbers");
     rule.fewest = uint32_t(std::max(count.min, 0.0f));
     rule.most = uint32_t(std::max(count.max, 0.0f));
-    value.read("probability", rule.probability);
     value.read("inheritVelocity", rule.inheritVelocity);
     value.read("inheritColor", rule.inheritColor);
-    hasRules_ = true;
+}
+
+/// @return whether the emitter of the births was found
+bool EventLinks::readTarget(const PresetValue& value, uint32_t emitter, sim::EventRule& rule)
+{
     if (!findTarget(value, rule.target)) {
         isBroken_ = true;
-        return;
+        return false;
     }
     sim::EmitterDef& target = emitters_[rule.target];
     if (target.inWorld != emitters_[emitter].inWorld)
@@ -157,7 +186,7 @@ void EventLinks::readRule(const PresetValue& value, uint32_t emitter)
                     "found \"" + target.name + "\" in another space; give both emitters the same \"space\"");
     target.fed = true;
     target.tinted = target.tinted || rule.inheritColor > 0.0f;
-    emitters_[emitter].events.push_back(rule);
+    return true;
 }
 
 void EventLinks::demandBirths(uint32_t emitter) const
@@ -194,7 +223,8 @@ void EventLinks::visit(uint32_t emitter)
     state_[emitter] = Visit::Open;
     path_.push_back(emitter);
     for (const sim::EventRule& rule : emitters_[emitter].events)
-        visit(rule.target);
+        if (rule.target != sim::kNoTarget)
+            visit(rule.target);
     path_.pop_back();
     state_[emitter] = Visit::Done;
     effect_.order.push_back(emitter);

@@ -44,7 +44,7 @@ public:
     /// Adds a request. Strong guarantee.
     void post(uint32_t target, const EventBirth& birth)
     {
-        if (target >= notes_.size() || birth.count == 0)
+        if (target >= notes_.size() || birth.count == 0) // kNoTarget is no solver
             return;
         Note& note = notes_[target];
         const bool isKept = note.wanted < note.room || !comesBefore(note.kept.front(), birth);

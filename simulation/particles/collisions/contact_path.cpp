@@ -98,7 +98,8 @@ private:
         const glm::vec3 place = contact.place + liftAt(contact.place) * contact.normal;
         const float approach = glm::dot(velocity, contact.normal);
         const float speed = std::max(-approach, 0.0f);
-        TileContact event{shareAt(contact), speed, place, velocity, false, uint32_t(contacts) + 1};
+        TileContact event{shareAt(contact),       speed,         place, velocity, false,
+                          uint32_t(contacts) + 1, contact.normal};
         if (contacts == 0)
             state_.contact = event.share;
         if (met.response != ContactResponse::Bounce) {
