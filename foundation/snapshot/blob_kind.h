@@ -4,11 +4,16 @@
 ///
 /// Extinction at distance r from the center is crossSection * W(r; radius) with W(r; R) = 105 / (32 pi R^3)
 /// (1 - (r/R)^2)^2, see shaders/formulas/kernel_optical_depth.fx.h. The medium emits as a gray body: source =
-/// (1 - albedo) * B(temperature) + emission, where B is the luminance of a black body. The source is
-/// multiplied by the blob's opacity. Therefore a medium without extinction emits nothing.
+/// (1 - albedo) * tint * B(temperature) + emission, where B is the luminance of a black body, and the tint is
+/// that of the instance, see tintOf(). The source is multiplied by the blob's opacity. Therefore a medium
+/// without extinction emits nothing.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
 
 namespace fx::base {
 
@@ -47,6 +52,11 @@ enum : size_t
     DetailScale,  ///< [1] periods of the noise per diameter of a blob
     Anisotropy,   ///< [1] mean cosine g of the Henyey-Greenstein phase function, (-1, 1)
     Shutter,      ///< [s] exposure time for motion blur; 0: no motion blur
+    /// [1] 1 minus the tint of the instance, which multiplies the luminance of black bodies; the columns of
+    /// albedo and emission are tinted already
+    ShadeR,
+    ShadeG,
+    ShadeB,
     Count
 };
 }
@@ -83,8 +93,15 @@ inline constexpr ColumnDesc kBlobColumns[blob_column::Count] = {
 };
 
 inline constexpr ColumnDesc kBlobConstants[blob_constant::Count] = {
-    {"layer", "1"}, {"detailAmount", "1"}, {"detailScale", "1"}, {"anisotropy", "1"}, {"shutter", "s"},
+    {"layer", "1"},   {"detailAmount", "1"}, {"detailScale", "1"}, {"anisotropy", "1"},
+    {"shutter", "s"}, {"shadeR", "1"},       {"shadeG", "1"},      {"shadeB", "1"},
 };
+
+/// [1] Tint of the instance. @param shade index of the constant ShadeR of a kind of media
+inline glm::vec3 tintOf(std::span<const float> constants, size_t shade = blob_constant::ShadeR)
+{
+    return {1.0f - constants[shade], 1.0f - constants[shade + 1], 1.0f - constants[shade + 2]};
+}
 
 inline constexpr KindDesc kBlobKind{"blob", kBlobColumns, kBlobConstants};
 

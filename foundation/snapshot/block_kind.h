@@ -57,6 +57,9 @@ namespace block_ball_constant {
 enum : size_t
 {
     Variant,
+    ShadeR, ///< [1] as blob_constant::ShadeR
+    ShadeG,
+    ShadeB,
     Count
 };
 }
@@ -81,7 +84,8 @@ inline constexpr ColumnDesc kBlockColumns[block_column::Count] = {
 inline constexpr ColumnDesc kBlockConstants[block_constant::Count] = {
     {"owner", "1"}, {"blocks", "1"}, {"refused", "1"}, {"seconds", "s"}};
 
-inline constexpr ColumnDesc kBlockBallConstants[block_ball_constant::Count] = {{"variant", "1"}};
+inline constexpr ColumnDesc kBlockBallConstants[block_ball_constant::Count] = {
+    {"variant", "1"}, {"shadeR", "1"}, {"shadeG", "1"}, {"shadeB", "1"}};
 
 inline constexpr KindDesc kBlockKind{"block", kBlockColumns, kBlockConstants};
 inline constexpr KindDesc kBlockBallKind{"blockBall", kBlobColumns, kBlockBallConstants};

@@ -1,4 +1,5 @@
 // The functions of fx_scene.h that concern one instance.
+#include "fxsdk/api/parameter_limits.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 
@@ -21,17 +22,17 @@ static_assert(int(FX_INSTANCE_HIDDEN) == int(fx::scene::InstanceState::Hidden));
 constexpr double kFarthest = 1e9;       // [m]
 constexpr float kSmallestScale = 1e-3f; // [1]
 constexpr float kLargestScale = 1e3f;   // [1]
-constexpr float kStrongestWind = 1e3f;  // [m/s]
-constexpr float kHighestIntensity = 1e3f;
 
 /// Latest start: far enough from the end of int64_t that no sum of steps overflows.
 constexpr int64_t kLatestStart = std::numeric_limits<int64_t>::max() / 4;
 
-void checkParameters(fx::api::Checks& check, float intensity, const float* wind, uint32_t emitting)
+void checkParameters(fx::api::Checks& check, float intensity, const float* wind, uint32_t emitting,
+                     const float* tint)
 {
-    check.range(intensity, 0.0f, kHighestIntensity, "intensity");
-    check.range3(wind, -kStrongestWind, kStrongestWind, "wind");
+    check.range(intensity, 0.0f, fx::api::kHighestIntensity, "intensity");
+    check.range3(wind, -fx::api::kStrongestWind, fx::api::kStrongestWind, "wind");
     check.flag(emitting, "emitting");
+    check.range3(tint, 0.0f, fx::api::kHighestTint, "tint");
 }
 
 void checkPlacement(fx::api::Checks& check, const double* position, const float* rotation, float scale)
@@ -46,21 +47,23 @@ fx::base::Placement toPlacement(const double* position, const float* rotation, f
     return {{position[0], position[1], position[2]}, fx::api::toRotation(rotation), scale};
 }
 
-fx::sim::InstanceParameters toParameters(float intensity, const float* wind, uint32_t emitting)
+fx::sim::InstanceParameters toParameters(float intensity, const float* wind, uint32_t emitting,
+                                         const float* tint)
 {
-    return {intensity, {wind[0], wind[1], wind[2]}, emitting != 0};
+    return {intensity, {wind[0], wind[1], wind[2]}, emitting != 0, {tint[0], tint[1], tint[2]}};
 }
 
 Status checkDef(const FxInstanceDef& def)
 {
     fx::api::Checks check;
     checkPlacement(check, def.position, def.rotation, def.scale);
-    checkParameters(check, def.intensity, def.wind, def.emitting);
+    checkParameters(check, def.intensity, def.wind, def.emitting, def.tint);
     check.range(def.startTick, int64_t(0), kLatestStart, "def.startTick");
     check.flag(def.destroyWhenFinished, "def.destroyWhenFinished");
     fx::api::checkQuality(check, def.quality, "def.quality");
     check.range(def.reserved, 0u, 0u, "def.reserved");
     check.range(def.reserved2, 0u, 0u, "def.reserved2");
+    check.range(def.reserved3, 0u, 0u, "def.reserved3");
     return check.status();
 }
 
@@ -86,7 +89,7 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         setup.userData = known.userData;
         setup.startTick = known.startTick;
         setup.placement = toPlacement(known.position, known.rotation, known.scale);
-        setup.parameters = toParameters(known.intensity, known.wind, known.emitting);
+        setup.parameters = toParameters(known.intensity, known.wind, known.emitting, known.tint);
         setup.destroyWhenFinished = known.destroyWhenFinished != 0;
         setup.quality = fx::api::toQuality(known.quality, scene->quality);
         const fx::scene::LocalId id = scene->scene.add(std::move(setup), known.visibilityMask);
@@ -184,9 +187,10 @@ FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance, const FxIn
                 !status)
                 return status;
             fx::api::Checks check;
-            checkParameters(check, known.intensity, known.wind, known.emitting);
+            checkParameters(check, known.intensity, known.wind, known.emitting, known.tint);
             if (check.status())
-                scene->scene.setParameters(id, toParameters(known.intensity, known.wind, known.emitting));
+                scene->scene.setParameters(
+                    id, toParameters(known.intensity, known.wind, known.emitting, known.tint));
             return check.status();
         });
 }
@@ -214,14 +218,14 @@ FxResult fxScene_SetVisibilityMask(FxScene* scene, FxInstanceId instance, uint32
 
 FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, float speed)
 {
-    return fx::api::withInstance(
-        "fxScene_SetInstanceSpeed", scene, instance, [&](fx::scene::LocalId id) -> Status {
-            fx::api::Checks check;
-            check.range(speed, 0.0f, 16.0f, "speed");
-            if (check.status())
-                scene->scene.setRate(id, uint32_t(speed * float(fx::sim::kNormalRate) + 0.5f));
-            return check.status();
-        });
+    return fx::api::withInstance("fxScene_SetInstanceSpeed", scene, instance,
+                                 [&](fx::scene::LocalId id) -> Status {
+                                     fx::api::Checks check;
+                                     check.range(speed, 0.0f, fx::api::kHighestSpeed, "speed");
+                                     if (check.status())
+                                         scene->scene.setRate(id, fx::api::toRate(speed));
+                                     return check.status();
+                                 });
 }
 
 FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, double seconds)

@@ -186,8 +186,14 @@ public:
     uint64_t userData(LocalId id) { return instances_.find(id)->setup.userData; }
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
+    const sim::InstanceParameters& parameters(LocalId id) { return instances_.find(id)->setup.parameters; }
     /// @param rate see sim::InstanceClock
     void setRate(LocalId id, uint32_t rate);
+    uint32_t rate(LocalId id)
+    {
+        const InstanceSetup& setup = instances_.find(id)->setup;
+        return setup.clock ? setup.clock->rate : setup.rate;
+    }
     /// Moves an instance to a local time. The next update() publishes the result, even if the update takes
     /// no step.
     /// @return InvalidArgument before the start and after the end of the instance

@@ -40,6 +40,7 @@ void saveSetup(sim::StateWriter& writer, const InstanceSetup& setup)
     writer.value(setup.parameters.intensity);
     writer.vector(setup.parameters.wind);
     writer.flag(setup.parameters.emitting);
+    writer.vector(setup.parameters.tint);
     writer.flag(setup.destroyWhenFinished);
     writer.value(setup.quality);
     writer.value(setup.rate);
@@ -77,6 +78,8 @@ InstanceSetup restoreSetup(sim::StateReader& reader)
     setup.parameters.intensity = reader.value<float>(0.0f, 1e3f, "an intensity is out of range");
     setup.parameters.wind = reader.vector();
     setup.parameters.emitting = reader.flag();
+    for (int k = 0; k < 3; ++k)
+        setup.parameters.tint[k] = reader.value<float>(0.0f, 1.0f, "a tint is out of range");
     setup.destroyWhenFinished = reader.flag();
     setup.quality =
         reader.value(sim::QualityLevel::Low, sim::QualityLevel::Reference, "a quality is out of range");

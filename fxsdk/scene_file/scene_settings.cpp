@@ -225,6 +225,7 @@ SceneInstance readInstance(const PresetValue& value)
     value.read("start", instance.start);
     value.read("intensity", instance.parameters.intensity);
     value.read("wind", instance.parameters.wind);
+    value.read("tint", instance.parameters.tint);
     instance.play = readPlay(value, instance.start);
     return instance;
 }

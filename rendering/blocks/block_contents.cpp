@@ -21,7 +21,8 @@ using base::vectorAt;
 /// Light per optical depth, as of thin gas.
 glm::vec3 lightOf(const SnapshotGroup& group, uint32_t i, const glm::vec3& albedo)
 {
-    return (1.0f - albedo) * blackBodyLuminance(group.start(blob::Temperature)[i]) +
+    const glm::vec3 tint = base::tintOf(group.constants(), base::block_ball_constant::ShadeR);
+    return (1.0f - albedo) * tint * blackBodyLuminance(group.start(blob::Temperature)[i]) +
            vectorAt(group, blob::EmissionR, i);
 }
 

@@ -200,6 +200,7 @@ float BlockWalk::leastRadius(const glm::vec3& center) const
 
 void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, float weight)
 {
+    const glm::vec3 tint = base::tintOf(group.constants(), base::block_ball_constant::ShadeR);
     const float section = weight * frame.density * frame.scale * frame.scale;
     for (uint32_t i = 0; i < group.count(); ++i) {
         GatheredBlob ball = like_;
@@ -222,6 +223,7 @@ void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, fl
             continue;
         }
         ball.temperature = group.start(blob::Temperature)[i];
+        ball.tint = tint;
         ball.albedo = vectorAt(group, blob::AlbedoR, i);
         ball.emission = vectorAt(group, blob::EmissionR, i);
         ball.fireShare = glm::clamp(group.start(blob::FireShare)[i], 0.0f, 1.0f);

@@ -252,6 +252,7 @@ void FieldMedia::fillVolumes(FrameGraph& graph, ResourceId blobs)
         const float fire = isFire ? 1.0f : volume.fireShare;
         in.block.factors = {float(volume.density), float(volume.density * double(exposure_)),
                             volume.anisotropy, 0.0f};
+        in.block.tint = glm::vec4(volume.tint, 1.0f);
         in.block.share = {fire, isDust ? 1.0f - fire : 0.0f, isFire ? 1.0f : 0.0f, isDust ? 1.0f : 0.0f};
         voxels_.import(graph, shownVoxels_[placed.volume], placed.level, in);
         texturesIds_ = FieldVolumePass::addTo(graph, in).textures;

@@ -23,11 +23,12 @@ struct FieldVolumeBlock
     glm::vec4 rows[3]; ///< from a place [m] relative to the eye to voxels: dot(xyz, p) + w
     Frame frames[2];
     glm::vec4 factors; ///< x of the extinction; y of emitted light, with the exposure; z mean cosine
+    glm::vec4 tint;    ///< rgb factor of albedo and emitted light
     glm::vec4 share;   ///< as in BlobInstance::layer, spread: fire, dust, 1 if of fire, 1 if of dust
     glm::vec4 moment;  ///< x share of the second frame; y, z [s] since the first and until the second frame
     glm::ivec4 first;  ///< x first brick of the field
 };
-static_assert(sizeof(FieldVolumeBlock) == 208);
+static_assert(sizeof(FieldVolumeBlock) == 224);
 
 /// Writes extinction, emitted light, albedo and phase function of the volume at the samples of the bricks.
 ///

@@ -238,6 +238,7 @@ private:
         blob.temperature = reader.value(column::Temperature);
         blob.albedo = reader.vector(column::AlbedoR);
         blob.emission = reader.vector(column::EmissionR);
+        blob.tint = base::tintOf(constants);
         blob.fireShare = glm::clamp(reader.value(column::FireShare), 0.0f, 1.0f);
         blob.heat = reader.value(column::Heat);
         blob.seed = detailSeed(reader.id());

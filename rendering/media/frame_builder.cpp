@@ -20,7 +20,7 @@ namespace {
 /// @param exposure [m2/cd] exposed value per luminance
 BlobInstance shadeBlob(const GatheredBlob& blob, float exposure)
 {
-    const glm::vec3 thermal = blackBodyLuminance(blob.temperature);
+    const glm::vec3 thermal = blob.tint * blackBodyLuminance(blob.temperature);
     const glm::vec3 emitted = ((1.0f - blob.albedo) * thermal + blob.emission) * exposure;
 
     BlobInstance instance;

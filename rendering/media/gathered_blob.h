@@ -14,21 +14,22 @@ namespace fx::render {
 /// A blob relative to the eye, before lighting.
 struct GatheredBlob
 {
-    glm::vec3 center;   ///< [m] position relative to the eye, along world axes
-    float radius;       ///< [m] > 0
-    float crossSection; ///< [m2] > 0
-    float temperature;  ///< [K]
-    glm::vec3 albedo;   ///< [1]
-    glm::vec3 emission; ///< [cd/m2] emission in addition to black-body emission
-    float fireShare;    ///< [1]
-    float heat;         ///< [K]
-    float seed;         ///< [0, 1) seed of procedural detail, computed from the id of the blob
-    float rank;         ///< [0, 1) see BlobInstance::layer
-    float detailAmount; ///< [1]
-    float detailScale;  ///< [1]
-    float anisotropy;   ///< [1]
-    uint32_t layer;     ///< MediaLayer
-    int detail = -1;    ///< index of the detail of its group; -1: no detail
+    glm::vec3 center;     ///< [m] position relative to the eye, along world axes
+    float radius;         ///< [m] > 0
+    float crossSection;   ///< [m2] > 0
+    float temperature;    ///< [K]
+    glm::vec3 albedo;     ///< [1]
+    glm::vec3 emission;   ///< [cd/m2] emission in addition to black-body emission
+    glm::vec3 tint{1.0f}; ///< [1] factor of black-body emission
+    float fireShare;      ///< [1]
+    float heat;           ///< [K]
+    float seed;           ///< [0, 1) seed of procedural detail, computed from the id of the blob
+    float rank;           ///< [0, 1) see BlobInstance::layer
+    float detailAmount;   ///< [1]
+    float detailScale;    ///< [1]
+    float anisotropy;     ///< [1]
+    uint32_t layer;       ///< MediaLayer
+    int detail = -1;      ///< index of the detail of its group; -1: no detail
     /// Number of the tile + 1 that the extinction of the blob follows instead of the kernel; 0: the kernel.
     uint32_t tile = 0;
     glm::vec3 velocity{0.0f}; ///< [m/s] velocity relative to the world

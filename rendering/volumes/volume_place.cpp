@@ -54,6 +54,7 @@ GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGr
     out.first = -(out.toVoxels * place.position) - origin / own;
     if (blobs.count() > 0)
         out.fireShare = glm::clamp(blobs.column(base::blob_column::FireShare)[0], 0.0f, 1.0f);
+    out.tint = base::tintOf(blobs.constants());
     out.anisotropy = blobs.constants()[base::blob_constant::Anisotropy];
     out.layer = uint32_t(blobs.constants()[base::blob_constant::Layer]);
     return out;

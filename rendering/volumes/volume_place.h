@@ -27,6 +27,7 @@ struct GroupVolume
     double side = 1.0;      ///< [m] side of a voxel in the world
     double density = 1.0;   ///< [1] factor of the extinction and emission of the file, per meter of the world
     bool isAligned = true;  ///< true: the axes of the voxels are those of the world
+    glm::vec3 tint{1.0f};   ///< [1] factor of albedo and emission of the file
     float fireShare = 0.0f; ///< [1] of the first blob
     float anisotropy = 0.0f;
     uint32_t layer = 0; ///< MediaLayer

@@ -34,6 +34,7 @@ layout(std140, binding = 0) uniform FieldVolumeBlock
     vec4 rows[3];          // from a place [m] relative to the eye to voxels: dot(xyz, p) + w
     VolumeFrame frames[2];
     vec4 factors;          // x of extinction; y of emitted light; z mean cosine
+    vec4 tint;             // rgb of albedo and emitted light
     vec4 share;            // of extinction: as fire, as dust; of balls of fire, of dust
     vec4 moment;           // x share of the second frame; y, z [s] since the first and until the second
     ivec4 firstBrick;      // x of the field
@@ -202,9 +203,9 @@ void main()
         vec3 p = placeOfSample(field, brick, first + ivec3(0, 0, z));
         VolumeSample found = volumeAt(voxelAt(p));
         float extinction = factors.x * found.medium.a;
-        vec3 albedo = found.scattered / max(found.medium.a, 1e-20);
+        vec3 albedo = tint.rgb * found.scattered / max(found.medium.a, 1e-20);
         largest = max(largest, extinction * vec2(z <= kBrickCells / 2, z >= kBrickCells / 2));
-        imageStore(medium, texel + ivec3(0, 0, z), vec4(factors.y * found.medium.rgb, extinction));
+        imageStore(medium, texel + ivec3(0, 0, z), vec4(factors.y * tint.rgb * found.medium.rgb, extinction));
         imageStore(scatter, texel + ivec3(0, 0, z), vec4(clamp(albedo, vec3(0.0), vec3(1.0)), factors.z));
 #if FX_LAYERS
         imageStore(shares, texel + ivec3(0, 0, z), share * (extinction / field.limits.y));

@@ -60,6 +60,9 @@ struct InstanceParameters
     float intensity = 1.0f; ///< [1] factor on future birth rates and injected energies, >= 0
     glm::vec3 wind{0.0f};   ///< [m/s] world wind that is added to the effect's own wind
     bool emitting = true;   ///< false: there are no births; existing elements continue
+    glm::vec3 tint{1.0f};   ///< [1] factor of emitted and scattered light, 0..1, see instance-tint
+
+    bool isTinted() const { return tint != glm::vec3(1.0f); }
 };
 
 /// Counts of the work of a step.

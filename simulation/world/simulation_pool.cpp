@@ -20,7 +20,7 @@ uint64_t bitsOf(double x)
 }
 
 /// Everything of the conditions as whole words.
-std::array<uint64_t, 17> words(const SimulationConditions& c)
+std::array<uint64_t, 19> words(const SimulationConditions& c)
 {
     const base::Placement& p = c.placement;
     const uint64_t choices =
@@ -41,7 +41,9 @@ std::array<uint64_t, 17> words(const SimulationConditions& c)
             bitsOf(p.rotation.x, p.rotation.y),
             bitsOf(p.rotation.z, p.rotation.w),
             bitsOf(p.scale, c.worldWind.x),
-            bitsOf(c.worldWind.y, c.worldWind.z)};
+            bitsOf(c.worldWind.y, c.worldWind.z),
+            bitsOf(c.parameters.tint.x, c.parameters.tint.y),
+            bitsOf(c.parameters.tint.z, 0.0f)};
 }
 
 } // namespace

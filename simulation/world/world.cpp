@@ -156,7 +156,8 @@ SimulationConditions World::conditionsOf(const EffectDef& effect, const Instance
                                         std::max(start.placement.scale, 1e-6f);
     const bool hasGround = environment_.hasGround && effect.hasGround;
     conditions.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
-    conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting};
+    conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting,
+                             start.parameters.tint};
     if (effect.dependsOnPlacement()) {
         conditions.placement = start.placement;
         conditions.worldWind = start.parameters.wind;

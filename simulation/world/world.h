@@ -333,6 +333,7 @@ private:
         std::span<const Slot> list;
         std::vector<Slot> own; ///< memory of `list` between two calls
         uint32_t solver = 0;   ///< index of the present solver in the slot
+        size_t firstGroup = 0; ///< number of the first group of the slot in the snapshot
         PublicationPlace part; ///< progress of the publication of the present solver
         base::FrameSnapshot* snapshot = nullptr;
     };

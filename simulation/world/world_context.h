@@ -36,7 +36,7 @@ void World::withContext(SimulationIndex index, StepCounters& counters, F&& body)
     context.tasks = tasks_;
     context.scratch = &scratch_;
     context.counters = &counters;
-    context.gpuParticles = gpuParticles_;
+    context.gpuParticles = gpuParticles_ && !simulation.conditions.parameters.isTinted();
     body(context, simulation);
 }
 

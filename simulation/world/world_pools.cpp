@@ -24,7 +24,8 @@ bool World::canPool(const SharedSimulation& simulation) const
 {
     return mayPool_ && simulation.only && simulation.users == 1 && simulation.hidden == 0 &&
            simulation.effect->subSteps <= 1 && simulation.pendingEvents.empty() &&
-           simulation.changes.empty() && simulation.conditions.clock.rate == kNormalRate;
+           simulation.changes.empty() && simulation.conditions.clock.rate == kNormalRate &&
+           !simulation.conditions.parameters.isTinted();
 }
 
 /// Its solver goes on by itself.

@@ -1,11 +1,16 @@
 // What a world publishes, which a budget of work may divide: between solvers, and inside of those that can be
 // divided.
 #include "foundation/simd/floating_point_scope.h"
+#include "simulation/world/group_tint.h"
 #include "simulation/world/world.h"
 
 #include <algorithm>
 
 namespace fx::sim {
+
+namespace {
+constexpr uint64_t kTintedRows = 2; ///< rows that are tinted in one unit of work
+}
 
 void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot)
 {
@@ -25,6 +30,7 @@ void World::beginPublication(std::span<const Slot> active, base::FrameSnapshot& 
     hand.place = 0;
     hand.solver = 0;
     hand.part = {};
+    hand.firstGroup = 0;
     hand.snapshot = &snapshot;
     hand.isOpen = true;
 }
@@ -67,6 +73,7 @@ bool World::publishSlots(base::WorkBudget& work)
         if (!publishSlot(hand.list[hand.place], work))
             return false;
         hand.solver = 0;
+        hand.firstGroup = hand.snapshot->addedCount();
         if (hand.hasPools)
             ends_.push_back(uint32_t(hand.snapshot->addedCount()));
     }
@@ -82,18 +89,21 @@ bool World::publishSlot(Slot slot, base::WorkBudget& work)
     base::GroupInfo info;
     info.instance = instance.start.instance;
     info.placement = instance.start.placement;
+    const bool isTinted = instance.start.parameters.isTinted();
     for (; hand.solver < simulation.solvers.size(); ++hand.solver) {
         if (work.isSpent())
             return false;
         info.solver = hand.solver;
         Solver& solver = simulation.only ? *simulation.only : *simulation.solvers[hand.solver];
         const PooledEmitter* const emitter = solver.pooledEmitter();
-        if (emitter && emitter->joinPublication(info, *hand.snapshot, spawnBatch_))
+        if (emitter && !isTinted && emitter->joinPublication(info, *hand.snapshot, spawnBatch_))
             continue;
         if (!publishWithin(solver, info, *hand.snapshot, hand.part, work))
             return false;
         hand.part = {};
     }
+    if (isTinted)
+        work.spend(tintGroups(instance.start.parameters.tint, hand.firstGroup, *hand.snapshot) / kTintedRows);
     return true;
 }
 

@@ -28,6 +28,7 @@ struct Sounds
     void (*addDecal)(const double position[3], const float normal[3]);
 };
 int hearEffects(FxScene* scene, const Sounds* sounds);
+int turnBlue(FxContext* context, const Effects* effects, FxInstanceId instance);
 }
 
 using EffectInYourGame = fx::test::EncodedTargetTest;
@@ -109,6 +110,7 @@ TEST_F(EffectInYourGame, theCodeOfThePageDrawsEffectsBeforeAndBehindGlass)
     FxInstanceId instance{};
     uint32_t count = 0;
     ASSERT_EQ(fxScene_GetInstances(effects.scene, &instance, 1, &count), FX_OK);
+    ASSERT_EQ(turnBlue(effects.context, &effects, instance), 0) << fxGetLastErrorMessage();
     ASSERT_EQ(showInMainViewOnly(&effects, instance), 0) << fxGetLastErrorMessage();
     def.visibilityMask = 2u; // of the map
     store(target, std::vector<float>(size_t(kSize * kSize * 4), 0.25f));

@@ -167,6 +167,8 @@ protected:
         host.note("fxScene_GetInstances", fxScene_GetInstances(scene, nullptr, 0, &count));
         host.note("fxScene_GetEvents", fxScene_GetEvents(scene, nullptr, 0, &count, nullptr));
         host.note("fxScene_GetUserData", fxScene_GetUserData(scene, instance_, &hash));
+        host.note("fxScene_SetParameter",
+                  fxScene_SetParameter(scene, instance_, {}, FX_PARAMETER_FLOAT, position));
         host.note("fxScene_GetInstanceState",
                   fxScene_GetInstanceState(scene, instance_, &instanceState, nullptr));
         host.note("fxScene_SetTransform", fxScene_SetTransform(scene, instance_, position, rotation, 1.0f));

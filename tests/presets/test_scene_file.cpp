@@ -24,7 +24,7 @@ constexpr const char* kScene = R"({
   "mesh": {"file": "m.obj", "position": [10, 0, 0], "scale": 2, "collide": true, "cellSize": 0.25},
   "instances": [
     {"preset": "sparks.fx.json", "position": [100000.25, 1, 2], "rotationDegrees": [0, 90, 0], "scale": 2,
-     "seed": 9007199254740991, "start": 1.5, "intensity": 3, "wind": [4, 5, 6]},
+     "seed": 9007199254740991, "start": 1.5, "intensity": 3, "wind": [4, 5, 6], "tint": [1, 0.5, 0]},
     {"preset": "library:explosion", "quaternion": [0, 0, 2, 0]},
     {"preset": "sparks.fx.json"}
   ],
@@ -200,6 +200,7 @@ TEST(SceneFile, readsInstancesAndEachPresetOnce)
     EXPECT_FLOAT_EQ(first.scale, 2);
     EXPECT_FLOAT_EQ(first.parameters.intensity, 3);
     EXPECT_EQ(first.parameters.wind, glm::vec3(4, 5, 6));
+    EXPECT_EQ(first.parameters.tint, glm::vec3(1.0f, 0.5f, 0.0f));
 }
 
 TEST(SceneFile, rotatesAboutXThenYThenZAndNormalizesQuaternions)

@@ -43,6 +43,29 @@ class FxReference(FxTest):
         self.assertEqual(outcome.code, 0, outcome.err)
         self.assertEqual(self.names(), ["a.exr"])
 
+    def test_a_tinted_instance_keeps_red_and_gives_no_light_of_other_colors(self):
+        preset = {"version": 1, "ground": False, "emitters": [
+            {"emission": {"bursts": [{"time": 0, "count": 12}]}, "shape": "sphere", "size": 0.5, "lifetime": 5, "radius": 0.4,
+             "temperature": 1500, "albedoOverLife": [0.3, 0.3, 0.3], "emissionOverLife": [10, 20, 30], "forces": {"gravity": 0}}]}
+        self.write("glow.fx.json", json.dumps(preset))
+        pictures = {}
+        for name, tint in (("plain", [1, 1, 1]), ("red", [1, 0, 0])):
+            scene = {"version": 1, "camera": {"position": [0, 0, 4], "target": [0, 0, 0], "fovYDegrees": 40},
+                     "instances": [{"preset": "glow.fx.json", "tint": tint}]}
+            path = self.write(f"{name}.scene.json", json.dumps(scene))
+            outcome = fx("render", path, "-o", self.folder / f"{name}.exr", "--renderer", "reference", "--time", "0.5",
+                         "--size", "24x16")
+            self.assertEqual(outcome.code, 0, outcome.err)
+            pictures[name] = read_planes(self.folder / f"{name}.exr")[2]
+        plain, red = pictures["plain"], pictures["red"]
+        self.assertGreater(max(plain["R"]), 1.0)
+        self.assertGreater(max(plain["G"]), 1.0)
+        for a, b in zip(plain["R"], red["R"]):
+            self.assertAlmostEqual(a, b, delta=1e-4 * max(plain["R"]))
+        self.assertLess(max(red["G"]), 1e-6 * max(plain["G"]))
+        self.assertLess(max(red["B"]), 1e-6 * max(plain["B"]))
+        self.assertEqual(plain["A"], red["A"])
+
     def test_detail_of_fields_is_there_where_the_composition_draws_it(self):
         def picture(name, *arguments):
             path = self.folder / f"{name}.exr"

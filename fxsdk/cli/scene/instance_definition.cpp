@@ -11,6 +11,7 @@ FxInstanceDef instanceDefinition(const scene_file::SceneInstance& instance, FxPr
     for (int i = 0; i < 3; ++i) {
         def.position[i] = place.position[i];
         def.wind[i] = instance.parameters.wind[i];
+        def.tint[i] = instance.parameters.tint[i];
     }
     def.rotation[0] = place.rotation.x;
     def.rotation[1] = place.rotation.y;

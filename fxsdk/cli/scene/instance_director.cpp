@@ -70,8 +70,10 @@ base::Status InstanceDirector::change(FxScene* scene, Role& role, base::Ticks du
         return {};
     FxInstanceParameters parameters = fxDefaultInstanceParameters();
     parameters.intensity = role.instance.parameters.intensity;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; ++i) {
         parameters.wind[i] = role.instance.parameters.wind[i];
+        parameters.tint[i] = role.instance.parameters.tint[i];
+    }
     parameters.emitting = play.emitting[role.switches - 1].value > 0.0 ? 1 : 0;
     return toStatus(fxScene_SetParameters(scene, role.id, &parameters));
 }

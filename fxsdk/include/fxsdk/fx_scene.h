@@ -16,6 +16,7 @@
 #include "fxsdk/fx_base.h"
 #include "fxsdk/fx_collision.h"
 #include "fxsdk/fx_events.h"
+#include "fxsdk/fx_parameters.h"
 #include "fxsdk/fx_state.h"
 
 #ifdef __cplusplus
@@ -122,29 +123,6 @@ static inline FxSceneDef fxDefaultSceneDef(void)
     return def;
 }
 
-/// Parameters that may change while an instance runs. Fill with fxDefaultInstanceParameters().
-typedef struct FxInstanceParameters
-{
-    /// Set by fxDefaultInstanceParameters(); do not touch.
-    uint32_t structSize;
-
-    /// [1] 0..1000, multiplies future birth rates and injected energies; default 1.
-    float intensity;
-
-    /// [m/s] world, each component within +-1000, added to the wind of the preset; default 0.
-    float wind[3];
-
-    /// 0: no births, existing particles continue; 1 (default): births as in the preset.
-    uint32_t emitting;
-} FxInstanceParameters;
-
-/// Parameters that do not change the preset.
-static inline FxInstanceParameters fxDefaultInstanceParameters(void)
-{
-    FxInstanceParameters parameters = {sizeof(FxInstanceParameters), 1.0f, {0.0f, 0.0f, 0.0f}, 1};
-    return parameters;
-}
-
 /// Definition of a new instance. Fill with fxDefaultInstanceDef(), then set the preset and change members.
 typedef struct FxInstanceDef
 {
@@ -198,6 +176,12 @@ typedef struct FxInstanceDef
 
     /// Any number of the host, returned by events and by fxScene_GetUserData(); default 0.
     uint64_t userData;
+
+    /// [1] see FxInstanceParameters; default 1.
+    float tint[3];
+
+    /// Reserved; must be 0.
+    uint32_t reserved3;
 } FxInstanceDef;
 
 /// The definition of an instance that starts at once at the world's origin; only its preset is missing.
@@ -210,6 +194,7 @@ static inline FxInstanceDef fxDefaultInstanceDef(void)
     def.intensity = 1.0f;
     def.emitting = 1;
     def.visibilityMask = 0xFFFFFFFFu;
+    def.tint[0] = def.tint[1] = def.tint[2] = 1.0f;
     return def;
 }
 
@@ -343,10 +328,10 @@ FX_API FxResult fxScene_AdoptThread(FxScene* scene);
 /// Adds an instance. It starts when the scene clock reaches def->startTick, or with the next step when that
 /// time is past. An instance that starts with the next step allocates its memory in this call. An instance
 /// that starts later allocates its memory at its start. Instances of one preset share one simulation when
-/// they have equal start, seed, quality, intensity and emission, and equal gravity and wind in local space.
-/// Emitters with "space": "world" also need equal placements. A shared simulation is stepped once and shown
-/// at each instance's own placement. When an instance is changed, it gets a simulation of its own. [scene
-/// thread]
+/// they have equal start, seed, quality, intensity, emission and tint, and equal gravity and wind in local
+/// space. Emitters with "space": "world" also need equal placements. A shared simulation is stepped once and
+/// shown at each instance's own placement. When an instance is changed, it gets a simulation of its own.
+/// [scene thread]
 /// @param outInstance receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT (not finite or out of range),
 ///         FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_OUT_OF_MEMORY,

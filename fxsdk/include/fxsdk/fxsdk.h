@@ -14,6 +14,7 @@
 #include "fxsdk/fx_context.h"
 #include "fxsdk/fx_defaults.h"
 #include "fxsdk/fx_events.h"
+#include "fxsdk/fx_parameters.h"
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/fx_reload.h"
 #include "fxsdk/fx_scene.h"

@@ -152,6 +152,14 @@ public:
         return detail::filled<FxPresetInfo>([&](auto* out) { return fxGetPresetInfo(get(), preset, out); });
     }
 
+    /// Handle of a parameter for Scene::set(), such as "tint".
+    FxParameterId findParameter(FxPresetId preset, const std::string& name)
+    {
+        FxParameterId parameter{};
+        check(fxFindParameter(get(), preset, name.c_str(), &parameter));
+        return parameter;
+    }
+
     /// Index of a cue of a preset, as in FxEvent::cue.
     uint32_t findCue(FxPresetId preset, const std::string& name)
     {
@@ -218,6 +226,21 @@ public:
     void setParameters(FxInstanceId instance, const FxInstanceParameters& parameters)
     {
         check(fxScene_SetParameters(get(), instance, &parameters));
+    }
+
+    /// Changes one parameter, which Context::findParameter() has found.
+    void set(FxInstanceId instance, FxParameterId parameter, float value)
+    {
+        check(fxScene_SetParameter(get(), instance, parameter, FX_PARAMETER_FLOAT, &value));
+    }
+    void set(FxInstanceId instance, FxParameterId parameter, const float (&value)[3])
+    {
+        check(fxScene_SetParameter(get(), instance, parameter, FX_PARAMETER_FLOAT3, value));
+    }
+    void set(FxInstanceId instance, FxParameterId parameter, bool value)
+    {
+        const uint32_t flag = value ? 1 : 0;
+        check(fxScene_SetParameter(get(), instance, parameter, FX_PARAMETER_BOOL, &flag));
     }
 
     /// Shows the instance only in frames whose FxFrameDef::visibilityMask shares a bit with `mask`.

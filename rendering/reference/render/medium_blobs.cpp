@@ -70,6 +70,7 @@ public:
             groupDetail_.factor =
                 ConservationFactor(std::pmr::get_default_resource()).of(groupDetail_, casters_);
             out.details.groups.push_back({groupDetail_, place_.position});
+            out.details.groups.back().place.tint = base::tintOf(newer_.constants());
         }
     }
 
@@ -112,7 +113,8 @@ private:
         blob.radius = value(column::Radius, i, old) * scale;
         blob.crossSection = value(column::CrossSection, i, old) * scale * scale;
         blob.albedo = vector(column::AlbedoR, i, old);
-        blob.source = (1.0 - blob.albedo) * glm::dvec3(blackBodyLuminance(temperature)) +
+        const glm::dvec3 tint(base::tintOf(newer_.constants()));
+        blob.source = (1.0 - blob.albedo) * tint * glm::dvec3(blackBodyLuminance(temperature)) +
                       vector(column::EmissionR, i, old);
         blob.fireShare = glm::clamp(value(column::FireShare, i, old), 0.0, 1.0);
         blob.anisotropy = double(newer_.constants()[constant::Anisotropy]);

@@ -103,8 +103,8 @@ MediumVolume::Sample DetailedMedium::volumeAt(size_t group, const glm::dvec3& po
     const Group& own = groups_[group];
     MediumVolume::Sample sample = own.volume->at(own.place.voxelAt(point - own.origin));
     sample.extinction *= own.place.density;
-    sample.emitted *= own.place.density;
-    sample.scattered *= own.place.density;
+    sample.emitted *= own.place.density * glm::dvec3(own.place.tint);
+    sample.scattered *= own.place.density * glm::dvec3(own.place.tint);
     return sample;
 }
 
@@ -180,7 +180,8 @@ glm::dvec3 DetailMix::source(uint32_t place, const glm::dvec3& source, const glm
         return source;
     const glm::dvec3 more = glm::dvec3(blackBodyLuminance(medium_.ball(place).temperature * change)) -
                             glm::dvec3(medium_.thermal(place));
-    return glm::max(source + (1.0 - albedo) * more, glm::dvec3(0.0));
+    const glm::dvec3 tint(medium_.tint(size_t(medium_.groupOf(place))));
+    return glm::max(source + (1.0 - albedo) * tint * more, glm::dvec3(0.0));
 }
 
 const DetailMix::Sum* DetailMix::volumeOf(uint32_t place) const

@@ -28,7 +28,8 @@ struct MediumDetails
         GroupDetail detail;
         glm::dvec3 origin{0.0};                               ///< [m] position of the origin in the world
         std::shared_ptr<const MediumVolume> volume = nullptr; ///< null: the group is no volume
-        GroupVolume place = {}; ///< of `volume`, for positions relative to `origin`
+        /// Of `volume`, for positions relative to `origin`. Without a volume, only the tint is set.
+        GroupVolume place = {};
     };
     /// Data of one ball.
     struct Ball
@@ -89,7 +90,9 @@ public:
     MediumVolume::Sample volumeAt(size_t group, const glm::dvec3& point) const;
     /// [1/m] Sum over volumes of their largest extinction.
     double largestOfVolumes() const;
-    /// [cd/m2] Black-body luminance at the temperature of a ball.
+    /// [1] Tint of the instance of a group.
+    const glm::vec3& tint(size_t group) const { return groups_[group].place.tint; }
+    /// [cd/m2] Black-body luminance at the temperature of a ball, without tint.
     const glm::vec3& thermal(uint32_t place) const { return thermal_[place]; }
     /// [1/m] Upper bound of the eroded extinction at points where the smooth extinction is at most `most`
     /// [1/m].

@@ -79,6 +79,7 @@ void addDetails(KeyHash& hash, const MediumDetails& details)
     for (const MediumDetails::Group& group : details.groups) {
         const FieldDetailNumbers& n = group.detail.numbers;
         hash.add(group.origin);
+        add(hash, group.place.tint);
         if (group.volume) {
             hash.addWord(group.volume->hash());
             for (int column = 0; column < 3; ++column)

@@ -265,7 +265,8 @@ glm::vec3 blobSource(const base::SnapshotGroup& group, size_t i)
     const auto c = [&](size_t index) { return group.column(index)[i]; };
     const glm::vec3 albedo(c(column::AlbedoR), c(column::AlbedoG), c(column::AlbedoB));
     const glm::vec3 own(c(column::EmissionR), c(column::EmissionG), c(column::EmissionB));
-    return (1.0f - albedo) * blackBodyLuminance(c(column::Temperature)) + own;
+    return (1.0f - albedo) * base::tintOf(group.constants()) * blackBodyLuminance(c(column::Temperature)) +
+           own;
 }
 
 float blobArea(float crossSection, float radius)
