@@ -30,6 +30,12 @@ inline const std::string kSparks =
     {"name":"smoke","maxParticles":2000,"lifetime":0.3,"radius":0.05,
      "events":[{"on":"death","cue":"puff"}]}]})";
 
+/// Three hundred particles, all of which die within one step, in another order than that of their birth.
+inline const std::string kFlash =
+    R"({"version":1,"name":"flash","emitters":[{"name":"flash","maxParticles":300,
+    "emission":{"bursts":[{"time":0,"count":300}]},"lifetime":{"min":0.101,"max":0.115},"radius":0.01,
+    "events":[{"on":"death","cue":"first"},{"on":"death","cue":"second"}]}]})";
+
 /// True if all bits are equal.
 inline bool areEqual(const std::vector<FxEvent>& a, const std::vector<FxEvent>& b)
 {

@@ -13,6 +13,7 @@ struct Way
     uint32_t capacity = 1 << 16;
     uint64_t workBudget = 0;
     int updatesOfAStep = 1; ///< below 0: steps of an update
+    const std::string& preset = kSparks;
 };
 
 /// All events of 1 s of five instances, three of which are equal.
@@ -32,7 +33,7 @@ std::vector<FxEvent> sparksBy(const Way& way, FxSceneStatistics* outStatistics =
     FxScene* scene = nullptr;
     EXPECT_EQ(fxCreateScene(context, &def, &scene), FX_OK);
     FxInstanceDef instance = fxDefaultInstanceDef();
-    instance.preset = loadText(context, kSparks);
+    instance.preset = loadText(context, way.preset);
     std::vector<FxInstanceId> ids;
     for (int i = 0; i < 5; ++i) {
         instance.seed = i % 2 == 0 ? 1 : 2 + uint64_t(i);
@@ -117,5 +118,18 @@ TEST(EventOrder, whatDoesNotFitIsLostAndCountedWithAndWithoutSharing)
             EXPECT_TRUE(areEqual(some, {all.begin(), all.begin() + capacity})) << capacity;
             EXPECT_EQ(statistics.eventsLost, all.size() - capacity) << shares;
             EXPECT_EQ(statistics.eventsPending, capacity);
+        }
+}
+
+TEST(EventOrder, ofAStepWithTooManyEventsTheFirstInTimeAreKept)
+{
+    FxSceneStatistics statistics{};
+    const std::vector<FxEvent> all = sparksBy({1, 1, 1 << 16, 0, 1, kFlash});
+    ASSERT_GE(all.size(), 3000u);
+    for (const uint32_t capacity : {1u, 7u, 500u, 2000u})
+        for (const uint32_t shares : {0u, 1u}) {
+            const std::vector<FxEvent> some = sparksBy({1, shares, capacity, 0, 1, kFlash}, &statistics);
+            EXPECT_TRUE(areEqual(some, {all.begin(), all.begin() + capacity})) << capacity << " " << shares;
+            EXPECT_EQ(statistics.eventsLost, all.size() - capacity) << capacity << " " << shares;
         }
 }

@@ -370,6 +370,22 @@ TEST_F(EventApi, recordingChangesNoParticle)
     EXPECT_EQ(with, without);
 }
 
+TEST_F(EventApi, recordingAllocatesNothingOnceTheSceneIsWarm)
+{
+    open([](FxSceneDef& def) { def.eventKinds = kAllEvents; });
+    add(kSparks);
+    update(60);
+    for (int frame = 0; frame < 60; ++frame) {
+        update(1);
+        FxSceneStatistics now{};
+        now.structSize = sizeof now;
+        ASSERT_EQ(fxScene_GetStatistics(events_, &now), FX_OK);
+        ASSERT_EQ(now.updateAllocations, 0u) << frame;
+        ASSERT_GT(now.eventsPending, 0u);
+        take();
+    }
+}
+
 TEST_F(EventApi, cuesAreFoundByNameAndIndex)
 {
     open();
