@@ -145,6 +145,22 @@ TEST_F(EventApi, positionsAndVectorsAreThoseOfTheWorld)
     EXPECT_NEAR(double(hit.velocity[1]), 0.5 * double(hit.speed), 0.1);
 }
 
+TEST_F(EventApi, theNormalOfATiltedGroundIsTiltedToo)
+{
+    open();
+    const double tilt = 0.4;
+    add(kDrop, [&](FxInstanceDef& def) {
+        def.rotation[2] = float(std::sin(0.5 * tilt));
+        def.rotation[3] = float(std::cos(0.5 * tilt));
+    });
+    update(60);
+    const std::vector<FxEvent> events = take();
+    ASSERT_TRUE(find(events, FX_EVENT_COLLIDED));
+    const FxEvent& hit = *find(events, FX_EVENT_COLLIDED);
+    EXPECT_NEAR(double(hit.normal[0]), -std::sin(tilt), 1e-5);
+    EXPECT_NEAR(double(hit.normal[1]), std::cos(tilt), 1e-5);
+}
+
 TEST_F(EventApi, particlesThatStayInTheWorldHaveEventsAtTheirPlaceThere)
 {
     open();

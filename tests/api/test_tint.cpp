@@ -161,15 +161,29 @@ TEST_F(TintApi, manySmallEmittersOfWhichSomeAreTintedKeepTheirColors)
     const FxPresetId preset =
         loadText(context_, R"({"version":1,"emitters":[{"emission":{"rate":60},"lifetime":0.5,"speed":1,
         "maxParticles":64,"appearance":{"kind":"sprite","luminance":100,"colorOverLife":[1,0.5,0.25]}}]})");
-    std::vector<FxInstanceId> ids;
-    for (int i = 0; i < 40; ++i)
-        ids.push_back(add(preset, nullptr, i)); // pools
-    play(10);
-    setTint(ids[7], kTint);
-    play(10);
-    EXPECT_EQ(compare(contentOf(scene_, ids[6]), contentOf(scene_, ids[7])),
-              (std::set<std::string>{"particle.colorG", "particle.colorB"}));
-    EXPECT_EQ(contentOf(scene_, ids[6]), contentOf(scene_, ids[8]));
+    const auto playThem = [&](const float* tint) {
+        std::vector<FxInstanceId> ids;
+        for (uint64_t i = 0; i < 40; ++i) { // each for itself, so that pools compute them
+            FxInstanceDef def = fxDefaultInstanceDef();
+            def.preset = preset;
+            def.seed = i;
+            EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &ids.emplace_back()), FX_OK);
+        }
+        play(30);
+        if (tint)
+            setTint(ids[7], tint);
+        play(30);
+        std::vector<Content> contents;
+        for (const FxInstanceId id : ids)
+            contents.push_back(contentOf(scene_, id));
+        EXPECT_EQ(fxScene_DestroyAllInstances(scene_), FX_OK);
+        play(1);
+        return contents;
+    };
+    const std::vector<Content> plain = playThem(nullptr), tinted = playThem(kTint);
+    EXPECT_EQ(compare(plain[7], tinted[7]), (std::set<std::string>{"particle.colorG", "particle.colorB"}));
+    EXPECT_EQ(plain[6], tinted[6]);
+    EXPECT_EQ(plain[8], tinted[8]);
 }
 
 TEST_F(TintApi, isAPartOfStatesAndHashesAsTheOtherParametersAre)
