@@ -304,3 +304,22 @@ TEST_F(VolumeVoxelsTest, ofALateFrameAreItsBallsUntilItIsRead)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     expectEqual(renderAlone(publishBetween(frames, 3, tick)), wanted, 0.01);
 }
+
+TEST_F(VolumeVoxelsTest, aTintOfTheInstanceFiltersTheLightOfVoxels)
+{
+    const base::FrameSnapshot plain = publish(lumps(), {1, 0, 0, 0}, 1.0f);
+    base::FrameSnapshot red = publish(lumps(), {1, 0, 0, 0}, 1.0f);
+    for (const size_t shade : {base::blob_constant::ShadeG, base::blob_constant::ShadeB})
+        red.editGroup(0).editConstants()[shade] = 1.0f;
+    const std::vector<float> before = renderAlone(plain).texels, after = renderAlone(red).texels;
+    float brightest = 0.0f, greenest = 0.0f;
+    for (size_t i = 0; i < before.size(); i += 4) {
+        EXPECT_NEAR(after[i], before[i], 1e-5f);
+        EXPECT_EQ(after[i + 1], 0.0f);
+        EXPECT_EQ(after[i + 2], 0.0f);
+        brightest = std::max(brightest, before[i]);
+        greenest = std::max(greenest, before[i + 1]);
+    }
+    EXPECT_GT(brightest, 0.01f);
+    EXPECT_GT(greenest, 0.01f);
+}
