@@ -467,3 +467,23 @@ TEST_F(EventApi, wrongArgumentsAreRefusedAndChangeNothing)
     EXPECT_EQ(userData, 5u);
     EXPECT_GE(take().size(), 2u);
 }
+
+TEST_F(EventApi, aPresetThatIsReplacedGivesNoEventsOfItsPast)
+{
+    open();
+    const FxInstanceId id = add(kDrop, [](FxInstanceDef& def) { def.userData = 5; });
+    update(20); // the drop is in the air
+    const FxPresetId before = preset_;
+    EXPECT_NE(find(take(), FX_EVENT_BORN), nullptr);
+    preset_ = loadText(context_, kDrop);
+    ASSERT_EQ(fxScene_ReplacePreset(events_, before, preset_, FX_REPLACE_SEEK, nullptr), FX_OK);
+    EXPECT_TRUE(take().empty());
+    update(100);
+    const std::vector<FxEvent> events = take();
+    EXPECT_EQ(find(events, FX_EVENT_BORN), nullptr);
+    const FxEvent* const hit = find(events, FX_EVENT_COLLIDED);
+    ASSERT_NE(hit, nullptr);
+    EXPECT_EQ(hit->instance.bits, id.bits);
+    EXPECT_EQ(hit->userData, 5u);
+    EXPECT_EQ(hit->cue, cue("impact"));
+}

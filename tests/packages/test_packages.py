@@ -52,13 +52,18 @@ class Unpacked(unittest.TestCase):
                             "PKG_CONFIG_PATH": str(self.libraries / "pkgconfig")}
 
     def test_hosts_by_cmake(self):
-        for name in ("consumer.c", "consumer.cpp"):
+        for name in ("consumer.c", "consumer.cpp", "consumer_link.c"):
             shutil.copy(HERE / name, self.folder)
         shutil.copy(HERE / "CMakeLists.txt.in", self.folder / "CMakeLists.txt")
         run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}", env=self.environment)
         run("cmake", "--build", self.folder / "build", env=self.environment)
         for name in ("c11_shared", "c11_static", "cpp20_shared", "cpp20_static"):
             self.assertIn("particles", run(self.folder / "build" / name, env=self.environment), name)
+        if any(self.prefix.rglob("fx_livelink.h")):
+            for name in ("link_shared", "link_static"):
+                environment = self.environment | {"XDG_RUNTIME_DIR": str(self.folder)}
+                self.assertIn("listens at unix:", run(self.folder / "build" / name, env=environment), name)
+            self.assertNotIn("libfxsdk", run("ldd", self.folder / "build/link_static"))
         shared = run("ldd", self.folder / "build/c11_shared")
         self.assertIn(str(self.libraries), shared)
         self.assertNotIn("libfxsdk", run("ldd", self.folder / "build/c11_static"))

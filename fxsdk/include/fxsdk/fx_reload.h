@@ -59,11 +59,12 @@ FX_API FxResult fxLoadPresetTextAt(FxContext* context, const char* text, size_t 
                                    FxPresetId* outPreset);
 
 /// Lets all instances of `oldPreset` in the scene continue with `newPreset`. They keep id, placement, seed,
-/// parameters, speed, hints and visibility mask. With FX_REPLACE_SEEK an instance continues at its local
-/// time, with the particles of a new instance of `newPreset` that fxScene_SeekInstance() has moved there.
-/// Such an instance ends with the next step when `newPreset` ends before that time. Instances that have not
-/// started start with `newPreset`. Instances that have ended stay ended. Events of fxScene_TriggerEvent() are
-/// not replayed.
+/// parameters, speed, hints, user data and visibility mask. With FX_REPLACE_SEEK an instance continues at its
+/// local time, with the particles of a new instance of `newPreset` that fxScene_SeekInstance() has moved
+/// there. Such an instance ends with the next step when `newPreset` ends before that time. Instances that
+/// have not started start with `newPreset`. Instances that have ended stay ended. Events of
+/// fxScene_TriggerEvent() are not replayed. The past of the new preset gives fxScene_GetEvents() no events;
+/// recorded ones keep the cues of the old preset, so read them before.
 ///
 /// The call takes as many steps as FxSceneDef::workBudget allows, for all instances together. The next
 /// updates take the remaining steps; until then an instance is FX_INSTANCE_WAKING and not shown. The call
