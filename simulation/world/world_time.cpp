@@ -95,11 +95,13 @@ bool World::playTo(SimulationIndex index, base::Ticks to, base::Ticks stepTicks,
                    base::WorkBudget& work)
 {
     SharedSimulation& simulation = simulations_.at(index);
-    simulations_.touch(index);
     base::Ticks from =
         simulation.arriving
             ? simulation.reached
             : std::max<base::Ticks>(simulation.conditions.clock.toLocal(simulation.simulated), 0);
+    if (simulation.fresh && !simulation.arriving) // its past, prewarm, is not simulated yet: see arrive()
+        from = 0;
+    simulations_.touch(index);
     simulation.arriving = false;
     if (!simulation.changes.empty())
         simulation.conditions = simulation.changes.back().conditions;

@@ -111,6 +111,24 @@ TEST_F(InstanceTimeApi, aSeekEqualsPlayingForwardsAndBackwards)
     EXPECT_EQ(simulationHash(), want);
 }
 
+TEST_F(InstanceTimeApi, aSeekBeforeTheFirstStepHasThePrewarmBehindIt)
+{
+    const std::string prewarmed = R"({"version": 1, "prewarm": 2, "emitters": [{"maxParticles": 4000,
+        "emission": {"rate": 100}, "lifetime": 10, "forces": {"drag": 1, "curlStrength": 1},
+        "collisions": [{"shape": "ground", "bounce": 0.5}]}]})"; // needs every step of its past
+    const FxInstanceId fresh = add(prewarmed);
+    ASSERT_EQ(fxScene_SeekInstance(scene_, fresh, 3.0), FX_OK);
+    EXPECT_EQ(particlesOf(fresh), 300u);
+    const FxInstanceId backwards = add(prewarmed);
+    ASSERT_EQ(fxScene_SeekInstance(scene_, backwards, 0.5), FX_OK);
+    EXPECT_EQ(particlesOf(backwards), 50u);
+    const FxInstanceId stepped = add(prewarmed);
+    play(1);
+    ASSERT_EQ(fxScene_SeekInstance(scene_, stepped, 3.0), FX_OK);
+    EXPECT_EQ(particlesOf(stepped), 300u);
+    EXPECT_EQ(particlesOf(fresh), 302u); // one step later
+}
+
 TEST_F(InstanceTimeApi, aJumpInTimeIsTheEndOfAMove)
 {
     const FxInstanceId id = add(R"({"version": 1, "ground": false, "emitters": [{"maxParticles": 4000,
