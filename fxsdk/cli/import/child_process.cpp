@@ -70,19 +70,20 @@ void limit(__rlimit_resource resource, uint64_t value)
     static_cast<void>(setrlimit(resource, &wanted));
 }
 
-uint64_t addressesInUse()
+/// Limits the addresses beyond those in use. Not with sanitizers, which reserve terabytes of addresses.
+void limitAddresses([[maybe_unused]] uint64_t more)
 {
+#ifndef FX_SANITIZED
     std::ifstream file("/proc/self/statm");
     uint64_t pages = 0;
     file >> pages;
-    return pages * uint64_t(sysconf(_SC_PAGESIZE));
+    limit(RLIMIT_AS, pages * uint64_t(sysconf(_SC_PAGESIZE)) + more);
+#endif
 }
 
 void applyLimits(const ChildLimits& limits)
 {
-#ifndef FX_SANITIZED // which reserve terabytes of addresses
-    limit(RLIMIT_AS, addressesInUse() + limits.memory);
-#endif
+    limitAddresses(limits.memory);
     limit(RLIMIT_CPU, limits.seconds);
     limit(RLIMIT_FSIZE, limits.output + kMostMessage + sizeof(Header));
     limit(RLIMIT_CORE, 0);
