@@ -86,6 +86,35 @@ TEST_F(PreviewTest, aTextThatIsWrongLeavesThePicture)
     EXPECT_EQ(picture(*preview_), before);
 }
 
+TEST_F(PreviewTest, firesLightTheGroundAndSmokeDarkensIt)
+{
+    const auto groundOf = [&](const std::string& emitter, const std::string& preview, int row) {
+        show(*preview_, R"({"version": 1, "emitters": [{"maxParticles": 60, "emission": {"rate": 60},
+            "lifetime": 5, "speed": 0, "forces": {"gravity": 0}, "size": 0.2, "position": [0, 1.2, 0], )" +
+                            emitter + R"(}], "preview": {)" + preview + "}}");
+        std::vector<double> means; // of red at the times 0 and 1 s, in the middle third of the row
+        for (const double time : {0.0, 1.0}) {
+            EXPECT_TRUE(preview_->seek(time).ok());
+            const std::vector<float> pixels = picture(*preview_);
+            double sum = 0.0;
+            for (int x = kSide / 3; x < 2 * kSide / 3; ++x)
+                sum += double(pixels[size_t(3 * (row * kSide + x))]);
+            means.push_back(sum / (kSide / 3));
+        }
+        return means;
+    };
+    const std::vector<double> lit = groundOf(
+        R"("layer": "fire", "radius": 0.2, "opticalDepth": 1, "temperature": 1700)",
+        R"("exposureEv100": 8, "lighting": {"sunIlluminance": [0, 0, 0], "skyLuminance": [5, 5, 5]})", 2);
+    EXPECT_GT(lit[1], 2.0 * lit[0]); // 4 m in front of the fire
+    const std::vector<double> shaded =
+        groundOf(R"("radius": 0.5, "opticalDepth": 10)",
+                 R"("lighting": {"sunDirection": [0, 0.6, -0.8], "sunIlluminance": [50000, 50000, 50000],
+                    "skyLuminance": [500, 500, 500]})",
+                 25); // between smoke and camera, where its shadow falls
+    EXPECT_LT(shaded[1], 0.7 * shaded[0]);
+}
+
 TEST_F(PreviewTest, saysWhyNothingIsSeen)
 {
     show(*preview_, kPreset);

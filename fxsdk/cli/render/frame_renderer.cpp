@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
-#include <cstring>
 #include <limits>
 #include <memory_resource>
 
@@ -19,8 +17,6 @@ namespace fx::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr size_t kMaxEffects = render::kMaxStageLights - FX_MOST_LIGHTS; // whose light surfaces get
 
 double millisecondsSince(Clock::time_point start)
 {
@@ -172,7 +168,7 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
     frame.colorTexture = frame.depthTexture = 0; // the stage has none before its first picture
     if (base::Status status = toStatus(fxView_PrepareLights(view_, &frame)); !status)
         return status;
-    std::array<render::EffectLight, kMaxEffects> lights;
+    std::array<render::EffectLight, kMaxStageEffects> lights;
     size_t count = 0;
     if (!staysOnGpu_) { // what the GPU computes sheds no light, and a snapshot would end that
         const auto snapshot = effects_->snapshot();
@@ -180,49 +176,12 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
             return snapshot.status();
         count = render::effectLights(**snapshot, lights);
     }
-    std::array<render::StageLight, render::kMaxStageLights> lit;
-    for (size_t i = 0; i < count; ++i)
-        lit[i] = render::effectStageLight(lights[i]);
-    const std::span<const render::SceneLight> shown = shownLights();
-    for (size_t i = 0; i < shown.size(); ++i)
-        lit[count + i].light = toHostLight(shown[i]);
-    render::StageLighting lighting;
-    lighting.lighting = options_.settings.lighting;
-    lighting.lights = std::span(lit).first(count + shown.size());
-    if (base::Status status = readShadows(std::span(lit).first(count + shown.size()), count, lighting);
+    if (base::Status status =
+            lit_.read(view_, std::span(lights).first(count), shownLights(), options_.settings.lighting);
         !status)
         return status;
-    return stage_->render(camera, lighting, options_.settings.exposureEv100, options_.width, options_.height);
-}
-
-/// @param ioLights `effects` lights of effects, brightest first, as the view numbers them too; then the
-/// scene's
-base::Status FrameRenderer::readShadows(std::span<render::StageLight> ioLights, size_t effects,
-                                        render::StageLighting& io)
-{
-    const auto read = [&](uint32_t kind, uint32_t index, render::MediaShadowBlock& out) {
-        FxMediaShadow shadow = {};
-        shadow.structSize = sizeof shadow;
-        base::Status status = toStatus(fxView_GetMediaShadow(view_, kind, index, &shadow));
-        static_assert(sizeof shadow == 2 * sizeof(uint32_t) + sizeof out);
-        std::memcpy(static_cast<void*>(&out),
-                    reinterpret_cast<const char*>(&shadow) + offsetof(FxMediaShadow, right), sizeof out);
-        if (shadow.texture != 0)
-            io.shadowTexture = shadow.texture;
-        return status;
-    };
-    if (base::Status status = read(FX_LIGHT_SUN, 0, io.sunShadow); !status)
-        return status;
-    for (size_t i = 0; i < ioLights.size(); ++i) {
-        render::MediaShadowBlock shadow;
-        const bool isEffect = i < effects;
-        const auto kind = uint32_t(isEffect ? FX_LIGHT_EFFECT : FX_LIGHT_HOST);
-        if (base::Status status = read(kind, uint32_t(isEffect ? i : i - effects), shadow); !status)
-            return status;
-        if (shadow.tiles[0].w > 0.5f)
-            ioLights[i].shadow = shadow;
-    }
-    return {};
+    return stage_->render(camera, lit_.lighting(), options_.settings.exposureEv100, options_.width,
+                          options_.height);
 }
 
 FxFrameDef FrameRenderer::frameOf(const render::CameraView& camera, double passed) const

@@ -7,6 +7,7 @@
 #include "foundation/result/status.h"
 #include "foundation/time/ticks.h"
 #include "fxsdk/cli/scene/effect_scene.h"
+#include "fxsdk/cli/scene/lit_stage.h"
 #include "fxsdk/cli/scene/picture.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/platform/gl_context.h"
@@ -88,8 +89,6 @@ private:
     base::Status lookThrough(const render::CameraView& camera);
     base::Status drawStage(const render::CameraView& camera);
     std::span<const render::SceneLight> shownLights() const;
-    base::Status readShadows(std::span<render::StageLight> ioLights, size_t effects,
-                             render::StageLighting& io);
     FxFrameDef frameOf(const render::CameraView& camera, double passed) const;
     /// Draws the effects over the stage.
     /// @param passed [s] time since the previous picture, for the adaptation of glare
@@ -104,6 +103,7 @@ private:
     std::unique_ptr<render::GlContext> glContext_;
     std::unique_ptr<render::GlDevice> device_;
     std::unique_ptr<render::StageRenderer> stage_;
+    LitStage lit_;
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
     bool staysOnGpu_ = false;   ///< whether particles are computed on the GPU; then no snapshots are read

@@ -2,6 +2,7 @@
 
 #include "fxsdk/assets/asset_resolver.h"
 #include "fxsdk/assets/read_file.h"
+#include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/scene/default_stage.h"
 #include "fxsdk/cli/scene/instance_definition.h"
 #include "fxsdk/cli/scene/view_settings.h"
@@ -11,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory_resource>
 
 namespace fx::editor {
@@ -113,6 +115,13 @@ base::Status Preview::readScene(const std::string& text, const std::string& name
     file_ = std::move(*file);
     file_.view.composition = render::Composition::Automatic;
     file_.view.slices.automatic = true;
+    std::vector<FxLight> lights;
+    for (const render::SceneLight& light : shownLights())
+        lights.push_back(cli::toApi(light));
+    if (base::Status status =
+            cli::toStatus(fxView_SetLights(view_->get(), lights.data(), uint32_t(lights.size())));
+        !status)
+        return status;
     if (base::Status status = stage_->setMesh(file_.mesh); !status)
         return status;
     return stage_->setBackground(file_.background);
@@ -267,17 +276,44 @@ FxFrameDef Preview::frameOf(const render::CameraView& camera, const PreviewFrame
     return def;
 }
 
+/// Fires of the effects light the stage, and their media darken it.
+base::Status Preview::lightStage(const FxFrameDef& frame)
+{
+    if (base::Status status = cli::toStatus(fxView_PrepareLights(view_->get(), &frame)); !status)
+        return status;
+    uint32_t count = 0;
+    std::array<render::EffectLight, cli::kMaxStageEffects> lights;
+    base::Status status = cli::toStatus(fxView_GetEffectLightCount(view_->get(), &count));
+    count = std::min(count, uint32_t(lights.size()));
+    for (uint32_t i = 0; i < count && status.ok(); ++i) {
+        FxLight light = fxDefaultLight();
+        status = cli::toStatus(fxView_GetEffectLight(view_->get(), i, &light));
+        lights[i] = {glm::make_vec3(light.position), glm::make_vec3(light.intensity), light.radius};
+    }
+    return status.ok()
+               ? lit_.read(view_->get(), std::span(lights).first(count), shownLights(), file_.view.lighting)
+               : status;
+}
+
+/// As many as a view takes.
+std::span<const render::SceneLight> Preview::shownLights() const
+{
+    return std::span(file_.lights).first(std::min(file_.lights.size(), size_t(FX_MOST_LIGHTS)));
+}
+
 base::Status Preview::render(const PreviewFrame& frame)
 {
     const render::CameraView camera = cameraOf(frame);
     const FxViewSettings settings = settingsOf(frame);
-    if (base::Status status = stage_->render(camera, file_.view.lighting, {}, settings.exposureEv100,
-                                             frame.width, frame.height);
-        !status)
-        return status;
+    FxFrameDef def = frameOf(camera, frame);
     try {
         view_->setSettings(settings);
-        FxFrameDef def = frameOf(camera, frame);
+        if (base::Status status = lightStage(def); !status)
+            return status;
+        if (base::Status status =
+                stage_->render(camera, lit_.lighting(), settings.exposureEv100, frame.width, frame.height);
+            !status)
+            return status;
         def.colorTexture = stage_->colorTexture();
         def.depthTexture = stage_->depthTexture();
         const render::HostShadowMap map = stage_->sunShadow(camera.origin);

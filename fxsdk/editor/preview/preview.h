@@ -5,6 +5,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "fxsdk/cli/scene/lit_stage.h"
 #include "fxsdk/editor/document/schema_tree.h"
 #include "fxsdk/fxsdk.hpp"
 #include "fxsdk/scene_file/scene_file.h"
@@ -14,6 +15,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -76,12 +78,15 @@ private:
     void create(size_t index);
     static render::CameraView cameraOf(const PreviewFrame& frame);
     static FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame);
+    base::Status lightStage(const FxFrameDef& frame);
+    std::span<const render::SceneLight> shownLights() const;
     FxViewSettings settingsOf(const PreviewFrame& frame) const;
     static const void* openAsset(void* user, const char* name, size_t* outSize);
     static void closeAsset(void* user, const void* data, size_t size);
 
     std::unique_ptr<render::GlDevice> device_;
     std::unique_ptr<render::StageRenderer> stage_;
+    cli::LitStage lit_;
     std::unique_ptr<fxsdk::Context> context_;
     std::unique_ptr<fxsdk::Scene> fxScene_;
     std::unique_ptr<fxsdk::View> view_;
