@@ -354,8 +354,10 @@ FX_API FxResult fxView_Render(FxView* view, const FxFrameDef* frame);
 /// Draws both eyes of a head-mounted or stereoscopic display, each over its own picture. Both eyes show the
 /// same moment. Blobs are gathered and shaded once, particles are uploaded and computed on the GPU once, and
 /// light slices are filled once; sorting and drawing are done for each eye. The picture of an eye is that of
-/// fxView_Render() with its frame, within 1/255, except for what follows the first eye: level of detail, and
-/// the strength of glare unless resetHistory is 1; eyes are at most some centimeters apart.
+/// fxView_Render() with its frame, except for what follows the first eye: level of detail, the widening of
+/// blobs below a pixel, the direction in which media are lit, and the strength of glare unless resetHistory
+/// is 1. Eyes are some centimeters apart, so that most effects differ by less than 1/255, and small
+/// bright blobs by 2/255.
 /// settings.budgetMilliseconds and times of quality are those of the first eye. Counters of passes, draw
 /// calls, GL calls, programs, uploads and sorting are sums, other counters are those of the second eye.
 /// settings.layerOutputs and settings.outputs must be 0. [GL thread]
