@@ -15,8 +15,7 @@ base::Status readShadow(FxView* view, uint32_t kind, size_t index, render::Media
 {
     FxMediaShadow shadow = {};
     shadow.structSize = sizeof shadow;
-    const base::Status status =
-        toStatus(fxView_GetMediaShadow(view, kind, uint32_t(index), &shadow));
+    const base::Status status = toStatus(fxView_GetMediaShadow(view, kind, uint32_t(index), &shadow));
     static_assert(sizeof shadow == 2 * sizeof(uint32_t) + sizeof out);
     std::memcpy(static_cast<void*>(&out),
                 reinterpret_cast<const char*>(&shadow) + offsetof(FxMediaShadow, right), sizeof out);
