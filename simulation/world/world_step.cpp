@@ -170,7 +170,7 @@ bool World::stepSimulation(SimulationIndex index, const SimulationStep& step, ba
         const base::Ticks parts = partsOf(*simulation.effect) * std::max<base::Ticks>(turns, 1);
         context.spawnBatch = parts == 1 ? step.spawnBatch : nullptr;
         if (cues_ && step.board && !simulation.effect->order.empty()) {
-            selectCues(simulation); // of a simulation that catches up, the host hears nothing
+            selectCues(simulation); // a simulation that catches up records no events
             context.cues = &*cues_;
         }
         LinkedPart* const own = step.board ? nullptr : linkedPartOf(simulation);

@@ -125,6 +125,21 @@ T at(std::vector<T> sorted, double share)
     return sorted[std::min(sorted.size() - 1, size_t(double(sorted.size()) * share))];
 }
 
+/// Replaces the preset by the text. @return the reply of the game, after a frame has shown it
+base::Result<Json> replace(link::LinkClient& client, const LinkOptions& options, uint64_t number,
+                           const std::string& text)
+{
+    if (base::Status status = client.send(link::replaceMessage(number, options.name, text, options.restarts));
+        !status)
+        return status;
+    base::Result<Json> reply = client.wait(options.timeout);
+    if (!reply)
+        return reply.status();
+    if (base::Status status = statusOf(*reply); !status)
+        return status;
+    return reply;
+}
+
 /// Sends the text again and again, each time with other blanks at its end.
 base::Status measure(link::LinkClient& client, const LinkOptions& options, const std::string& text)
 {
@@ -133,15 +148,9 @@ base::Status measure(link::LinkClient& client, const LinkOptions& options, const
     for (int i = 0; i < options.measuredEdits; ++i) {
         const Clock::time_point start = Clock::now();
         const std::string edited = text + std::string(size_t(i % 2), '\n');
-        if (base::Status status =
-                client.send(link::replaceMessage(uint64_t(i) + 1, options.name, edited, options.restarts));
-            !status)
-            return status;
-        const base::Result<Json> reply = client.wait(options.timeout);
+        const base::Result<Json> reply = replace(client, options, uint64_t(i) + 1, edited);
         if (!reply)
             return reply.status();
-        if (base::Status status = statusOf(*reply); !status)
-            return status;
         milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
         frames.push_back(reply->value("frames", uint64_t(0)));
     }
@@ -155,14 +164,9 @@ base::Status measure(link::LinkClient& client, const LinkOptions& options, const
 
 base::Status sendOnce(link::LinkClient& client, const LinkOptions& options, const std::string& text)
 {
-    if (base::Status status = client.send(link::replaceMessage(1, options.name, text, options.restarts));
-        !status)
-        return status;
-    const base::Result<Json> reply = client.wait(options.timeout);
+    const base::Result<Json> reply = replace(client, options, 1, text);
     if (!reply)
         return reply.status();
-    if (base::Status status = statusOf(*reply); !status)
-        return status;
     std::printf("%s: %s is shown by %llu instances after %llu frames\n", client.game().c_str(),
                 reply->value("preset", "").c_str(),
                 static_cast<unsigned long long>(reply->value("instances", uint64_t(0))),

@@ -17,7 +17,7 @@ namespace fx::link {
 class LinkClient
 {
 public:
-    /// Connects and sends the hello. @return NotFound (nobody listens), Io
+    /// Connects and sends the hello. @return NotFound if no process accepts connections at the address, or Io
     static base::Result<std::unique_ptr<LinkClient>> connect(const Address& address,
                                                              const std::string& token);
 

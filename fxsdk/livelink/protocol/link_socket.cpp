@@ -115,7 +115,7 @@ base::Result<Socket> Socket::listen(Address& ioAddress)
     base::Status status = named(ioAddress, bindIt);
     if (!status && !ioAddress.isTcp() && bindError == EADDRINUSE &&
         connect(ioAddress).status().code() == base::Code::NotFound)
-    { // nobody listens at this file
+    { // no process accepts connections at this file
         (void)unlink(ioAddress.path.c_str());
         status = named(ioAddress, bindIt);
     }

@@ -44,7 +44,7 @@ class PresetWorker
 public:
     /// @param hasThread false: add() does the work
     PresetWorker(FxContext* context, bool hasThread);
-    /// Waits for the job in work. Presets that nobody has taken are unloaded.
+    /// Waits for the job in work. Presets that take() has not returned are unloaded.
     ~PresetWorker();
     PresetWorker(const PresetWorker&) = delete;
     PresetWorker& operator=(const PresetWorker&) = delete;
