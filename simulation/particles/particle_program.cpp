@@ -41,9 +41,10 @@ std::unique_ptr<RampCurves> speedCurves(const EmitterAppearance& appearance)
                    samplesOf(appearance.opacityOverSpeed, 0), samplesOf(appearance.sizeOverSpeed, 0)});
 }
 
-base::ColumnSet publishedColumns(const EmitterAppearance& appearance)
+base::ColumnSet publishedColumns(const EmitterSettings& def)
 {
     namespace column = base::particle_column;
+    const EmitterAppearance& appearance = def.appearance;
     base::ColumnSet set = column::kAlways;
     const bool turns = appearance.angle.min != 0 || varies(appearance.angle) || appearance.spin.min != 0 ||
                        varies(appearance.spin);
@@ -51,7 +52,9 @@ base::ColumnSet publishedColumns(const EmitterAppearance& appearance)
         set |= column::kOrientation;
     else if (turns)
         set |= column::kAngle;
-    if (appearance.alignment == base::SpriteAlignment::Velocity || appearance.stretch > 0.0f)
+    // The head of a trail has to be where the trail ends, also between birth and the first snapshot.
+    if (appearance.alignment == base::SpriteAlignment::Velocity || appearance.stretch > 0.0f ||
+        def.trail.lifetime > 0.0f)
         set |= column::kVelocity;
     if (appearance.frames != FrameClock::None || appearance.firstFrame.min != 0 ||
         varies(appearance.firstFrame))
@@ -169,7 +172,7 @@ ParticleProgram::ParticleProgram(const EmitterSettings& definition)
     : def(definition), number(nextNumber()), ballistic(definition.isBallistic()),
       brief(sim::longestLife(definition) <= kBrief), mortal(!definition.modules.empty()),
       longestLife(base::toTicks(double(sim::longestLife(definition)))),
-      published(publishedColumns(definition.appearance)), byLife(lifeCurves(definition)),
+      published(publishedColumns(definition)), byLife(lifeCurves(definition)),
       bySpeed(speedCurves(definition.appearance)), corner(cornerOf(definition.appearance)),
       plain(isPlain(*this))
 {

@@ -122,6 +122,20 @@ TEST(Trails, areAsLongAsTheWayOfTheirLifetime)
     }
 }
 
+/// Pictures between its birth and the first snapshot carry the head back along its velocity: to the end of the trail.
+TEST(Trails, haveTheVelocityOfTheirHead)
+{
+    namespace column = base::particle_column;
+    Pictures pictures(comet());
+    pictures.step();
+    const float end = pictures.strips().at(0).points.back().y;
+    const base::SnapshotGroup& heads = pictures.groupOf(base::kParticleKind);
+    ASSERT_TRUE(heads.has(column::VelocityY));
+    const float way = heads.column(column::VelocityY)[0] * heads.column(column::Age)[0];
+    EXPECT_GT(way, 0.01f);
+    EXPECT_NEAR(heads.column(column::PositionY)[0] - way, end, 1e-4f);
+}
+
 TEST(Trails, keepTheArcLengthOfEachPlace)
 {
     auto def = comet();
