@@ -176,6 +176,7 @@ SMALL = (
       for technique, scene in (("ray-integral", "tau-0.1"), ("furnace", "float"), ("billboards", "isolated-1"),
                                ("dazzle", "gray"), ("light-slices", "parallel-tau-1"), ("outputs", "ball"))),
     Small(("fx", "accuracy", "detail"), {"--repeat": "1", "--no-callgrind": None, "--scene": "explosion-0.6-small"}),
+    Small(("fx", "accuracy", "grid"), {"--repeat": "1", "--no-callgrind": None, "--scene": "tau-5-small"}),
     Small(("fx", "accuracy", "impostors"), {"--repeat": "1", "--no-callgrind": None, "--scene": "size-48-small"}, {"--cases": "1"}),
     Small(("fx", "accuracy", "network"), {"--repeat": "1", "--no-callgrind": None, "--scene": "side-5-small"}),
     Small(("fx", "stability"), {"--quick": None}),

@@ -43,6 +43,17 @@ class FxAccuracyOfFits(FxTest):
         self.assertLess(lines["optimized-24-10000"]["error_mean"], 0.05)
 
 
+class FxAccuracyOfGrids(FxTest):
+    def test_voxels_are_exact_and_coarser_ones_are_not(self):
+        lines = by_setting(lines_of("grid", "--scene", "tau-5-small", *QUICK))
+        exact = lines["volume"]["error_p99"]
+        self.assertLess(exact, 0.02)
+        for control in ("volume-half", "volume-quarter", "sorted", "slabs-6", "slabs-16"):
+            self.assertGreater(lines[control]["error_p99"], 10 * exact, control)
+        for line in lines.values():
+            self.assertGreater(line["work"]["covered"], 400)
+
+
 class FxAccuracyOfImpostors(FxTest):
     def test_usual_tiles_are_within_a_level_of_gray_and_coarse_ones_are_not(self):
         lines = by_setting(lines_of("impostors", "--scene", "size-48-small", *QUICK))

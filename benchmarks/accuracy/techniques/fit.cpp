@@ -3,8 +3,7 @@
 /// time.
 
 #include "benchmarks/accuracy/accuracy_technique.h"
-#include "benchmarks/scenes/lumpy_cloud.h"
-#include "rendering/voxelization/ball_voxelizer.h"
+#include "benchmarks/scenes/volume_scene.h"
 #include "rendering/voxelization/opacity_view.h"
 
 #include <array>
@@ -17,8 +16,7 @@ namespace {
 
 constexpr double kDepth = 5.0;      // [1] optical depth through the middle of the cloud
 constexpr double kVoxelSize = 0.02; // [m]
-constexpr uint64_t kMostVoxels = uint64_t(1) << 24;
-constexpr int kPixels = 128; // along the longer side of a picture
+constexpr int kPixels = 128;        // along the longer side of a picture
 constexpr std::array<uint32_t, 3> kCounts{100, 1000, 10'000};
 
 struct Form
@@ -31,30 +29,6 @@ constexpr std::array<Form, 4> kForms{{{"uniform", render::FitForm::Uniform, 0},
                                       {"adaptive", render::FitForm::Adaptive, 0},
                                       {"optimized-8", render::FitForm::Optimized, 8},
                                       {"optimized-24", render::FitForm::Optimized, 24}}};
-
-render::MediumGrid lumpyGrid(base::TaskRunner& tasks)
-{
-    const LumpyCloud cloud(kDepth, CloudLight::Front, 8);
-    std::vector<render::VoxelBall> balls;
-    for (const render::MediumBlob& blob : cloud.blobs()) {
-        render::VoxelBall& ball = balls.emplace_back();
-        ball.center = blob.center;
-        ball.radius = blob.radius;
-        ball.crossSection = blob.crossSection;
-    }
-    render::MediumGrid grid;
-    grid.axes = glm::dmat3(kVoxelSize);
-    const auto plan = render::BlockPlan::create(balls, kVoxelSize, kMostVoxels);
-    if (!plan)
-        return grid;
-    std::vector<render::VoxelBlock> blocks;
-    render::BallVoxelizer(balls, *plan, tasks).fill(0, plan->blocks().size(), blocks);
-    for (const render::VoxelBlock& block : blocks) {
-        grid.blocks.push_back(block.origin);
-        grid.density.insert(grid.density.end(), block.density.begin(), block.density.end());
-    }
-    return grid;
-}
 
 class FitAccuracy final : public AccuracyTechnique
 {
@@ -78,7 +52,7 @@ public:
     base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override
     {
         if (grid_.blocks.empty())
-            grid_ = lumpyGrid(*tasks_);
+            grid_ = lumpyGrid(kDepth, kVoxelSize, *tasks_);
         const Form& form = kForms[setting % kForms.size()];
         const render::FitOptions options{
             .count = kCounts[setting / kForms.size()], .form = form.form, .iterations = form.iterations};

@@ -125,6 +125,11 @@ render::ViewSettings& SnapshotRenderer::settings()
     return impl_->view->settings();
 }
 
+void SnapshotRenderer::setAssets(const base::AssetTable* assets)
+{
+    impl_->view->setAssets(assets);
+}
+
 base::Status SnapshotRenderer::render(const SceneMoment& moment, const render::ReferenceCamera& camera,
                                       double time)
 {

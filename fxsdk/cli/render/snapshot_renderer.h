@@ -25,6 +25,10 @@ public:
     /// Settings of the next picture.
     render::ViewSettings& settings();
 
+    /// Table of the images and volumes that snapshots name; must outlive the renderer. Without it, balls are
+    /// drawn in place of volumes.
+    void setAssets(const base::AssetTable* assets);
+
     /// Draws a moment of the scene.
     /// @param time [s] time of the picture, for passes with a history
     base::Status render(const SceneMoment& moment, const render::ReferenceCamera& camera, double time);

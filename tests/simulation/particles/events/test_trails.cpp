@@ -122,7 +122,8 @@ TEST(Trails, areAsLongAsTheWayOfTheirLifetime)
     }
 }
 
-/// Pictures between its birth and the first snapshot carry the head back along its velocity: to the end of the trail.
+/// Pictures between its birth and the first snapshot carry the head back along its velocity: to the end of
+/// the trail.
 TEST(Trails, haveTheVelocityOfTheirHead)
 {
     namespace column = base::particle_column;
