@@ -41,6 +41,8 @@ const char* codeName(Code code)
         return "interrupted";
     case Code::HostAnswer:
         return "host-answer";
+    case Code::GlLost:
+        return "gl-lost";
     case Code::Internal:
         return "internal";
     }

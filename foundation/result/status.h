@@ -33,6 +33,7 @@ enum class Code : int
     Io = -15,            ///< the operating system refused to read or write
     Interrupted = -16,   ///< the user stopped the operation
     HostAnswer = -17,    ///< a callback of the host returned an invalid value
+    GlLost = -18,        ///< the GL context is lost, with all objects in it
     Internal = -99,      ///< a defect of this library
 };
 

@@ -16,7 +16,9 @@
 namespace {
 
 using fx::base::Code;
+using fx::base::Result;
 using fx::base::Status;
+using fx::render::GlDevice;
 
 constexpr uint32_t kMaxWorkers = 256;
 
@@ -33,21 +35,53 @@ Status checkDef(const FxContextDef& def)
     return check.status();
 }
 
+/// @param name of the argument that has the loader, in messages
+Result<std::unique_ptr<GlDevice>> makeDevice(FxContext& context, const FxGlLoader& gl, const char* name)
+{
+    const fx::render::GlLoader loader{gl.user, gl.getProcAddress};
+    if (loader.getProcAddress == &fxGetGlProcAddress && !fx::api::isGlContextCurrent())
+        return Status(Code::GlUnsupported,
+                      "no OpenGL context is current on this thread: make one current before (eglMakeCurrent, "
+                      "glXMakeCurrent, SDL_GL_MakeCurrent, glfwMakeContextCurrent), or set " +
+                          std::string(name) + " to the function of your window library");
+    return GlDevice::create(loader, &context.memory);
+}
+
+void logRenderer(const FxContext& context)
+{
+    fx::api::logMessage(context, FX_LOG_INFO,
+                        ("OpenGL renderer: " + context.device->limits().renderer).c_str());
+}
+
 Status connectGl(FxContext& context)
 {
-    const fx::render::GlLoader loader{context.def.gl.user, context.def.gl.getProcAddress};
-    if (loader.getProcAddress == &fxGetGlProcAddress && !fx::api::isGlContextCurrent())
-        return {
-            Code::GlUnsupported,
-            "no OpenGL context is current on this thread: make one current before (eglMakeCurrent, "
-            "glXMakeCurrent, SDL_GL_MakeCurrent, glfwMakeContextCurrent), or set def.gl.getProcAddress to "
-            "the function of your window library"};
-    auto device = fx::render::GlDevice::create(loader, &context.memory);
+    Result<std::unique_ptr<GlDevice>> device = makeDevice(context, context.def.gl, "def.gl.getProcAddress");
     if (!device)
         return device.status();
     context.device = std::move(*device);
-    fx::api::logMessage(context, FX_LOG_INFO,
-                        ("OpenGL renderer: " + context.device->limits().renderer).c_str());
+    logRenderer(context);
+    return {};
+}
+
+/// Replaces the device and the renderers of all views. Strong guarantee.
+Status restoreGl(FxContext& context, const FxGlLoader& gl)
+{
+    Result<std::unique_ptr<GlDevice>> device = makeDevice(context, gl, "gl.getProcAddress");
+    if (!device)
+        return device.status();
+    std::pmr::vector<fx::render::ViewRenderer> renderers(&context.memory);
+    renderers.reserve(context.views.size());
+    for (FxView* view : context.views) {
+        view->prepared.reset(); // gives the settings of the host back
+        renderers.push_back(FxView::makeRenderer(context, **device));
+        renderers.back().settings() = view->renderer.settings();
+    }
+    context.device->reportLoss(); // its objects are forgotten
+    for (size_t i = 0; i < renderers.size(); ++i)
+        context.views[i]->setRenderer(std::move(renderers[i]));
+    renderers.clear();
+    context.device = std::move(*device);
+    logRenderer(context);
     return {};
 }
 
@@ -167,15 +201,46 @@ FxResult fxContext_WarmUp(FxContext* context)
         const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
         if (!scope.status())
             return scope.status();
+        if (context->device->isLost())
+            return context->device->orLost({});
         fx::render::ViewRenderer renderer(context->device.get(), &context->schema, &context->memory,
                                           context->techniques.draws);
         for (const FxView* view : context->views)
             renderer.settings().outputs |= view->renderer.settings().outputs;
         if (Status status = renderer.warmUp(); !status) // programs belong to the device and stay
-            return status;
+            return context->device->orLost(std::move(status));
         for (const auto& program : gpuPrograms(*context))
             renderer.warmUp(*program);
+        return context->device->orLost({});
+    });
+}
+
+FxResult fxContext_ReportGlLoss(FxContext* context)
+{
+    return fx::api::guarded("fxContext_ReportGlLoss", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        if (!context->device)
+            return {Code::NoGl, "the context was created without getProcAddress"};
+        const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
+        if (!scope.status())
+            return scope.status();
+        context->device->reportLoss();
         return {};
+    });
+}
+
+FxResult fxContext_RestoreGl(FxContext* context, const FxGlLoader* gl)
+{
+    return fx::api::guarded("fxContext_RestoreGl", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        if (!context->device)
+            return {Code::NoGl, "the context was created without getProcAddress"};
+        if (gl && !gl->getProcAddress)
+            return fx::api::invalid("gl.getProcAddress is null: set it, or give null for gl");
+        const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
+        return scope ? restoreGl(*context, gl ? *gl : context->def.gl) : scope.status();
     });
 }
 

@@ -318,18 +318,22 @@ FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
 {
     return fx::api::insideView("fxView_Render", view, [&]() -> Status {
+        if (view->context->device->isLost())
+            return view->context->device->orLost({});
         Status status = sleepsThrough(*view, frame) ? Status() : renderFrame(*view, frame);
         noteComputing(*view);
-        return status;
+        return view->context->device->orLost(std::move(status));
     });
 }
 
 FxResult fxView_RenderStereo(FxView* view, const FxFrameDef* first, const FxFrameDef* second)
 {
     return fx::api::insideView("fxView_RenderStereo", view, [&]() -> Status {
+        if (view->context->device->isLost())
+            return view->context->device->orLost({});
         Status status = renderEyes(*view, first, second);
         noteComputing(*view);
-        return status;
+        return view->context->device->orLost(std::move(status));
     });
 }
 

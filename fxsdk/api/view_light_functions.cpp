@@ -169,7 +169,10 @@ FxResult fxView_SetLights(FxView* view, const FxLight* lights, uint32_t count)
 
 FxResult fxView_PrepareLights(FxView* view, const FxFrameDef* frame)
 {
-    return fx::api::insideView("fxView_PrepareLights", view, [&] { return prepareLights(*view, frame); });
+    return fx::api::insideView("fxView_PrepareLights", view, [&]() -> Status {
+        fx::render::GlDevice& device = *view->context->device;
+        return device.isLost() ? device.orLost({}) : device.orLost(prepareLights(*view, frame));
+    });
 }
 
 FxResult fxView_GetMediaShadow(FxView* view, uint32_t kind, uint32_t index, FxMediaShadow* ioShadow)

@@ -33,7 +33,11 @@ struct FxView
 
     static fx::render::ViewRenderer makeRenderer(FxContext& context)
     {
-        fx::render::ViewRenderer renderer(context.device.get(), &context.schema, &context.memory,
+        return makeRenderer(context, *context.device);
+    }
+    static fx::render::ViewRenderer makeRenderer(FxContext& context, fx::render::GlDevice& device)
+    {
+        fx::render::ViewRenderer renderer(&device, &context.schema, &context.memory,
                                           context.techniques.draws);
         renderer.setAssets(&context.assets);
         return renderer;
@@ -55,6 +59,17 @@ struct FxView
         scene = shown;
         masked.forget();
         sleeps = false;
+    }
+
+    /// Continues with a renderer of another GL context, which has the settings of this view. The renderer of
+    /// the last context is destroyed.
+    void setRenderer(fx::render::ViewRenderer&& restored) noexcept
+    {
+        prepared.reset();
+        rangeEnd.reset();
+        renderer = std::move(restored);
+        sleeps = false;
+        allocations = 0;
     }
 
     /// Replaces all settings except the host's lights. If the settings enable the activation overlay, the

@@ -21,11 +21,9 @@ base::Status GlBackend::beginFrame(const FrameGraph& graph, SrgbTargets srgb, bo
     drawCalls_ = 0;
     if (!status_.ok())
         return status_;
-    if (device_.gl.GetGraphicsResetStatus() != GL_NO_ERROR) {
-        status_ = {base::Code::GlFailed, "the OpenGL context is lost"};
-        return status_;
-    }
     (void)device_.takeError("the host's own calls");
+    if (status_ = device_.orLost({}); !status_.ok())
+        return status_;
     framebuffers_.beginFrame();
     status_ = pool_.realise(graph, framebuffers_);
     if (status_.ok())

@@ -53,7 +53,7 @@ public:
 
     /// Creates or reuses the textures and buffers of `graph`, and sets the state that all draws share.
     /// `graph` must be compiled and stay valid until endFrame(). A pending GL error of the host is discarded.
-    /// @return the error of FrameGraph::status(), GlFailed (context lost), OutOfMemory, InvalidArgument
+    /// @return the error of FrameGraph::status(), GlLost, OutOfMemory, InvalidArgument
     ///     (size)
     /// @param keepScissor see GlDrawState::reset()
     base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light,

@@ -24,6 +24,13 @@ std::string versionNumber(int version)
     return std::to_string(version / 10) + "." + std::to_string(version % 10);
 }
 
+base::Status lostStatus()
+{
+    return {base::Code::GlLost,
+            "the OpenGL context is lost, with all textures, buffers and programs: create a "
+            "new one and call fxContext_RestoreGl"};
+}
+
 } // namespace
 
 base::Result<std::unique_ptr<GlDevice>> GlDevice::create(const GlLoader& loader,
@@ -82,6 +89,7 @@ base::Status GlDevice::readLimits()
     limits_.uniformAlignment = integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
     limits_.uniformBlockBytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
     limits_.storageAlignment = integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
+    limits_.reportsReset = integer(GL_RESET_NOTIFICATION_STRATEGY) == GL_LOSE_CONTEXT_ON_RESET;
     limits_.debugContext = (integer(GL_CONTEXT_FLAGS) & GL_CONTEXT_FLAG_DEBUG_BIT) != 0;
     return {};
 }
@@ -173,10 +181,15 @@ uint32_t GlDevice::program(const ProgramDesc& desc, base::Status& outStatus)
 
 base::Status GlDevice::takeError(std::string_view where)
 {
-    constexpr int kMaxPending = 16; // a lost context may report errors for ever
+    constexpr int kMaxPending = 16; // a context of a defective driver may report errors for ever
     const GLenum first = gl.GetError();
-    for (int i = 0; i < kMaxPending && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {
-    }
+    GLenum next = first;
+    for (int i = 0; i < kMaxPending && next != GL_NO_ERROR && next != GL_CONTEXT_LOST; ++i)
+        next = gl.GetError();
+    if (next == GL_CONTEXT_LOST)
+        reportLoss();
+    if (isLost())
+        return lostStatus();
     if (first == GL_NO_ERROR)
         return {};
     char number[16];
@@ -184,6 +197,20 @@ base::Status GlDevice::takeError(std::string_view where)
     const bool outOfMemory = first == GL_OUT_OF_MEMORY;
     return {outOfMemory ? base::Code::OutOfMemory : base::Code::GlFailed,
             std::string(where) + ": OpenGL error " + number + (outOfMemory ? " (out of memory)" : "")};
+}
+
+base::Status GlDevice::pollLoss()
+{
+    if (!isLost() && limits_.reportsReset && gl.GetGraphicsResetStatus() != GL_NO_ERROR)
+        reportLoss();
+    return isLost() ? lostStatus() : base::Status();
+}
+
+base::Status GlDevice::orLost(base::Status status)
+{
+    if (!status)
+        (void)takeError("finding a reason"); // an error that is left belongs to the call that has failed
+    return isLost() ? lostStatus() : status;
 }
 
 } // namespace fx::render

@@ -33,6 +33,7 @@ struct GlLimits
     int uniformBlockBytes = 0; ///< [byte] largest uniform block
     int storageAlignment = 0;  ///< [byte] alignment of offsets into storage buffers
     bool debugContext = false; ///< true: passes are named by debug groups
+    bool reportsReset = false; ///< true: a reset of the GPU loses the context, and GL reports the reset
     std::string renderer;      ///< GL_RENDERER
     std::string versionText;
 };
@@ -97,8 +98,19 @@ public:
     void countBufferBytes(int64_t change) { bufferBytes_ += static_cast<uint64_t>(change); }
 
     /// Discards pending GL errors. Returns the first error, or Ok without errors. @param where text for the
-    /// message
+    /// message  @return GlLost, OutOfMemory, GlFailed
     base::Status takeError(std::string_view where);
+
+    /// True when the context is lost: no function of `gl` calls OpenGL any more.
+    bool isLost() const { return gl.monitor.isLost; }
+    /// Marks the context as lost. Objects of this device must be created again with another device.
+    void reportLoss() { gl.monitor.isLost = true; }
+    /// Asks GL whether the context is lost, if GL reports resets.
+    /// @return GlLost if the context is lost
+    base::Status pollLoss();
+    /// GlLost if the context is lost, otherwise `status`. After a failure GL is asked for its errors, because
+    /// a lost context lets all calls fail.
+    base::Status orLost(base::Status status);
 
 private:
     explicit GlDevice(std::pmr::memory_resource* memory) : memory_(memory), programs_(memory) {}

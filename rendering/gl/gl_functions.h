@@ -3,7 +3,9 @@
 /// The library does not link to an OpenGL library.
 ///
 /// Members have the names of the functions without "gl": gl.DrawArraysInstanced(...). A hook is called
-/// before every GL call, and can suppress the call. Tests use the hook to inject faults.
+/// before every GL call, and can suppress the call. Tests use the hook to inject faults. When the context is
+/// lost, the table calls OpenGL no more, so that owners of GL objects forget their names without deleting
+/// them.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -27,6 +29,9 @@ struct GlLoader
 struct GlCallMonitor
 {
     uint64_t calls = 0;
+    /// True: the context of the table is lost. No function is called any more; all return zero and change no
+    /// output.
+    bool isLost = false;
     /// Called before each GL function, with the name of the function including "gl". If the hook returns
     /// false, the GL call is suppressed and returns zero. Only tests set a hook.
     std::function<bool(const char* name)> hook;
@@ -42,6 +47,8 @@ class GlFunction<R(APIENTRY*)(A...)>
 public:
     R operator()(A... arguments) const
     {
+        if (monitor_->isLost) [[unlikely]]
+            return R();
         ++monitor_->calls;
         if (monitor_->hook && !monitor_->hook(name_)) [[unlikely]]
             return R();

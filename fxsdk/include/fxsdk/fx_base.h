@@ -74,6 +74,7 @@ typedef enum FxResult
     FX_ERROR_IO = -15,             ///< the operating system refused to read or write
     FX_ERROR_INTERRUPTED = -16,    ///< the user stopped the operation
     FX_ERROR_HOST_ANSWER = -17,    ///< a callback of the host returned an invalid value
+    FX_ERROR_GL_LOST = -18,        ///< the GL context is lost; see fxContext_RestoreGl()
     FX_ERROR_INTERNAL = -99,       ///< a defect of the library
     FX_RESULT_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxResult;

@@ -178,14 +178,39 @@ FX_API FxResult fxDestroyContext(FxContext* context);
 /// Compiles all GPU programs of all views, so that no frame compiles programs. Further calls cost nothing.
 /// [GL thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL, FX_ERROR_GL_FAILED (the message has the
-///         compiler's log), FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY. After a failure the function may
-///         be called again.
+///         compiler's log), FX_ERROR_GL_LOST, FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY. After a failure
+///         the function may be called again.
 FX_API FxResult fxContext_WarmUp(FxContext* context);
 
 /// Makes the calling thread the GL thread. The OpenGL context must already be current on this thread. No GL
 /// call of this context may be in progress on another thread. [any]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxContext_AdoptGlThread(FxContext* context);
+
+/// States that the OpenGL context of the GL thread is lost, or is going to be destroyed. From then on the
+/// library calls no function of OpenGL, and fxView_Render(), fxView_RenderStereo(), fxView_PrepareLights()
+/// and fxContext_WarmUp() return FX_ERROR_GL_LOST, until fxContext_RestoreGl() is called. Simulation,
+/// settings, masks, ids and snapshots do not depend on the loss. Views notice a loss by themselves, by
+/// GL_CONTEXT_LOST, and once in a frame by glGetGraphicsResetStatus if the context was created with
+/// GL_LOSE_CONTEXT_ON_RESET. A host that knows of the loss, or destroys its OpenGL context on purpose, calls
+/// this function before. [GL thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxContext_ReportGlLoss(FxContext* context);
+
+/// Goes on in another OpenGL context, which is current on the calling thread. Objects of the last one are
+/// forgotten, not deleted: they end with it. All views keep their handle, scene, settings and lights. Their
+/// next frame creates the GL objects anew, and compiles programs unless fxContext_WarmUp() is called before.
+/// That frame is, bit for bit, the first frame of a new view with the same settings: the adaptation of glare,
+/// impostors, displacements since the last frame, prepared frames and frames of several ranges begin anew.
+/// Particles that the GPU computes are computed again from their births, as in every new view. A context that
+/// is not lost may be left, too. [GL thread; after fxContext_AdoptGlThread(), if the new context is current
+/// on another thread]
+/// @param gl loader of the new context; null: the loader that fxCreateContext() was given
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL (the context was created without GL),
+///         FX_ERROR_GL_UNSUPPORTED (as fxCreateContext), FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
+///         FX_ERROR_OUT_OF_MEMORY. After a failure the context is as before, and the function may be called
+///         again.
+FX_API FxResult fxContext_RestoreGl(FxContext* context, const FxGlLoader* gl);
 
 /// Reads the counters of the context. [any]
 /// @param ioStats structSize must be set; other members are overwritten on success, untouched on failure

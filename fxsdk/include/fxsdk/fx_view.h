@@ -347,8 +347,8 @@ FX_API FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 /// [GL thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member, the value and the remedy; also for
 ///         targets that the view cannot read or write correctly), FX_ERROR_VERSION, FX_ERROR_GL_FAILED,
-///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. On failure the picture and the
-///         GL state do not change.
+///         FX_ERROR_GL_LOST (see fxContext_RestoreGl), FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
+///         FX_ERROR_OUT_OF_MEMORY. On failure the picture and the GL state do not change.
 FX_API FxResult fxView_Render(FxView* view, const FxFrameDef* frame);
 
 /// Draws both eyes of a head-mounted or stereoscopic display, each over its own picture. Both eyes show the

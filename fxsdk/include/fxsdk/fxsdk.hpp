@@ -178,6 +178,12 @@ public:
     /// Compiles all GPU programs.
     void warmUp() { check(fxContext_WarmUp(get())); }
 
+    /// The OpenGL context is lost: nothing calls OpenGL until restoreGl().
+    void reportGlLoss() { check(fxContext_ReportGlLoss(get())); }
+
+    /// Views continue in the OpenGL context that is current. @param gl null: the loader of the definition
+    void restoreGl(const FxGlLoader* gl = nullptr) { check(fxContext_RestoreGl(get(), gl)); }
+
     FxMemoryStats memory()
     {
         return detail::filled<FxMemoryStats>([&](auto* out) { return fxContext_GetMemoryStats(get(), out); });

@@ -134,10 +134,10 @@ TEST_F(GlFaultsTest, aLostContextIsNoticedBeforeAnythingIsDrawn)
     struct Loss
     {
         GlLoader inner;
-        static GLenum APIENTRY lost() { return GL_GUILTY_CONTEXT_RESET; }
+        static GLenum APIENTRY lost() { return GL_CONTEXT_LOST; }
     } loss{context->loader()};
     const GlLoader loader{&loss, [](void* user, const char* name) -> void* {
-                              if (std::strcmp(name, "glGetGraphicsResetStatus") == 0)
+                              if (std::strcmp(name, "glGetError") == 0)
                                   return reinterpret_cast<void*>(&Loss::lost);
                               const GlLoader& inner = static_cast<Loss*>(user)->inner;
                               return inner.getProcAddress(inner.user, name);
@@ -148,9 +148,12 @@ TEST_F(GlFaultsTest, aLostContextIsNoticedBeforeAnythingIsDrawn)
     declareFill();
     graph.compile();
     const base::Status status = lostBackend.beginFrame(graph);
-    expectMessage(status, base::Code::GlFailed, {"context is lost"});
+    expectMessage(status, base::Code::GlLost, {"context is lost"});
+    EXPECT_TRUE((*lostDevice)->isLost());
+    const uint64_t calls = (*lostDevice)->callCount();
     graph.execute(lostBackend);
     EXPECT_EQ(lostBackend.drawCalls(), 0u);
+    EXPECT_EQ((*lostDevice)->callCount(), calls);
 }
 
 TEST_F(GlFaultsTest, touchingAnUndeclaredResourceNamesPassAndResource)
