@@ -81,12 +81,24 @@ Result<AssetId> AssetTable::publish(Entry entry, uint64_t bytes)
         return Status(Code::Capacity,
                       "assets: " + std::to_string(kMaxAssets) +
                           " images, meshes and volumes are loaded already; use fewer different ones");
+    entry.bytes = bytes;
     owned_.push_back(std::make_unique<Entry>(std::move(entry)));
     const auto id = AssetId(owned_.size());
     byId_[id - 1].store(owned_.back().get(), std::memory_order_release);
     size_.store(id, std::memory_order_release);
     bytes_.fetch_add(bytes, std::memory_order_relaxed);
     return id;
+}
+
+void AssetTable::truncate(uint32_t count)
+{
+    const std::scoped_lock lock(adding_);
+    while (owned_.size() > count) {
+        byId_[owned_.size() - 1].store(nullptr, std::memory_order_release);
+        bytes_.fetch_sub(owned_.back()->bytes, std::memory_order_relaxed);
+        owned_.pop_back();
+    }
+    size_.store(uint32_t(owned_.size()), std::memory_order_release);
 }
 
 Result<AssetId> AssetTable::addImage(int width, int height, bool isSrgb, std::span<const uint8_t> rgba)

@@ -2,9 +2,9 @@
 /// Assets (images, meshes and volumes) by id. Presets name assets, particles store their ids, and views draw
 /// the assets.
 ///
-/// Assets never change and live as long as their table. Equal content gets the same id, so a texture that a
-/// hundred presets use is stored once. Threads: any thread may add and read. A mutex serializes additions;
-/// reading takes no lock.
+/// Assets never change and live as long as their table, except for those of a load that has failed. Equal
+/// content gets the same id, so a texture that a hundred presets use is stored once. Threads: any thread may
+/// add and read. A mutex serializes additions; reading takes no lock.
 #pragma once
 
 #include "foundation/assets/voxel_volume.h"
@@ -78,6 +78,9 @@ public:
     /// Adds a sequence of volumes, likewise. Its frames come and go, and are not part of bytes().
     Result<AssetId> addSequence(std::shared_ptr<VolumeSequence> sequence, uint64_t hash);
 
+    /// Removes the newest assets, so that `count` are left. Nothing may use the ids of the others.
+    void truncate(uint32_t count);
+
     /// The image (or mesh, or volume) of `id`; null if this table has no image (or mesh, or volume) with this
     /// id.
     const ImageAsset* image(AssetId id) const;
@@ -95,6 +98,7 @@ private:
     struct Entry
     {
         uint64_t hash = 0;
+        uint64_t bytes = 0; ///< part of bytes()
         std::unique_ptr<ImageAsset> image;
         std::unique_ptr<MeshAsset> mesh;
         std::shared_ptr<const VoxelVolume> volume;

@@ -9,6 +9,7 @@
 #include "fxsdk/api/call_scope.h"
 #include "fxsdk/fx_context.h"
 #include "fxsdk/fx_preset.h"
+#include "fxsdk/fx_preset_load.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/techniques.h"
 #include "rendering/gl/gl_device.h"
@@ -72,11 +73,12 @@ struct FxContext
     std::unique_ptr<fx::base::TaskRunner> tasks;
 
     fx::api::SharedCaller loading; ///< serializes the loading of presets; entered before `tables`
-    fx::api::SharedCaller tables;  ///< guards the four members below; locked only for a short time
+    fx::api::SharedCaller tables;  ///< guards the five members below; locked only for a short time
     fx::scene::IdCodec ids{this};
     fx::api::PresetTable presets;
     std::pmr::vector<FxScene*> scenes;
     std::pmr::vector<FxView*> views;
+    std::pmr::vector<FxPresetLoad*> loads;
 
     fx::api::SingleCaller gl;                     ///< GL thread
     std::unique_ptr<fx::render::GlDevice> device; ///< null without GL

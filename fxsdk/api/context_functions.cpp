@@ -3,6 +3,7 @@
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/gl_loader.h"
 #include "fxsdk/api/guarded.h"
+#include "fxsdk/api/preset_load_object.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/api/view_object.h"
@@ -106,6 +107,9 @@ void destroy(FxContext* context)
         fx::api::destroyView(context->views.back());
     while (!context->scenes.empty())
         fx::api::destroyScene(context->scenes.back());
+    for (FxPresetLoad* load : context->loads)
+        fx::api::freePresetLoad(load);
+    context->loads.clear();
     fx::base::HostMemory memory(fx::api::toHooks(context->def.allocator));
     context->~FxContext();
     memory.deallocate(context, sizeof(FxContext), alignof(FxContext));

@@ -3,69 +3,21 @@
 #include "fxsdk/api/check.h"
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/guarded.h"
+#include "fxsdk/api/preset_loading.h"
 #include "fxsdk/api/text.h"
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/fx_reload.h"
-#include "fxsdk/presets/preset_loader.h"
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 
 namespace {
 
 using fx::base::Code;
 using fx::base::Result;
 using fx::base::Status;
-using fx::preset::LoadedPreset;
 
-constexpr std::string_view kLibraryPrefix = "library:";
 constexpr double kMaxWork = 1e18; ///< [unit] largest reported value
-
-/// Adapts the host's asset hook to the resolver.
-int readThroughHook(void* user, const char* name, uint64_t maxBytes,
-                    void (*deliver)(void* sink, const void* data, size_t size), void* sink)
-{
-    const FxAssetHook& hook = *static_cast<const FxAssetHook*>(user);
-    size_t size = 0;
-    const void* data = hook.open(hook.user, name, &size);
-    if (!data)
-        return 1;
-    struct Closer
-    {
-        const FxAssetHook& hook;
-        const void* data;
-        size_t size;
-        ~Closer() { hook.close(hook.user, data, size); }
-    } closer{hook, data, size};
-    if (size > maxBytes)
-        return 2;
-    deliver(sink, data, size);
-    return 0;
-}
-
-/// Loads a preset under the context's lock and enters what `load` returns into its table.
-template <class Load>
-Status loadInto(FxContext* context, std::string source, FxPresetId* outPreset, Load&& load)
-{
-    const fx::api::SharedCaller::Scope loading(context->loading);
-    if (!loading.status())
-        return loading.status();
-    Result<LoadedPreset> loaded = load();
-    if (!loaded)
-        return loaded.status();
-    for (const fx::preset::Diagnostic& warning : loaded->warnings)
-        fx::api::logMessage(*context, FX_LOG_WARNING, fx::preset::toString(warning).c_str());
-
-    const fx::api::SharedCaller::Scope tables(context->tables);
-    if (!tables.status())
-        return tables.status();
-    const fx::scene::LocalId id = context->presets.add({std::move(loaded->effect), std::move(source)});
-    if (id == 0)
-        return {Code::Capacity, "no more presets can be loaded"};
-    outPreset->bits = context->ids.encode(id, fx::api::kPresetIdType);
-    return {};
-}
 
 Status checkLoad(const FxContext* context, const void* text, const char* textName,
                  const FxPresetId* outPreset)
@@ -75,53 +27,6 @@ Status checkLoad(const FxContext* context, const void* text, const char* textNam
     check.notNull(text, textName);
     check.notNull(outPreset, "outPreset");
     return check.status();
-}
-
-/// Images and meshes of all presets live in the context.
-fx::preset::PresetAssets assetsOf(FxContext& context)
-{
-    const bool isLenient = (context.def.flags & FX_CONTEXT_PLACEHOLDERS) != 0;
-    return {&context.assets,
-            isLenient ? fx::asset::MissingAsset::ShowsPlaceholder : fx::asset::MissingAsset::IsAnError};
-}
-
-Result<LoadedPreset> loadFile(FxContext& context, const char* path)
-{
-    FxAssetHook hook = context.def.assets;
-    if (hook.open && fx::asset::checkAssetName(path).ok() &&
-        !std::string_view(path).starts_with(kLibraryPrefix)) {
-        const fx::asset::AssetResolver resolver("", fx::preset::libraryFiles(), {&hook, &readThroughHook});
-        Result<LoadedPreset> loaded = fx::preset::loadPresetAsset(path, resolver, nullptr, assetsOf(context),
-                                                                  context.techniques.presets);
-        if (loaded.ok() || loaded.status().code() != Code::NotFound)
-            return loaded;
-    }
-    return fx::preset::loadPresetFile(path, nullptr, assetsOf(context), context.techniques.presets);
-}
-
-Status checkLength(size_t length)
-{
-    if (length == 0)
-        return fx::api::invalid("length is 0");
-    if (length > fx::preset::kPresetBytes)
-        return {Code::TooLarge, "length is " + std::to_string(length) + "; a preset has at most " +
-                                    std::to_string(fx::preset::kPresetBytes) + " bytes"};
-    return {};
-}
-
-/// Loads a text with the files that loadFile() finds for a preset at `path`.
-Result<LoadedPreset> loadTextAt(FxContext& context, std::string_view text, const std::string& path)
-{
-    FxAssetHook hook = context.def.assets;
-    const bool isInLibrary = path.starts_with(kLibraryPrefix);
-    const bool isHooked = hook.open && !isInLibrary && fx::asset::checkAssetName(path).ok();
-    const std::string folder = isInLibrary ? std::string() : fx::preset::folderOf(path);
-    const std::string root = isInLibrary ? std::string() : folder.empty() || isHooked ? "." : folder;
-    const fx::asset::AssetResolver resolver(root, fx::preset::libraryFiles(),
-                                            isHooked ? fx::asset::ReadHook{&hook, &readThroughHook}
-                                                     : fx::asset::ReadHook{});
-    return fx::preset::loadPresetText(text, path, nullptr, &resolver, assetsOf(context),
-                                      isHooked ? folder : std::string(), context.techniques.presets);
 }
 
 uint64_t capacityOf(const fx::sim::EffectDef& effect)
@@ -139,7 +44,7 @@ FxResult fxLoadPresetFile(FxContext* context, const char* path, FxPresetId* outP
     return fx::api::guarded("fxLoadPresetFile", fx::api::logOf(context), [&]() -> Status {
         if (Status status = checkLoad(context, path, "path", outPreset); !status)
             return status;
-        return loadInto(context, path, outPreset, [&] { return loadFile(*context, path); });
+        return fx::api::loadPreset(*context, {path, {}, false}, nullptr, *outPreset);
     });
 }
 
@@ -149,13 +54,10 @@ FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, c
     return fx::api::guarded("fxLoadPresetText", fx::api::logOf(context), [&]() -> Status {
         if (Status status = checkLoad(context, text, "text", outPreset); !status)
             return status;
-        if (Status status = checkLength(length); !status)
+        if (Status status = fx::api::checkPresetLength(length); !status)
             return status;
-        const char* const name = displayName ? displayName : "preset text";
-        return loadInto(context, name, outPreset, [&] {
-            return fx::preset::loadPresetText({text, length}, name, nullptr, nullptr, assetsOf(*context), {},
-                                              context->techniques.presets);
-        });
+        return fx::api::loadPresetText(*context, {text, length}, displayName ? displayName : "preset text",
+                                       *outPreset);
     });
 }
 
@@ -167,9 +69,9 @@ FxResult fxLoadPresetTextAt(FxContext* context, const char* text, size_t length,
             return status;
         if (!path)
             return fx::api::invalid("path is null");
-        if (Status status = checkLength(length); !status)
+        if (Status status = fx::api::checkPresetLength(length); !status)
             return status;
-        return loadInto(context, path, outPreset, [&] { return loadTextAt(*context, {text, length}, path); });
+        return fx::api::loadPreset(*context, {path, {text, length}, true}, nullptr, *outPreset);
     });
 }
 
@@ -179,13 +81,9 @@ FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* o
         if (Status status = checkLoad(context, name, "name", outPreset); !status)
             return status;
         std::string full(name);
-        if (!full.starts_with(kLibraryPrefix))
-            full.insert(0, kLibraryPrefix);
-        return loadInto(context, full, outPreset, [&] {
-            const fx::asset::AssetResolver library("", fx::preset::libraryFiles());
-            return fx::preset::loadPresetAsset(full, library, nullptr, assetsOf(*context),
-                                               context->techniques.presets);
-        });
+        if (!full.starts_with(fx::api::kLibraryPrefix))
+            full.insert(0, fx::api::kLibraryPrefix);
+        return fx::api::loadLibraryPreset(*context, full, nullptr, *outPreset);
     });
 }
 

@@ -69,6 +69,8 @@ std::string AssetLoader::nameIn(std::string_view name) const
 
 base::Result<std::string> AssetLoader::read(std::string_view name, uint64_t maxBytes)
 {
+    if (monitor_)
+        monitor_->beginFile(name);
     base::Result<std::string> bytes = resolver_.read(nameIn(name), maxBytes);
     if (bytes)
         contentHash_ = base::hashWord(contentHash_, base::hashBytes(0, bytes->data(), bytes->size()));
@@ -147,6 +149,8 @@ base::Result<base::AssetId> AssetLoader::sequence(const SequenceFiles& files)
         later = [resolver = resolver_, folder = folder_](std::string_view name) {
             return resolver.read(folder + std::string(name), kMaxVolumeFileBytes);
         };
+    if (monitor_)
+        monitor_->divide(files.count);
     uint64_t hash = 0;
     const auto sequence = readSequence(
         files, [this](std::string_view name) { return read(name, kMaxVolumeFileBytes); }, std::move(later),

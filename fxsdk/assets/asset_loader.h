@@ -5,6 +5,7 @@
 
 #include "foundation/assets/asset_table.h"
 #include "fxsdk/assets/asset_resolver.h"
+#include "fxsdk/assets/load_monitor.h"
 #include "fxsdk/assets/sequence_reader.h"
 
 #include <functional>
@@ -38,9 +39,10 @@ public:
     /// Creates a loader for the assets of one document.
     /// @param folder folder of the document, relative to the resolver's folder and ending with '/'; empty:
     ///          the resolver's folder
+    /// @param monitor receives the names of the files before they are read; null: none
     AssetLoader(const AssetResolver& resolver, base::AssetTable& table, MissingAsset missing,
-                std::string folder = {})
-        : resolver_(resolver), table_(table), missing_(missing), folder_(std::move(folder))
+                std::string folder = {}, LoadMonitor* monitor = nullptr)
+        : resolver_(resolver), table_(table), missing_(missing), folder_(std::move(folder)), monitor_(monitor)
     {}
 
     /// Reads the bytes of the asset `name`, which is relative to the document. @return codes of
@@ -49,6 +51,7 @@ public:
     /// Hash of all bytes read, in the order of reading; 0 if nothing was read. A volume is read once.
     uint64_t contentHash() const { return contentHash_; }
     const base::AssetTable& table() const { return table_; }
+    LoadMonitor* monitor() const { return monitor_; } ///< null: none
 
     /// Loads an image. @param columns, rows numbers of frames by which the image must be divisible, >= 1
     /// @param outWarning receives the reason for a placeholder; untouched if there is no placeholder
@@ -73,6 +76,7 @@ private:
     base::AssetTable& table_;
     MissingAsset missing_;
     std::string folder_;
+    LoadMonitor* monitor_;
     std::map<std::string, base::AssetId, std::less<>> volumes_; ///< by name
     uint64_t contentHash_ = 0;
 };

@@ -96,6 +96,33 @@ void lintOrder(const Json& document, const sim::EffectDef& effect, Findings& fin
         findings.warning(member.pointer, orderWarning(member) + "; remove it, or \"composition\"");
 }
 
+/// Parts of a load: the file, its text, its elements, and what they have to do with each other.
+constexpr float kTextBegins = 0.05f, kElementsBegin = 0.2f, kElementsEnd = 0.9f;
+
+void buildElements(const PresetValue& root, Techniques techniques, const Findings& findings,
+                   sim::EffectDef& effect)
+{
+    asset::LoadMonitor* const monitor = findings.assets()->monitor();
+    size_t all = 0, built = 0;
+    for (const Technique& technique : techniques)
+        all += root.size(std::string(technique.presetMember).c_str());
+    const auto place = [&](size_t count) {
+        return kElementsBegin + (kElementsEnd - kElementsBegin) * float(count) / float(all);
+    };
+    for (const Technique& technique : techniques) {
+        const std::string member(technique.presetMember);
+        const size_t count = root.size(member.c_str());
+        for (size_t i = 0; i < count; ++i, ++built) {
+            if (monitor)
+                monitor->beginPart(member + " " + std::to_string(i + 1) + " of " + std::to_string(count),
+                                   place(built), place(built + 1));
+            technique.build(root.element(member.c_str(), i), effect);
+        }
+    }
+    if (monitor)
+        monitor->beginPart("links and estimates", kElementsEnd, 1.0f);
+}
+
 std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const std::string& displayName,
                                                   Techniques techniques, Findings& findings)
 {
@@ -116,11 +143,7 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     root.read("bound", effect->bound);
     readOffscreen(root, *effect);
     readHints(root, effect->hints);
-    for (const Technique& technique : techniques) {
-        const std::string member(technique.presetMember);
-        for (size_t i = 0; i < root.size(member.c_str()); ++i)
-            technique.build(root.element(member.c_str(), i), *effect);
-    }
+    buildElements(root, techniques, findings, *effect);
     for (const Technique& technique : techniques)
         if (technique.link)
             technique.link(root, *effect);
@@ -177,6 +200,15 @@ base::Status unreadable(const base::Status& status, const std::string& displayNa
     return status;
 }
 
+/// States that the text of a preset is about to be read.
+void beginText(const PresetAssets& assets, std::string_view name)
+{
+    if (!assets.monitor)
+        return;
+    assets.monitor->beginPart(name, 0.0f, kTextBegins);
+    assets.monitor->beginFile(name);
+}
+
 } // namespace
 
 std::span<const base::EmbeddedText> presetLibrary()
@@ -209,8 +241,10 @@ base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::stri
     if (!assets.table)
         forgotten = std::make_unique<base::AssetTable>(std::pmr::get_default_resource());
     asset::AssetLoader loader(resolver ? *resolver : libraryOnly, assets.table ? *assets.table : *forgotten,
-                              assets.missing, folder);
+                              assets.missing, folder, assets.monitor);
     Findings findings(&loader);
+    if (assets.monitor)
+        assets.monitor->beginPart(displayName, kTextBegins, kElementsBegin);
     std::shared_ptr<const sim::EffectDef> effect = readPreset(text, displayName, techniques, findings);
     std::vector<Diagnostic> diagnostics = findings.locate(text, displayName);
     if (outDiagnostics)
@@ -224,6 +258,7 @@ base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::A
                                            std::vector<Diagnostic>* outDiagnostics,
                                            const PresetAssets& assets, Techniques techniques)
 {
+    beginText(assets, name);
     const base::Result<std::string> text = resolver.read(name, kPresetBytes);
     if (!text)
         return unreadable(text.status(), std::string(name), outDiagnostics);
@@ -234,6 +269,7 @@ base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::A
 base::Result<LoadedPreset> loadPresetFile(const std::string& path, std::vector<Diagnostic>* outDiagnostics,
                                           const PresetAssets& assets, Techniques techniques)
 {
+    beginText(assets, path);
     const base::Result<std::string> text = asset::readFile(path, kPresetBytes);
     if (!text)
         return unreadable(text.status(), path, outDiagnostics);

@@ -32,11 +32,12 @@ std::span<const base::EmbeddedText> presetLibrary();
 /// The presets and their assets, as the library of a resolver.
 std::span<const base::EmbeddedText> libraryFiles();
 
-/// Table to which images and meshes of presets are added.
+/// Table to which images and meshes of presets are added, and who follows the load.
 struct PresetAssets
 {
     base::AssetTable* table = nullptr; ///< null: assets are read and checked, but not stored
     asset::MissingAsset missing = asset::MissingAsset::IsAnError;
+    asset::LoadMonitor* monitor = nullptr; ///< of this load; null: nobody waits. May throw LoadCanceled
 };
 
 /// Parses, migrates and validates a preset and builds its effect. On failure the status holds the first

@@ -175,6 +175,58 @@ TEST_F(ThreadApi, presetsLoadOnManyThreadsAtOnceWhileTheSceneRuns)
         loader.join();
 }
 
+TEST_F(ThreadApi, presetsLoadOnWorkersWhileOthersPollAndCancelThem)
+{
+    addFountain();
+    constexpr int kLoads = 24;
+    std::vector<FxPresetLoad*> loads(kLoads);
+    for (FxPresetLoad*& load : loads)
+        ASSERT_EQ(fxBeginPresetLoad(context_, "library:debris", nullptr, 0, &load), FX_OK);
+    std::atomic<size_t> next{0};
+    std::vector<std::thread> workers;
+    for (int t = 0; t < 2; ++t)
+        workers.emplace_back([&] {
+            for (size_t i = next++; i < loads.size(); i = next++) {
+                const FxResult result = fxPresetLoad_Run(loads[i]);
+                EXPECT_TRUE(result == FX_OK || result == FX_ERROR_INTERRUPTED) << fxGetLastErrorMessage();
+            }
+        });
+    std::vector<float> last(loads.size());
+    std::vector<bool> hasEnded(loads.size());
+    size_t ended = 0, ready = 0;
+    while (ended < loads.size() && !HasFailure()) {
+        EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+        for (size_t i = 0; i < loads.size(); ++i) {
+            FxPresetLoadProgress progress{};
+            progress.structSize = sizeof progress;
+            EXPECT_EQ(fxPresetLoad_GetProgress(loads[i], &progress), FX_OK);
+            EXPECT_GE(progress.fraction, last[i]);
+            last[i] = progress.fraction;
+            if (i % 3 == 1 && (progress.filesRead > 0 || i % 2 == 0)) { // some before they run
+                EXPECT_EQ(fxPresetLoad_Cancel(loads[i]), FX_OK);
+            }
+            if (hasEnded[i] || progress.state == FX_PRESET_LOAD_WAITING ||
+                progress.state == FX_PRESET_LOAD_RUNNING)
+                continue;
+            FxPresetId preset{};
+            const FxResult result = fxPresetLoad_Finish(loads[i], &preset);
+            EXPECT_EQ(result == FX_OK, progress.state == FX_PRESET_LOAD_READY);
+            ready += result == FX_OK ? 1 : 0;
+            hasEnded[i] = true;
+            ++ended;
+        }
+    }
+    for (std::thread& worker : workers)
+        worker.join();
+    for (FxPresetLoad* load : loads)
+        EXPECT_EQ(fxDestroyPresetLoad(load), FX_OK);
+    EXPECT_GE(ready, loads.size() * 2 / 3);
+    FxMemoryStats stats{};
+    stats.structSize = sizeof stats;
+    EXPECT_EQ(fxContext_GetMemoryStats(context_, &stats), FX_OK);
+    EXPECT_EQ(stats.presets, 1u + ready);
+}
+
 TEST_F(ThreadApi, manySmallEmittersAreReadOnOtherThreadsWhileTheyComeAndGo)
 {
     FxInstanceDef def = instanceDef();

@@ -120,3 +120,22 @@ TEST_F(AssetTableTest, readersSeeWholeAssetsWhileOthersAreAdded)
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(table_.size(), 200u);
 }
+
+TEST_F(AssetTableTest, forgetsTheNewestAssetsAndCountsTheirIdsAgain)
+{
+    const auto kept = table_.addImage(2, 2, true, texels(2, 2, 1));
+    const std::vector<uint32_t> face{0, 1, 2};
+    const auto mesh = table_.addMesh(kCorners, face);
+    const auto image = table_.addImage(4, 4, true, texels(4, 4, 1));
+    ASSERT_TRUE(kept.ok() && mesh.ok() && image.ok());
+    table_.truncate(table_.size());
+    EXPECT_EQ(table_.size(), 3u);
+    table_.truncate(1);
+    EXPECT_EQ(table_.size(), 1u);
+    EXPECT_EQ(table_.bytes(), 16u);
+    EXPECT_TRUE(table_.image(*kept));
+    EXPECT_FALSE(table_.mesh(*mesh));
+    EXPECT_FALSE(table_.image(*image));
+    EXPECT_EQ(*table_.addImage(4, 4, true, texels(4, 4, 1)), 2u);
+    EXPECT_EQ(*table_.addImage(2, 2, true, texels(2, 2, 1)), *kept);
+}

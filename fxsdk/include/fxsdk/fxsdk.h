@@ -16,6 +16,7 @@
 #include "fxsdk/fx_events.h"
 #include "fxsdk/fx_parameters.h"
 #include "fxsdk/fx_preset.h"
+#include "fxsdk/fx_preset_load.h"
 #include "fxsdk/fx_reload.h"
 #include "fxsdk/fx_scene.h"
 #include "fxsdk/fx_snapshot.h"

@@ -53,6 +53,7 @@ struct Destroy
     void operator()(FxContext* context) const { (void)fxDestroyContext(context); }
     void operator()(FxScene* scene) const { (void)fxDestroyScene(scene); }
     void operator()(FxView* view) const { (void)fxDestroyView(view); }
+    void operator()(FxPresetLoad* load) const { (void)fxDestroyPresetLoad(load); }
 };
 
 template <class T>
@@ -193,6 +194,44 @@ public:
 
 private:
     detail::Owner<FxContext> context_;
+};
+
+/// A preset that a worker thread loads.
+class PresetLoad
+{
+public:
+    /// @param path file, or "library:NAME"  @param text of the file, if it need not be read; empty: none
+    PresetLoad(const Context& context, const std::string& path, std::string_view text = {})
+    {
+        FxPresetLoad* load = nullptr;
+        check(fxBeginPresetLoad(context.get(), path.c_str(), text.empty() ? nullptr : text.data(),
+                                text.size(), &load));
+        load_.reset(load);
+    }
+
+    /// Loads, on the thread that calls.
+    void run() { check(fxPresetLoad_Run(get())); }
+
+    FxPresetLoadProgress progress()
+    {
+        return detail::filled<FxPresetLoadProgress>(
+            [&](auto* out) { return fxPresetLoad_GetProgress(get(), out); });
+    }
+
+    void cancel() { check(fxPresetLoad_Cancel(get())); }
+
+    /// The preset of a load that has ended.
+    FxPresetId finish()
+    {
+        FxPresetId preset{};
+        check(fxPresetLoad_Finish(get(), &preset));
+        return preset;
+    }
+
+    FxPresetLoad* get() const noexcept { return load_.get(); }
+
+private:
+    detail::Owner<FxPresetLoad> load_;
 };
 
 /// Instances of effects, and a clock.
