@@ -51,4 +51,11 @@ void copyWithout(const FrameSnapshot& snapshot, std::span<const uint64_t> left, 
             copyGroup(snapshot.pooled(g) ? snapshot.group(g) : snapshot.unread(g), out);
 }
 
+void copyGroups(const FrameSnapshot& snapshot, std::span<const uint32_t> groups, FrameSnapshot& out)
+{
+    out.begin(snapshot.tick(), snapshot.sequence(), snapshot.step());
+    for (const uint32_t g : groups)
+        copyGroup(snapshot.pooled(g) ? snapshot.group(g) : snapshot.unread(g), out);
+}
+
 } // namespace fx::base

@@ -1,5 +1,5 @@
 /// @file filtered_snapshot.h
-/// Copies of snapshots without the groups of some instances.
+/// Copies of snapshots with some of their groups.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -19,5 +19,9 @@ bool hasGroupOf(const FrameSnapshot& snapshot, std::span<const uint64_t> instanc
 /// @param left ids of instances, ascending
 /// @param out has the schema of `snapshot`; its memory is reused
 void copyWithout(const FrameSnapshot& snapshot, std::span<const uint64_t> left, FrameSnapshot& out);
+
+/// Replaces the content of `out` by some groups of `snapshot`, in the order of `groups`, likewise.
+/// @param groups indices of groups
+void copyGroups(const FrameSnapshot& snapshot, std::span<const uint32_t> groups, FrameSnapshot& out);
 
 } // namespace fx::base

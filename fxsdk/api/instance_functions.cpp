@@ -53,6 +53,13 @@ fx::sim::InstanceParameters toParameters(float intensity, const float* wind, uin
     return {intensity, {wind[0], wind[1], wind[2]}, emitting != 0, {tint[0], tint[1], tint[2]}};
 }
 
+static_assert(FX_LOWEST_LAYER == fx::scene::kLowestLayer && FX_HIGHEST_LAYER == fx::scene::kHighestLayer);
+
+void checkLayer(fx::api::Checks& check, int32_t layer, const char* name)
+{
+    check.range(layer, FX_LOWEST_LAYER, FX_HIGHEST_LAYER, name);
+}
+
 Status checkDef(const FxInstanceDef& def)
 {
     fx::api::Checks check;
@@ -64,6 +71,7 @@ Status checkDef(const FxInstanceDef& def)
     check.range(def.reserved, 0u, 0u, "def.reserved");
     check.range(def.reserved2, 0u, 0u, "def.reserved2");
     check.range(def.reserved3, 0u, 0u, "def.reserved3");
+    checkLayer(check, def.layer, "def.layer");
     return check.status();
 }
 
@@ -92,7 +100,8 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         setup.parameters = toParameters(known.intensity, known.wind, known.emitting, known.tint);
         setup.destroyWhenFinished = known.destroyWhenFinished != 0;
         setup.quality = fx::api::toQuality(known.quality, scene->quality);
-        const fx::scene::LocalId id = scene->scene.add(std::move(setup), known.visibilityMask);
+        const fx::scene::LocalId id =
+            scene->scene.add(std::move(setup), {known.visibilityMask, known.layer, known.sortKey});
         if (id == 0)
             return {Code::Capacity, "the scene has as many instances as its definition allows"};
         outInstance->bits = scene->ids.encode(id, fx::api::kInstanceIdType);
@@ -214,6 +223,17 @@ FxResult fxScene_SetVisibilityMask(FxScene* scene, FxInstanceId instance, uint32
                                      scene->scene.setVisibilityMask(id, mask);
                                      return {};
                                  });
+}
+
+FxResult fxScene_SetLayer(FxScene* scene, FxInstanceId instance, int32_t layer, int32_t sortKey)
+{
+    return fx::api::withInstance("fxScene_SetLayer", scene, instance, [&](fx::scene::LocalId id) -> Status {
+        fx::api::Checks check;
+        checkLayer(check, layer, "layer");
+        if (check.status())
+            scene->scene.setLayer(id, layer, sortKey);
+        return check.status();
+    });
 }
 
 FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, float speed)

@@ -11,18 +11,18 @@ void MaskedSnapshots::forget()
         copy.serial = 0;
 }
 
-base::SnapshotPair MaskedSnapshots::shown(const base::SnapshotPair& all, const scene::VisibilityMasks& masks,
+base::SnapshotPair MaskedSnapshots::shown(const base::SnapshotPair& all, const scene::DisplayRules& rules,
                                           uint32_t mask)
 {
     const uint64_t before = revision_;
-    masks.copy(masks_, revision_);
+    rules.copy(rules_, revision_);
     if (before != revision_ || mask_ != mask) {
         mask_ = mask;
         for (Copy& copy : copies_)
             copy.serial = 0;
         hidden_.clear();
-        for (const scene::VisibilityMask& one : masks_)
-            if ((one.mask & mask) == 0)
+        for (const scene::InstanceRule& one : rules_)
+            if ((one.rule.mask & mask) == 0)
                 hidden_.push_back(one.instance);
     }
     if (mask == 0) // instances without an entry too

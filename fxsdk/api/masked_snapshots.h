@@ -18,14 +18,13 @@ class MaskedSnapshots
 {
 public:
     explicit MaskedSnapshots(std::pmr::memory_resource* memory)
-        : memory_(memory), masks_(memory), hidden_(memory)
+        : memory_(memory), rules_(memory), hidden_(memory)
     {}
 
     /// Returns the snapshots without the instances whose mask shares no bit with `mask`. A snapshot that has
     /// none of these instances is not copied. Copies stay valid until the next call, and are reused while
     /// snapshot and masks are the same.
-    base::SnapshotPair shown(const base::SnapshotPair& all, const scene::VisibilityMasks& masks,
-                             uint32_t mask);
+    base::SnapshotPair shown(const base::SnapshotPair& all, const scene::DisplayRules& rules, uint32_t mask);
     /// Forgets the masks and copies of the last scene.
     void forget();
 
@@ -38,9 +37,9 @@ private:
     const base::FrameSnapshot* shown(const base::FrameSnapshot* all, uint64_t otherSerial);
 
     std::pmr::memory_resource* memory_;
-    std::pmr::vector<scene::VisibilityMask> masks_;
+    std::pmr::vector<scene::InstanceRule> rules_;
     std::pmr::vector<uint64_t> hidden_;    ///< instances that the frame does not show, ascending
-    uint64_t revision_ = 0;                ///< of masks_
+    uint64_t revision_ = 0;                ///< of rules_
     uint32_t mask_ = scene::kVisibleToAll; ///< for which hidden_ was listed
     std::array<Copy, 2> copies_;
 };

@@ -44,8 +44,7 @@ public:
         : def(frame), held_(scene), quality_(quality), renderer_(renderer), shown_(held_.acquired),
           asked_(renderer.settings().composition), askedSlices_(renderer.settings().slices)
     {
-        shown_.snapshots =
-            masked.shown(held_.acquired.snapshots, scene.visibilityMasks(), frame.visibilityMask);
+        shown_.snapshots = masked.shown(held_.acquired.snapshots, scene.displayRules(), frame.visibilityMask);
         renderer_.settings().composition =
             render::resolved(asked_, automaticComposition(shown_.hints.composition));
         renderer_.settings().slices = automaticScattering(askedSlices_, shown_.hints.scattering);

@@ -66,7 +66,7 @@ private:
 
 FxViewStatistics gatherStatistics(const FxView& view)
 {
-    const fx::render::FrameStatistics& frame = view.renderer.statistics();
+    const fx::render::FrameStatistics frame = fx::api::withLowerLayers(view);
     FxViewStatistics statistics{};
     statistics.blobs = frame.blobs;
     statistics.blobsCulled = frame.blobsCulled;
@@ -190,17 +190,31 @@ Status renderEyes(FxView& view, const FxFrameDef* first, const FxFrameDef* secon
     const fx::scene::Presentation& shown = fx::api::showFrame(view, known).shown();
     showMoment(view, shown, request);
     showMoment(view, shown, requestSecond);
+    for (const FxFrameDef* eye : {&known, &knownSecond})
+        if (Status status = fx::api::checkLayers(view, *eye); !status)
+            return status;
+    const fx::render::FrameRequest lower = request, lowerSecond = requestSecond; // without an overlay
     if (view.renderer.settings().overlay)
         overlayEyes(view, request, requestSecond);
-    Status status = view.renderer.renderStereo(shown.snapshots, request, requestSecond);
+    Status status;
+    for (const fx::api::LayerDraw& layer : fx::api::layersToDraw(view)) {
+        status = layer.isUppermost ? layer.renderer->renderStereo(layer.snapshots, request, requestSecond)
+                                   : layer.renderer->renderStereo(layer.snapshots, lower, lowerSecond);
+        if (!status)
+            break;
+        fx::api::noteDrawn(layer, view);
+    }
     view.allocations = view.context->memory.allocationCount() - before;
     return status;
 }
 
 void noteComputing(FxView& view)
 {
-    view.scene->gpuSeen.store(view.renderer.canComputeParticles() ? FxScene::kRemembered : 0u,
-                              std::memory_order_relaxed);
+    const bool canCompute =
+        view.renderer.canComputeParticles() &&
+        std::all_of(view.lowerLayers.begin(), view.lowerLayers.end(),
+                    [](const fx::api::LayerRenderer& lower) { return lower.renderer.canComputeParticles(); });
+    view.scene->gpuSeen.store(canCompute ? FxScene::kRemembered : 0u, std::memory_order_relaxed);
 }
 
 Status renderFrame(FxView& view, const FxFrameDef* frame)
@@ -230,15 +244,25 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
         fx::api::showFrame(view, known);
     const fx::scene::Presentation& shown = view.prepared->shown();
     showMoment(view, shown, request);
+    if (Status status = fx::api::checkLayers(view, known); !status)
+        return status;
+    const fx::render::FrameRequest lower = request; // without an overlay
     const bool marks = view.renderer.settings().overlay;
     if (marks && request.range.isLast) {
         view.scene->scene.copyMarks(view.marks);
         fx::api::makeOverlay(view.marks, request.camera.origin, view.overlay);
         request.overlay = view.overlay;
     }
-    Status status = view.renderer.render(shown.snapshots, request);
+    Status status;
+    for (const fx::api::LayerDraw& layer : fx::api::layersToDraw(view)) {
+        status = layer.renderer->render(layer.snapshots, layer.isUppermost ? request : lower);
+        if (!status)
+            break;
+        fx::api::noteDrawn(layer, view);
+    }
     view.allocations = view.context->memory.allocationCount() - before + view.prepared->allocations;
-    view.sleeps = status.ok() && !marks && view.renderer.isAsleep() && !view.quality.isControlled();
+    view.sleeps = status.ok() && !marks && view.sortLayers.layers().empty() && view.renderer.isAsleep() &&
+                  !view.quality.isControlled();
     view.sleptFrame = known;
     end.awaitsRanges = status.ok() && !request.range.isLast;
     if (end.awaitsRanges)

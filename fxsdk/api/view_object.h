@@ -5,20 +5,43 @@
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/shown_frame.h"
+#include "fxsdk/api/sort_layers.h"
 #include "fxsdk/fx_view.h"
 #include "fxsdk/quality/view_quality.h"
 #include "rendering/view/view_renderer.h"
 
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
+
+namespace fx::api {
+
+/// Draws one of the lower layers of a view.
+struct LayerRenderer
+{
+    int32_t layer;
+    render::ViewRenderer renderer;
+    uint32_t idleFrames = 0; ///< number of successive frames without this layer
+};
+
+/// A layer of a frame, and what draws it.
+struct LayerDraw
+{
+    render::ViewRenderer* renderer;
+    base::SnapshotPair snapshots;
+    bool isUppermost;
+};
+
+} // namespace fx::api
 
 struct FxView
 {
     FxView(FxScene* shown, const fx::render::ViewSettings& settings)
         : context(shown->context), scene(shown), marks(&context->memory), overlay(&context->memory),
-          renderer(makeRenderer(*context)), masked(&context->memory)
+          renderer(makeRenderer(*context)), masked(&context->memory), sortLayers(&context->memory),
+          lowerLayers(&context->memory), layerDraws(&context->memory)
     {
         setSettings(settings);
         scene->views.fetch_add(1);
@@ -58,6 +81,8 @@ struct FxView
         scene->views.fetch_sub(1);
         scene = shown;
         masked.forget();
+        lowerLayers.clear();
+        sortLayers.forget();
         sleeps = false;
     }
 
@@ -68,6 +93,7 @@ struct FxView
         prepared.reset();
         rangeEnd.reset();
         renderer = std::move(restored);
+        lowerLayers.clear();
         sleeps = false;
         allocations = 0;
     }
@@ -89,8 +115,12 @@ struct FxView
     FxScene* scene;
     std::pmr::vector<fx::scene::Mark> marks; ///< marks of the overlay
     std::pmr::vector<fx::render::OverlayBox> overlay;
-    fx::render::ViewRenderer renderer;
-    fx::api::MaskedSnapshots masked; ///< outlives `prepared`
+    fx::render::ViewRenderer renderer; ///< draws the uppermost layer, and completes the picture
+    fx::api::MaskedSnapshots masked;   ///< outlives `prepared`
+    fx::api::SortLayers sortLayers;    ///< of the frame that was prepared last; outlives `prepared`
+    std::pmr::vector<fx::api::LayerRenderer> lowerLayers;
+    std::pmr::vector<fx::api::LayerDraw> layerDraws; ///< see layersToDraw()
+    fx::render::FrameStatistics lowerStatistics;     ///< sums of the lower layers of the last frame
     fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< number of allocations during the last frame
     /// True when the last frame drew no element. As long as the scene is empty, the next frame draws no
@@ -137,10 +167,22 @@ inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
     view.prepared.reset();
     view.rangeEnd.reset();
     view.origin = {frame.origin[0], frame.origin[1], frame.origin[2]};
-    return view.prepared.emplace(view.scene->scene, view.quality, view.renderer, view.masked, frame,
-                                 frame.holdQuality != 0 || frame.rangePart != FX_RANGE_ONLY ||
-                                     view.scene->catchingUp.load());
+    ShownFrame& frameToShow = view.prepared.emplace(
+        view.scene->scene, view.quality, view.renderer, view.masked, frame,
+        frame.holdQuality != 0 || frame.rangePart != FX_RANGE_ONLY || view.scene->catchingUp.load());
+    view.sortLayers.divide(frameToShow.shown().snapshots, view.scene->scene.displayRules());
+    return frameToShow;
 }
+
+/// Returns what draws the prepared frame, from its lowest layer to its uppermost. Without layers this is the
+/// renderer of the view alone. Valid until the next call.
+std::span<const LayerDraw> layersToDraw(FxView& view);
+/// Counts a lower layer that has been drawn.
+void noteDrawn(const LayerDraw& layer, FxView& view);
+/// Counters of the last frame, of all layers.
+render::FrameStatistics withLowerLayers(const FxView& view);
+/// Whether the frame can be drawn in several layers, if it has several.
+base::Status checkLayers(const FxView& view, const FxFrameDef& frame);
 
 /// Runs `body` as a call inside the view, if the thread rules allow it. Only one call of a context may be in
 /// progress at a time.

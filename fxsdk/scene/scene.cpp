@@ -13,7 +13,7 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
       world_(schema, tasks, memory, options.environment, options.shareInstances),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), waking_(memory),
       denied_(memory), coarse_(memory), tree_(memory), alarms_(memory), focus_(memory), candidates_(memory),
-      arrived_(memory), seeks_(memory), moved_(memory), ring_(schema, memory), masks_(memory), marks_(memory),
+      arrived_(memory), seeks_(memory), moved_(memory), ring_(schema, memory), rules_(memory), marks_(memory),
       newMarks_(memory)
 {
     world_.allowRest(options.culling);
@@ -26,10 +26,10 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
     ring_.publish();
 }
 
-LocalId Scene::add(InstanceSetup setup, uint32_t mask)
+LocalId Scene::add(InstanceSetup setup, const DisplayRule& rule)
 {
-    if (mask != kVisibleToAll)
-        masks_.reserveOne();
+    if (!rule.isDefault())
+        rules_.reserveOne();
     const base::Ticks now = present();
     setup.startTick = std::max(setup.startTick, now);
     const bool startsNow = setup.startTick < now + clock_.stepTicks() && !world_.isStepping();
@@ -56,7 +56,7 @@ LocalId Scene::add(InstanceSetup setup, uint32_t mask)
     }
     ++nextSerial_;
     countHints(*instances_.find(id), 1);
-    masks_.set(id, mask);
+    rules_.set(id, rule);
     return id;
 }
 
@@ -83,7 +83,7 @@ void Scene::remove(LocalId id)
     else
         countHints(instance, -1);
     instances_.remove(id);
-    masks_.remove(id);
+    rules_.remove(id);
 }
 
 uint32_t Scene::particles(LocalId id)
@@ -186,7 +186,7 @@ void Scene::finish(uint32_t index)
         events_->add(event, instance.serial);
     }
     if (instances_.at(index).setup.destroyWhenFinished) {
-        masks_.remove(instances_.idAt(index));
+        rules_.remove(instances_.idAt(index));
         instances_.remove(instances_.idAt(index));
         return;
     }

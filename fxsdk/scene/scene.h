@@ -12,11 +12,11 @@
 #include "fxsdk/activation/focus.h"
 #include "fxsdk/activation/sphere_hierarchy.h"
 #include "fxsdk/activation/timer_queue.h"
+#include "fxsdk/scene/display_rules.h"
 #include "fxsdk/scene/event_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/scene/motion_history.h"
 #include "fxsdk/scene/scene_types.h"
-#include "fxsdk/scene/visibility_masks.h"
 #include "simulation/world/world.h"
 
 #include <array>
@@ -40,8 +40,8 @@ public:
           std::pmr::memory_resource* memory);
 
     /// Adds an instance. Strong guarantee, also if memory is exhausted.
-    /// @param mask see setVisibilityMask() @return 0 if the scene is full
-    LocalId add(InstanceSetup setup, uint32_t mask = kVisibleToAll);
+    /// @return 0 if the scene is full
+    LocalId add(InstanceSetup setup, const DisplayRule& rule = {});
     bool contains(LocalId id) { return instances_.find(id) != nullptr; }
 
     // If an earlier update has left a step incomplete, changes take effect at the end of the step. A step
@@ -89,9 +89,11 @@ public:
     base::Ticks localTime(LocalId id);
     void setHints(LocalId id, const ActivationHints& hints);
     /// Sets the bits of which a frame needs one to show an instance. Strong guarantee.
-    void setVisibilityMask(LocalId id, uint32_t mask) { masks_.set(id, mask); }
-    uint32_t visibilityMask(LocalId id) const { return masks_.of(id); }
-    const VisibilityMasks& visibilityMasks() const { return masks_; } ///< [any thread]
+    void setVisibilityMask(LocalId id, uint32_t mask) { rules_.setMask(id, mask); }
+    uint32_t visibilityMask(LocalId id) const { return rules_.of(id).mask; }
+    /// Sets the layer, and the order within it at equal depth. Strong guarantee.
+    void setLayer(LocalId id, int32_t layer, int32_t sortKey) { rules_.setOrder(id, layer, sortKey); }
+    const DisplayRules& displayRules() const { return rules_; } ///< [any thread]
 
     /// State and estimated cost of an instance.
     struct Activity
@@ -307,10 +309,10 @@ private:
     static size_t placeOf(const Effects& effects, const sim::EffectDef& wanted);
     void saveRules(sim::StateWriter& writer) const;
     void saveInstances(sim::StateWriter& writer) const;
-    void saveMasks(sim::StateWriter& writer) const;
+    void saveDisplayRules(sim::StateWriter& writer) const;
     void saveUserData(sim::StateWriter& writer) const;
     static void restoreUserData(sim::StateReader& reader, Restored& state);
-    void restoreMasks(sim::StateReader& reader, Restored& state) const;
+    void restoreDisplayRules(sim::StateReader& reader, Restored& state) const;
     void checkRules(sim::StateReader& reader) const;
     Effects restoreEffects(sim::StateReader& reader, const FindEffect& findEffect) const;
     base::ClockState restoreClock(sim::StateReader& reader) const;
@@ -364,7 +366,7 @@ private:
     double measuredNanoseconds_ =
         100; ///< [ns] time of one particle in one step; an estimate until the first step
     base::SnapshotRing ring_;
-    VisibilityMasks masks_;
+    DisplayRules rules_;
     SceneCounters counters_;
     uint64_t nextSerial_ = 0;
 

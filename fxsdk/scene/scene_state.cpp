@@ -121,7 +121,7 @@ SceneCounters restoreCounters(sim::StateReader& reader)
 struct Scene::Restored
 {
     explicit Restored(const Scene& scene)
-        : instances(scene.memory_, scene.options_.maxInstances), masks(scene.memory_), dormant(scene.memory_),
+        : instances(scene.memory_, scene.options_.maxInstances), rules(scene.memory_), dormant(scene.memory_),
           active(scene.memory_), moved(scene.memory_),
           world(scene.schema_, scene.tasks_, scene.memory_, scene.world_.environment(),
                 scene.options_.shareInstances)
@@ -133,7 +133,7 @@ struct Scene::Restored
     SceneCounters counters;
     uint64_t nextSerial = 0;
     IdTable<Instance> instances;
-    std::pmr::vector<VisibilityMask> masks; ///< ascending by instance
+    std::pmr::vector<InstanceRule> rules; ///< ascending by instance
     activation::TimerQueue dormant;
     activation::ActiveList active;
     std::pmr::vector<LocalId> moved;
@@ -187,31 +187,36 @@ void Scene::saveInstances(sim::StateWriter& writer) const
     });
 }
 
-/// Not a part of the simulation hash, because steps do not depend on masks.
-void Scene::saveMasks(sim::StateWriter& writer) const
+/// Not a part of the simulation hash, because steps do not depend on masks and layers.
+void Scene::saveDisplayRules(sim::StateWriter& writer) const
 {
-    std::pmr::vector<VisibilityMask> masks(memory_);
+    std::pmr::vector<InstanceRule> rules(memory_);
     uint64_t revision = 0;
-    masks_.copy(masks, revision);
-    writer.value(uint32_t(masks.size()));
-    for (const VisibilityMask& one : masks) {
+    rules_.copy(rules, revision);
+    writer.value(uint32_t(rules.size()));
+    for (const InstanceRule& one : rules) {
         writer.value(one.instance);
-        writer.value(one.mask);
+        writer.value(one.rule.mask);
+        writer.value(one.rule.layer);
+        writer.value(one.rule.sortKey);
     }
 }
 
-void Scene::restoreMasks(sim::StateReader& reader, Restored& state) const
+void Scene::restoreDisplayRules(sim::StateReader& reader, Restored& state) const
 {
     const uint32_t count =
         reader.value<uint32_t>(0, options_.maxInstances, "the state has more masks than instances");
     for (uint32_t i = 0; i < count && reader.ok(); ++i) {
         const LocalId instance = reader.value<LocalId>();
-        const uint32_t mask = reader.value<uint32_t>();
-        const bool isNext = state.masks.empty() || state.masks.back().instance < instance;
+        DisplayRule rule;
+        rule.mask = reader.value<uint32_t>();
+        rule.layer = reader.value<int32_t>(kLowestLayer, kHighestLayer, "a layer is out of range");
+        rule.sortKey = reader.value<int32_t>();
+        const bool isNext = state.rules.empty() || state.rules.back().instance < instance;
         reader.require(isNext && state.instances.find(instance) != nullptr,
-                       "a visibility mask is of an instance that the state does not have");
+                       "a visibility mask or layer is of an instance that the state does not have");
         if (reader.ok())
-            state.masks.push_back({instance, mask});
+            state.rules.push_back({instance, rule});
     }
 }
 
@@ -234,7 +239,7 @@ void Scene::save(sim::StateWriter& writer)
     settle(true);
     saveRules(writer);
     saveInstances(writer);
-    saveMasks(writer);
+    saveDisplayRules(writer);
     saveUserData(writer);
     const base::ClockState clock = clock_.state();
     writer.value(clock.steps);
@@ -263,7 +268,7 @@ base::Status Scene::restore(std::span<const std::byte> bytes, const FindEffect& 
     checkRules(reader);
     const Effects effects = restoreEffects(reader, findEffect);
     restoreInstances(reader, effects, state);
-    restoreMasks(reader, state);
+    restoreDisplayRules(reader, state);
     restoreUserData(reader, state);
     state.clock = restoreClock(reader);
     const SceneCounters counters = restoreCounters(reader);
@@ -409,7 +414,7 @@ void Scene::take(Restored& state)
     counters_ = state.counters;
     nextSerial_ = state.nextSerial;
     std::swap(instances_, state.instances);
-    masks_.replace(state.masks);
+    rules_.replace(state.rules);
     std::swap(dormant_, state.dormant);
     std::swap(active_, state.active);
     world_.swap(state.world);

@@ -68,13 +68,13 @@ public:
             finish(target_);
             return out_;
         }
-        const bool isAltered = request_.range.isLast && (alterPicture() || settings_.toneMap);
+        const bool isAltered = completes() && (alterPicture() || settings_.toneMap);
         const bool more = isAltered || separateTarget_ || request_.targets.isDisplay();
         if (more)
             readPicture();
         if (frame_.hasMedia)
             addComposite(more ? frame_.picture : target_, !more);
-        if (request_.range.isLast)
+        if (completes())
             completePicture();
         if (more && out_.anyPass)
             addPresent();
@@ -83,6 +83,8 @@ public:
     }
 
 private:
+    bool completes() const { return request_.range.isLast && in_.completes; }
+
     void completePicture()
     {
         addStage(PassStage::Refract);

@@ -34,6 +34,7 @@ struct ViewGraphInputs
     /// sample and no sRGB format, and the frame lies at its corner.
     const HostTargetFacts* facts = nullptr;
     HostCopies* copies = nullptr;
+    bool completes = true; ///< false: another view completes the picture by shimmer, glare and tone mapping
 };
 
 /// Resources that exist after the frame, besides the host's picture. Resources that were not requested are

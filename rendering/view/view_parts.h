@@ -107,6 +107,7 @@ struct ViewRenderer::Impl
     std::optional<PreparedFrame> prepared;
     bool isOpen = false;    ///< true: further ranges of the last frame may follow, with its lists
     bool hasLights = false; ///< true: `lights` are valid for the last frame
+    bool completes = true;  ///< see setCompletes()
     std::pmr::vector<std::string_view> passNames; ///< passes that the last frame executed
     const base::AssetTable* assets = nullptr;
     FragmentCounts fragments{}; ///< estimated number of fragments of this frame

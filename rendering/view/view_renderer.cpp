@@ -213,6 +213,11 @@ base::Status ViewRenderer::warmUp()
     return {};
 }
 
+void ViewRenderer::setCompletes(bool completes)
+{
+    impl_->completes = completes;
+}
+
 bool ViewRenderer::canComputeParticles() const
 {
     return impl_->computesParticles;
@@ -253,7 +258,7 @@ base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSet
 {
     graph.begin();
     outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, &lights, composition,
-                                     divisor, outputView, &history.past(), &targetFacts, &copies});
+                                     divisor, outputView, &history.past(), &targetFacts, &copies, completes});
     if (!copies.status()) {
         forget();
         return copies.status();

@@ -107,6 +107,10 @@ public:
     /// Compiles the compute program of an emitter, if supported.
     void warmUp(const base::GpuParticleProgram& emitter);
 
+    /// With false, shimmer, glare and tone mapping are left to another renderer, which draws over the picture
+    /// of this one. The default is true.
+    void setCompletes(bool completes);
+
     /// True if the last frame did not change the picture and there is no memory to release. Then render()
     /// does nothing until there is visible data again.
     bool isAsleep() const { return asleep_; }

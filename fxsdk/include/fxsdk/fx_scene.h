@@ -123,6 +123,10 @@ static inline FxSceneDef fxDefaultSceneDef(void)
     return def;
 }
 
+/// Range of FxInstanceDef::layer.
+#define FX_LOWEST_LAYER (-16)
+#define FX_HIGHEST_LAYER 15
+
 /// Definition of a new instance. Fill with fxDefaultInstanceDef(), then set the preset and change members.
 typedef struct FxInstanceDef
 {
@@ -179,6 +183,12 @@ typedef struct FxInstanceDef
 
     /// [1] see FxInstanceParameters; default 1.
     float tint[3];
+
+    /// FX_LOWEST_LAYER..FX_HIGHEST_LAYER, see fxScene_SetLayer(); default 0.
+    int32_t layer;
+
+    /// See fxScene_SetLayer(); default 0.
+    int32_t sortKey;
 
     /// Reserved; must be 0.
     uint32_t reserved3;
@@ -389,6 +399,21 @@ FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
 /// @return FX_OK, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
 ///         (nothing has changed)
 FX_API FxResult fxScene_SetVisibilityMask(FxScene* scene, FxInstanceId instance, uint32_t mask);
+
+/// Sets the layer of an instance, and its order within the layer. Frames draw their layers in ascending
+/// order, each as a whole over those before, whatever the depth of its instances: a far instance covers a
+/// near one of a lower layer. Depth of the host hides instances of all layers. Within a layer all is as in a
+/// frame that has only the instances of this layer: they are composed together, are lit by the lights of the
+/// view and of their own layer, and cast shadows on their own layer. Where a composition draws particles one
+/// by one, those of equal depth are drawn in the order of `sortKey`, then of creation: the greatest comes
+/// last, on top. The frames that begin from now on follow it. Simulation, culling, hashes and FxSnapshot do
+/// not depend on layers; saved states contain them. Each layer of a frame costs about as much as a view of
+/// its own, and copies its particles once a step. See docs/howto/sort-layers.md. [scene thread]
+/// @param layer   FX_LOWEST_LAYER..FX_HIGHEST_LAYER
+/// @param sortKey any number
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or out of range), FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (nothing has changed)
+FX_API FxResult fxScene_SetLayer(FxScene* scene, FxInstanceId instance, int32_t layer, int32_t sortKey);
 
 /// Plays an instance at another speed from now on. Local time is counted in integer ticks, and the speed is
 /// rounded to a multiple of 1/65536. Equal calls therefore give equal bits. At an integer speed n, the

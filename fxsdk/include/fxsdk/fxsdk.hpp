@@ -288,6 +288,12 @@ public:
         check(fxScene_SetParameter(get(), instance, parameter, FX_PARAMETER_BOOL, &flag));
     }
 
+    /// Draws the instance with those of its layer, over all lower layers.
+    void setLayer(FxInstanceId instance, int32_t layer, int32_t sortKey = 0)
+    {
+        check(fxScene_SetLayer(get(), instance, layer, sortKey));
+    }
+
     /// Shows the instance only in frames whose FxFrameDef::visibilityMask shares a bit with `mask`.
     void setVisibilityMask(FxInstanceId instance, uint32_t mask)
     {
