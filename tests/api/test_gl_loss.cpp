@@ -82,9 +82,10 @@ protected:
         host_.reset();
         gl_.reset();
     }
-    static FxViewSettings settings()
+    FxViewSettings settings() const
     {
         FxViewSettings all = fxDefaultViewSettings();
+        all.composition = composition_;
         for (int i = 0; i < 3; ++i) {
             all.sunIlluminance[i] = 60'000.0f;
             all.skyLuminance[i] = 4'000.0f;
@@ -166,6 +167,41 @@ protected:
         EXPECT_EQ(fxDestroyView(other), FX_OK);
     }
 
+    /// Draws a frame in which the context is lost at each call in turn, and restores it.
+    /// @param stride 1: at each call  @param drawFrame draws a frame by `view_`
+    template <class Draw>
+    void sweep(uint64_t stride, Draw&& drawFrame)
+    {
+        uint64_t n = 1;
+        for (bool wasLost = true; wasLost && !HasFailure(); n += stride) {
+            ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK) << fxGetLastErrorMessage();
+            loss_->loseAt(n);
+            const FxResult result = drawFrame();
+            wasLost = loss_->isLost();
+            SCOPED_TRACE("call " + std::to_string(n) + ", " + loss_->lostIn());
+            if (!wasLost) {
+                EXPECT_EQ(result, FX_OK) << fxGetLastErrorMessage();
+                break;
+            }
+            // a loss behind the last error check is noticed by the next frame
+            const bool isNoticed = result == FX_ERROR_GL_LOST;
+            ASSERT_TRUE(isNoticed || result == FX_OK) << result << " " << fxGetLastErrorMessage();
+            if (!isNoticed) {
+                ASSERT_EQ(drawFrame(), FX_ERROR_GL_LOST) << fxGetLastErrorMessage();
+            }
+            const uint64_t calls = loss_->calls();
+            callEverything();
+            EXPECT_EQ(loss_->calls(), calls);
+            loss_->loseAt(0);
+        }
+        std::printf("%llu calls, each %llu. of them lost the context\n", static_cast<unsigned long long>(n),
+                    static_cast<unsigned long long>(stride));
+        EXPECT_GT(n, 200u);
+        loss_->loseAt(0);
+        ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK);
+    }
+
+    uint32_t composition_ = FX_COMPOSITION_SORTED; ///< of settings()
     fx::test::HostAllocator memory_;
     std::unique_ptr<fx::render::GlContext> gl_;
     std::unique_ptr<GlLoss> loss_;
@@ -235,31 +271,39 @@ TEST_F(LosingHost, simulatesTheSameWhetherOrNotItsContextIsLost)
 
 TEST_F(LosingHost, callsNothingAfterALossAtAnyCallOfAFrame)
 {
-    uint64_t n = 1;
-    for (bool wasLost = true; wasLost && !HasFailure(); ++n) {
-        ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK) << fxGetLastErrorMessage();
-        loss_->loseAt(n);
-        const FxResult result = draw(view_);
-        wasLost = loss_->isLost();
-        SCOPED_TRACE("call " + std::to_string(n) + ", " + loss_->lostIn());
-        if (!wasLost) {
-            EXPECT_EQ(result, FX_OK) << fxGetLastErrorMessage();
-            break;
-        }
-        // a loss behind the last error check is noticed by the next frame
-        const bool isNoticed = result == FX_ERROR_GL_LOST;
-        ASSERT_TRUE(isNoticed || result == FX_OK) << result << " " << fxGetLastErrorMessage();
-        if (!isNoticed) {
-            ASSERT_EQ(draw(view_), FX_ERROR_GL_LOST) << fxGetLastErrorMessage();
-        }
-        const uint64_t calls = loss_->calls();
-        callEverything();
-        EXPECT_EQ(loss_->calls(), calls);
-        loss_->loseAt(0);
-    }
-    std::printf("%llu calls\n", static_cast<unsigned long long>(n));
-    EXPECT_GT(n, 200u);
-    loss_->loseAt(0);
+    sweep(1, [&] { return draw(view_); });
+    ASSERT_EQ(draw(view_), FX_OK) << fxGetLastErrorMessage();
+    const std::vector<float> restored = picture();
+    EXPECT_EQ(restored, freshPicture());
+}
+
+TEST_F(LosingHost, callsNothingAfterALossInAPreparedFrame)
+{
+    composition_ = FX_COMPOSITION_SLABS;
+    const FxViewSettings all = settings();
+    ASSERT_EQ(fxView_SetSettings(view_, &all), FX_OK);
+    sweep(11, [&] {
+        const FxFrameDef def = frame();
+        const FxResult prepared = fxView_PrepareLights(view_, &def);
+        return prepared == FX_OK ? draw(view_) : prepared;
+    });
+}
+
+TEST_F(LosingHost, callsNothingAfterALossInAFrameOfTwoEyesAndLayers)
+{
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = fx::test::loadText(context_, kMixed);
+    def.position[0] = 0.5;
+    def.layer = 1;
+    FxInstanceId upper{};
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &upper), FX_OK);
+    update(10);
+    sweep(23, [&] {
+        const FxFrameDef first = frame();
+        FxFrameDef second = first;
+        second.origin[0] = 0.06;
+        return fxView_RenderStereo(view_, &first, &second);
+    });
     ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK);
     ASSERT_EQ(draw(view_), FX_OK) << fxGetLastErrorMessage();
     const std::vector<float> restored = picture();
