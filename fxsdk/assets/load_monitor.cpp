@@ -19,6 +19,7 @@ void LoadMonitor::divide(uint32_t count)
 
 void LoadMonitor::beginFile(std::string_view name)
 {
+    check();
     float fraction = 0.0f;
     {
         const std::scoped_lock lock(mutex_);

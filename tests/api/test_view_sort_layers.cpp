@@ -205,6 +205,27 @@ TEST_F(ViewSortLayers, theGreaterSortKeyIsOnTopAtEqualDepth)
     EXPECT_EQ(fxDestroyView(view), FX_OK);
 }
 
+TEST_F(ViewSortLayers, orderSmallEmittersThatShareTheirRows)
+{
+    std::vector<FxInstanceId> reds;
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = fx::test::loadText(context_, card(kRed));
+    for (int i = 0; i < 30; ++i) {
+        def.seed = uint64_t(i); // or they would be one simulation
+        ASSERT_EQ(fxScene_CreateInstance(stage_, &def, &reds.emplace_back()), FX_OK);
+    }
+    const FxInstanceId blue = add(card(kBlue), 0.0, 0, -1);
+    step(3);
+    FxView* const view = makeView(settingsOf(FX_COMPOSITION_SORTED));
+    EXPECT_GT(redness(drawn(view)), 0.1f);
+    ASSERT_EQ(fxScene_SetLayer(stage_, blue, 0, 1), FX_OK);
+    EXPECT_LT(redness(drawn(view)), -0.1f);
+    for (const FxInstanceId red : reds)
+        ASSERT_EQ(fxScene_SetLayer(stage_, red, 1, 0), FX_OK);
+    EXPECT_GT(redness(drawn(view)), 0.1f);
+    EXPECT_EQ(fxDestroyView(view), FX_OK);
+}
+
 TEST_F(ViewSortLayers, areInSavedStates)
 {
     (void)add(dust(kRed), 0.0, 0);

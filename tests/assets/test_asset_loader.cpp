@@ -115,3 +115,21 @@ TEST_F(AssetLoaderTest, aLenientLoaderShowsThatSomethingIsMissing)
     EXPECT_EQ(table_.mesh(*mesh)->indices.size(), 12u);
     EXPECT_FLOAT_EQ(table_.mesh(*mesh)->reach, 1.0f);
 }
+
+TEST_F(AssetLoaderTest, namesEachFileToItsMonitorBeforeItIsRead)
+{
+    asset::LoadMonitor monitor;
+    asset::AssetLoader watched(resolver_, table_, MissingAsset::IsAnError, "", &monitor);
+    EXPECT_EQ(watched.monitor(), &monitor);
+    monitor.beginPart("emitters 1 of 1", 0.0f, 1.0f);
+    ASSERT_TRUE(watched.image("two.png", ImageUse::Color, 1, 1, warning_).ok());
+    EXPECT_STREQ(monitor.progress().item.data(), "two.png");
+    EXPECT_FALSE(watched.mesh("bad.obj", warning_).ok());
+    EXPECT_STREQ(monitor.progress().item.data(), "bad.obj");
+    EXPECT_EQ(monitor.progress().filesRead, 2u);
+    monitor.cancel();
+    const uint32_t before = table_.size();
+    EXPECT_THROW((void)watched.mesh("tri.obj", warning_), asset::LoadCanceled);
+    EXPECT_EQ(table_.size(), before);
+    EXPECT_EQ(monitor.progress().filesRead, 2u) << "it was not read";
+}
