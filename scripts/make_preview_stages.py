@@ -5,6 +5,8 @@ stage-falls.obj  a cliff with a notch for a waterfall of 8 m, boulders and a poo
 stage-range.obj  a barrel along +X that ends in the origin, 1.5 m above a floor
 stage-slope.obj  a snowy mountain side that falls towards +Z
 stage-yard.obj   a paved yard with a wall, a bench and crates
+stage-courtyard.obj, stage-wall.obj, stage-corridor.obj, stage-water.obj, stage-studio-gray.obj
+                 the stages of fx render --stage and of the editor (fxsdk/scene_file/stages.h)
 props-*.obj      what stands on a stage: the logs of a fire, a burner, a grinder, a rifle, trees
 stage.mtl        their colors, linear Rec. 709
 
@@ -15,9 +17,13 @@ import pathlib
 import sys
 
 import preview_props
+import stage_rooms
 from made_files import Polygons, noise, write_text
 
 COLORS = {
+    "gray": (0.18, 0.18, 0.18), "plaster": (0.42, 0.38, 0.31), "dado": (0.13, 0.18, 0.17), "tile_0": (0.17, 0.16, 0.15),
+    "tile_1": (0.11, 0.105, 0.10), "brick_0": (0.24, 0.10, 0.065), "brick_1": (0.19, 0.08, 0.055),
+    "brick_2": (0.28, 0.14, 0.09), "mortar": (0.22, 0.20, 0.18), "shade": (0.015, 0.016, 0.018), "water": (0.012, 0.032, 0.036),
     "rock_dark": (0.045, 0.045, 0.045), "rock": (0.11, 0.10, 0.09), "rock_light": (0.17, 0.155, 0.13),
     "moss": (0.07, 0.10, 0.035), "pool": (0.02, 0.035, 0.04), "steel": (0.035, 0.035, 0.04),
     "floor": (0.10, 0.095, 0.09), "slab_0": (0.15, 0.145, 0.135), "slab_1": (0.12, 0.115, 0.11),
@@ -180,9 +186,12 @@ def main():
     stages = (("falls", falls()), ("range", shooting_range()), ("slope", preview_props.slope()), ("yard", yard()))
     for stage, mesh in stages:
         write_text(folder / f"stage-{stage}.obj", obj(mesh))
+    for stage, mesh in stage_rooms.rooms(Mesh).items():
+        write_text(folder / f"stage-{stage}.obj", obj(mesh))
     for props in ("burner", "camp", "grinder", "rifle", "trees"):
         write_text(folder / f"props-{props}.obj", obj(getattr(preview_props, props)()))
-    kd = [f"newmtl {color}\nKd {r:.4f} {g:.4f} {b:.4f}" for color, (r, g, b) in sorted(COLORS.items())]
+    kd = [f"newmtl {color}\nKd {r:.4f} {g:.4f} {b:.4f}" + ("\nillum 7" if color == "water" else "")
+          for color, (r, g, b) in sorted(COLORS.items())]  # 7: it reflects by Fresnel's equations
     write_text(folder / "stage.mtl", "\n".join(kd) + "\n")
     return 0
 

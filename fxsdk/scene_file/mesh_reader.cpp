@@ -26,13 +26,19 @@ bool isUsable(const glm::vec3& v)
            std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kLargestCoordinate;
 }
 
-/// Colors by the names of materials.
-using Colors = std::map<std::string, glm::vec3, std::less<>>;
+struct Material
+{
+    glm::vec3 color{0.0f};
+    bool isWater = false; ///< its illumination model is 7: reflection by Fresnel's equations
+};
+
+/// Materials by name.
+using Materials = std::map<std::string, Material, std::less<>>;
 
 /// Adds the materials of an MTL text; of several with one name the first counts.
-void readMaterials(std::string_view text, Colors& io)
+void readMaterials(std::string_view text, Materials& io)
 {
-    Colors::iterator material = io.end();
+    Materials::iterator material = io.end();
     bool hasColor = false;
     while (!text.empty()) {
         const size_t end = std::min(text.find('\n'), text.size());
@@ -40,20 +46,22 @@ void readMaterials(std::string_view text, Colors& io)
         text.remove_prefix(std::min(end + 1, text.size()));
         const std::string_view kind = asset::takeWord(rest);
         if (kind == "newmtl") {
-            const auto [added, isNew] = io.emplace(std::string(asset::takeWord(rest)), glm::vec3(0.0f));
+            const auto [added, isNew] = io.emplace(std::string(asset::takeWord(rest)), Material());
             material = isNew ? added : io.end();
             hasColor = false;
         }
         if (material == io.end())
             continue;
         if (kind == "map_Kd" && !hasColor)
-            material->second = glm::vec3(0.6f); // its picture is not read
+            material->second.color = glm::vec3(0.6f); // its picture is not read
+        if (kind == "illum")
+            material->second.isWater = asset::takeWord(rest) == "7";
         if (kind != "Kd")
             continue;
         hasColor = true;
         for (int i = 0; i < 3; ++i)
             if (float value = 0.0f; asset::parseFloat(asset::takeWord(rest), value))
-                material->second[i] = glm::clamp(value, 0.0f, 1.0f);
+                material->second.color[i] = glm::clamp(value, 0.0f, 1.0f);
     }
 }
 
@@ -181,9 +189,9 @@ public:
 
     void useMaterial(std::string_view name)
     {
-        const auto found = colors_.find(name);
-        color_ = found == colors_.end() ? kNoMaterial : found->second;
-        if (found == colors_.end())
+        const auto found = materials_.find(name);
+        material_ = found == materials_.end() ? kNoMaterial : found->second;
+        if (found == materials_.end())
             warning_ += "material \"" + std::string(name) + "\" is in none of the mesh's files\n";
     }
 
@@ -195,17 +203,25 @@ public:
                 return;
             const base::Result<std::string> text = resolver_.read(folder_ + std::string(name), kMeshBytes);
             if (text)
-                return readMaterials(*text, colors_);
+                return readMaterials(*text, materials_);
             warning_ += text.status().message() + "\n";
         }
         warning_ += "faces without a material are gray\n";
     }
 
     bool hasTriangles() const { return triangles_ > 0; }
-    render::StageMesh take() { return std::move(mesh_); }
+    /// The mesh, with the triangles of water behind the others.
+    render::StageMesh take()
+    {
+        mesh_.waterVertices = water_.positions.size();
+        mesh_.positions.insert(mesh_.positions.end(), water_.positions.begin(), water_.positions.end());
+        mesh_.normals.insert(mesh_.normals.end(), water_.normals.begin(), water_.normals.end());
+        mesh_.colors.insert(mesh_.colors.end(), water_.colors.begin(), water_.colors.end());
+        return std::move(mesh_);
+    }
 
 private:
-    static constexpr glm::vec3 kNoMaterial{0.5f};
+    static constexpr Material kNoMaterial{glm::vec3(0.5f)};
 
     /// Leaves out a triangle without an area.
     void addTriangle(const asset::ObjPoints& points, std::span<const asset::ObjCorner> corners,
@@ -216,10 +232,11 @@ private:
         const float area = glm::length(cross);
         if (!(area > 0.0f))
             return;
+        render::StageMesh& mesh = material_.isWater ? water_ : mesh_;
         for (size_t k = 0; k < 3; ++k) {
-            mesh_.positions.push_back(place(k));
-            mesh_.normals.push_back(normalOr(cross / area, points, corners[triangle[k]].normal));
-            mesh_.colors.push_back(color_);
+            mesh.positions.push_back(place(k));
+            mesh.normals.push_back(normalOr(cross / area, points, corners[triangle[k]].normal));
+            mesh.colors.push_back(material_.color);
         }
     }
 
@@ -237,9 +254,10 @@ private:
     std::string folder_;
     std::string& warning_;
     std::set<std::string, std::less<>> files_;
-    Colors colors_;
-    glm::vec3 color_ = kNoMaterial;
+    Materials materials_;
+    Material material_ = kNoMaterial;
     render::StageMesh mesh_;
+    render::StageMesh water_;
     Triangulation triangulation_;
     std::vector<glm::vec3> polygon_;
     size_t triangles_ = 0;

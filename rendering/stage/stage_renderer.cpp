@@ -44,11 +44,11 @@ struct StageBlock
     glm::mat4 shadowFromMesh;
     glm::vec4 rayDirection, rayDirectionX, rayDirectionY;
     glm::vec4 sunDirection, sunLight, skyLight;
-    glm::vec4 meshOffset, background, horizon, farHills, nearTrees;
+    glm::vec4 meshOffset, background, horizon, farHills, nearTrees, water;
     std::array<StageLightBlock, kMaxStageLights> lights;
     std::array<MediaShadowBlock, kMaxStageShadows> mediaShadows;
 };
-static_assert(sizeof(StageBlock) == 128 + 11 * 16 + sizeof(StageLightBlock) * kMaxStageLights +
+static_assert(sizeof(StageBlock) == 128 + 12 * 16 + sizeof(StageLightBlock) * kMaxStageLights +
                                         sizeof(MediaShadowBlock) * kMaxStageShadows);
 
 /// Cone of a spot, as in shaders/shared/light_slices.glsl.
@@ -110,6 +110,7 @@ struct StageRenderer::Impl
     glm::dvec3 meshOrigin{0.0};
     bool isSoil = false;
     uint32_t vertices = 0;
+    uint32_t solids = 0;  ///< vertices in front of those of water
     uint32_t casters = 0; ///< vertices, from the first on, that cast shadows
     BoundingBall ball;
     StageBackground background;
@@ -176,7 +177,8 @@ base::Status StageRenderer::setMesh(const StageMesh& mesh)
     impl_->isSoil = mesh.isSoil;
     // Flat ground shades nothing. A map over all of it would be too coarse for a figure.
     const bool onlyAdded = mesh.isSoil && mesh.addedVertices() > 0;
-    impl_->casters = onlyAdded ? uint32_t(mesh.addedVertices()) : impl_->vertices;
+    impl_->solids = uint32_t(mesh.positions.size() - std::min(mesh.waterVertices, mesh.positions.size()));
+    impl_->casters = onlyAdded ? uint32_t(mesh.addedVertices()) : impl_->solids;
     impl_->ball = boundingBall(std::span(mesh.positions).first(impl_->casters));
     impl_->shadowDirection = glm::vec3(0.0f);
     return {};
@@ -260,6 +262,7 @@ StageBlock StageRenderer::Impl::makeBlock(const CameraView& camera, const StageL
     block.nearTrees = {hills.near * exposure,
                        2.0f * glm::length(glm::vec3(view.rayDirectionY)) /
                            (float(height) * std::max(glm::length(glm::vec3(view.rayDirection)), 1e-6f))};
+    block.water = {float(solids), 0.0f, 0.0f, 0.0f};
     setLights(camera, lit, exposure, block);
     return block;
 }

@@ -40,6 +40,10 @@ struct StageMesh
     /// Number of vertices, from those of the figures on, of props (stage_props.h); effects do not collide
     /// with them.
     size_t propVertices = 0;
+    /// Number of vertices, at the end, of water: surfaces that reflect the sky, the sun and the lights by
+    /// Fresnel's equations. Those that are level have waves. `colors` are the albedo of the light that comes
+    /// back out of the water. It casts no shadow. The reference renderers draw it as a diffuse surface.
+    size_t waterVertices = 0;
 
     size_t addedVertices() const { return figureVertices + propVertices; } ///< all that is not the stage
 };
@@ -85,7 +89,7 @@ constexpr size_t kMaxStageLights = 16;
 constexpr size_t kMaxStageShadows =
     5; ///< largest number of media shadows, including the shadow in the light of the sun
 
-/// Draws diffuse surfaces lit by a sun with a shadow map, a sky and lights, with shadows of media.
+/// Draws diffuse surfaces and water lit by a sun with a shadow map, a sky and lights, with shadows of media.
 class StageRenderer
 {
 public:

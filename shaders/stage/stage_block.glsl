@@ -24,6 +24,7 @@ layout(std140, binding = 0) uniform StageBlock
     vec4 horizon;         // rgb at eye height [exposed]; w 1: the mesh is soil
     vec4 farHills;        // rgb of distant hills [exposed]; w 1: the horizon has hills
     vec4 nearTrees;       // rgb of trees in front of them [exposed]; w width of a pixel as a tangent
+    vec4 water;           // x first vertex of water
     StageLight stageLights[16];
     FxMediaShadow mediaShadows[5]; // the first is that of the sun
 };

@@ -9,6 +9,7 @@ layout(std430, binding = 0) readonly buffer MeshBuffer
 out vec3 worldPosition;
 out vec3 worldNormal;
 out vec3 albedo;
+flat out float isWater;
 
 vec3 load(int i)
 {
@@ -21,5 +22,6 @@ void main()
     worldPosition = load(base) + meshOffset.xyz;
     worldNormal = load(base + 3);
     albedo = load(base + 6);
+    isWater = float(gl_VertexID) >= water.x ? 1.0 : 0.0;
     gl_Position = clipFromWorld * vec4(worldPosition, 1.0);
 }

@@ -46,6 +46,24 @@ TEST(MeshReader, cutsPolygonsIntoTrianglesOfTheSameArea)
     EXPECT_NEAR(areaOf(*mesh), 6.0, 1e-6);
 }
 
+TEST(MeshReader, putsWaterBehindTheOtherTriangles)
+{
+    const TempFolder folder;
+    folder.write("mesh.obj", std::string("mtllib m.mtl\n") + kSquare +
+                                 "usemtl lake\nf 1 2 3 4\nusemtl red\nf 1 2 3\nusemtl glass\nf 1 2 3\n");
+    folder.write("m.mtl",
+                 "newmtl lake\nKd 0 0 0.5\nillum 7\nnewmtl red\nKd 1 0 0\nillum 2\nnewmtl glass\nKd 0 1 0\n");
+    std::string warning;
+    const auto mesh = readMesh("mesh.obj", fx::asset::AssetResolver(folder.path(), {}), warning);
+    ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+    ASSERT_EQ(mesh->colors.size(), 12u);
+    EXPECT_EQ(mesh->waterVertices, 6u);
+    EXPECT_EQ(mesh->colors[0], glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh->colors[3], glm::vec3(0, 1, 0));
+    EXPECT_EQ(mesh->colors[6], glm::vec3(0, 0, 0.5f));
+    EXPECT_EQ(mesh->normals.size(), 12u);
+}
+
 TEST(MeshReader, cutsPolygonsWithInwardCornersWithoutLeavingThem)
 {
     // A U of area 7, and a star whose corners turn clockwise.

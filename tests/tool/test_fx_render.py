@@ -83,6 +83,29 @@ class FxRender(FxTest):
         self.assertNotEqual(at_one, picture(', "preview": {"time": 1, "exposureEv100": 10, %s}' % camera))
         self.assertNotEqual(at_one, picture(', "preview": {"time": 1, "instance": {"position": [1, 1, 0]}, %s}' % camera))
 
+    def test_a_stage_replaces_the_surroundings_of_the_preview(self):
+        preset = self.write("p.fx.json", """{"version": 1, "emitters": [{"emission": {"rate": 1}}], "preview": {"time": 0.5,
+            "camera": {"position": [0, 1, 5], "target": [0, 1, 0]}, "background": {"color": [9000, 0, 0]}, "exposureEv100": 9}}""")
+        pictures = {}
+        for stage in ("ground", "courtyard", "night", "wall", "corridor", "water", "studio-gray"):
+            self.render("p.png", "--stage", stage, scene=preset)
+            pictures[stage] = (self.folder / "p.png").read_bytes()
+        self.assertEqual(len(set(pictures.values())), 7)
+        # The first stage is where presets without a preview stand.
+        bare = self.write("bare.fx.json", """{"version": 1, "emitters": [{"emission": {"rate": 1}}], "preview": {"time": 0.5,
+            "camera": {"position": [0, 1, 5], "target": [0, 1, 0]}}}""")
+        self.render("p.png", scene=bare)
+        self.assertEqual((self.folder / "p.png").read_bytes(), pictures["ground"])
+
+    def test_a_stage_must_exist_and_needs_a_preset(self):
+        wrong = fx("render", "library:sparks", "-o", self.folder / "p.png", "--stage", "wal")
+        self.assertEqual(wrong.code, 2)
+        self.assertIn("wall", wrong.err)
+        scene = self.write("s.scene.json", '{"version": 1, "instances": []}')
+        refused = fx("render", scene, "-o", self.folder / "p.png", "--stage", "wall")
+        self.assertNotEqual(refused.code, 0)
+        self.assertIn("--stage needs a preset", refused.err)
+
     def test_a_preset_stands_where_it_says_with_ground_and_without(self):
         text = """{"version": 1, %s "emitters": [{"position": [0, 1, 0], "radius": 0.5, "forces": {"gravity": 0}, "lifetime": 9,
             "emission": {"bursts": [{"time": 0, "count": 1}]}, "appearance": {"kind": "sprite", "lit": 0, "luminance": 5000}}],

@@ -36,13 +36,17 @@ bool endsWith(const std::string& text, const std::string& end)
 /// @param io where no option names a time, the still of a preset gets the time of the preset's preview
 base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, RenderPlan& io)
 {
-    if (endsWith(arguments.input, ".scene.json"))
+    if (endsWith(arguments.input, ".scene.json")) {
+        if (!arguments.stage.empty())
+            return base::Status(base::Code::InvalidArgument,
+                                "--stage needs a preset; the stage of a scene is that of its file");
         return scene_file::loadSceneFile(arguments.input);
+    }
     if (!endsWith(arguments.input, ".fx.json") && arguments.input.rfind("library:", 0) != 0)
         return base::Status(base::Code::InvalidArgument,
                             arguments.input + ": expected *.scene.json, *.fx.json or library:NAME");
     scene_file::Preview preview;
-    auto scene = sceneOfPreset(arguments.input, &preview);
+    auto scene = sceneOfPreset(arguments.input, &preview, arguments.stage);
     if (!scene.ok())
         return scene;
     scene->view.composition = render::Composition::Automatic;

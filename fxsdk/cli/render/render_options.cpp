@@ -1,6 +1,7 @@
 #include "fxsdk/cli/render/render_options.h"
 
 #include "fxsdk/cli/support/named_choice.h"
+#include "fxsdk/scene_file/stages.h"
 #include "rendering/frame/composition_names.h"
 
 #include <CLI/CLI.hpp>
@@ -169,6 +170,14 @@ std::vector<std::string> compositionNames()
     return names;
 }
 
+std::vector<std::string> stageNames()
+{
+    std::vector<std::string> names;
+    for (const scene_file::Stage& stage : scene_file::stages())
+        names.emplace_back(stage.name);
+    return names;
+}
+
 /// How it looks.
 void addLookOptions(CLI::App& command, RenderArguments& arguments)
 {
@@ -205,6 +214,10 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         ->check(CLI::Range(-20.0, 40.0));
     command.add_option("--lights", arguments.lights,
                        "Lights, sky and exposure of this scene file instead of the scene's");
+    command
+        .add_option("--stage", arguments.stage,
+                    "Where a preset is shown, instead of mesh, light, background and exposure of its preview")
+        ->check(oneOf(stageNames()));
     command.add_option(
         "--figure", arguments.figure,
         "Where a person of 1.8 m stands, X,Y,Z [m], to show the size of the effect; off: nowhere. "

@@ -43,6 +43,7 @@ struct RenderArguments
     std::string lights;
     /// "off", or where a figure stands, "X,Y,Z" [m]; empty: as in the preset's preview
     std::string figure;
+    std::string stage; ///< stage of a preset, of scene_file::stages(); empty: as in the preset's preview
     double framesPerSecond = 30.0;
     std::optional<double> time; ///< [s] time to render; empty: the time of the preset's preview, or 0.5 s
     std::optional<uint64_t> seed;

@@ -5,6 +5,7 @@
 #include "fxsdk/cli/scene/effect_framing.h"
 #include "fxsdk/cli/scene/preview_ground.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "fxsdk/scene_file/stages.h"
 
 #include <glm/geometric.hpp>
 
@@ -30,7 +31,8 @@ void addDefaultStage(scene_file::SceneFile& scene)
 
 } // namespace
 
-base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scene_file::Preview* outPreview)
+base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scene_file::Preview* outPreview,
+                                                  const std::string& stage)
 {
     const bool fromLibrary = input.rfind("library:", 0) == 0;
     auto text = fromLibrary
@@ -38,11 +40,12 @@ base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scen
                     : asset::readFile(input, preset::kPresetBytes);
     if (!text.ok())
         return text.status();
-    return sceneOfPresetText(*text, input, outPreview);
+    return sceneOfPresetText(*text, input, outPreview, stage);
 }
 
 base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, const std::string& input,
-                                                      scene_file::Preview* outPreview)
+                                                      scene_file::Preview* outPreview,
+                                                      const std::string& stage)
 {
     const bool fromLibrary = input.rfind("library:", 0) == 0;
     const std::string folder = fromLibrary ? std::string() : preset::folderOf(input);
@@ -57,10 +60,13 @@ base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, c
     scene.presets.push_back({input, text, fromLibrary ? std::string() : input, loaded->effect});
     scene.instances.emplace_back();
     addDefaultStage(scene);
-    const auto preview = scene_file::readPreview(text, input, resolver, scene, &scene.warnings);
+    const auto preview =
+        scene_file::readPreview(stage.empty() ? text : scene_file::presetOnStage(text, stage), input,
+                                resolver, scene, &scene.warnings);
     if (!preview.ok())
         return preview.status();
-    scene.background.hasHills = scene.mesh.isSoil; // a preview may have a mesh of its own
+    scene.background.hasHills =
+        scene.mesh.isSoil || scene.mesh.waterVertices > 0; // a preview may have a mesh of its own
     if (outPreview)
         *outPreview = *preview;
     return scene;

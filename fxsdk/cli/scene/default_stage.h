@@ -16,14 +16,17 @@ namespace fx::cli {
 /// A scene with one instance of the preset at the origin, or as the preset's member "preview" describes.
 /// @param input      a file *.fx.json, or library:NAME
 /// @param outPreview receives the preset's preview; may be null
+/// @param stage      name of scene_file::stages(), whose members replace those of the preview; empty: none
 base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input,
-                                                  scene_file::Preview* outPreview = nullptr);
+                                                  scene_file::Preview* outPreview = nullptr,
+                                                  const std::string& stage = {});
 
 /// A scene as sceneOfPreset() makes it, of a text that need not be saved.
 /// @param input name of the text: a file, in whose folder the files that the preset names are searched, or
 /// library:NAME
 base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, const std::string& input,
-                                                      scene_file::Preview* outPreview = nullptr);
+                                                      scene_file::Preview* outPreview = nullptr,
+                                                      const std::string& stage = {});
 
 /// Simulates the effect and places the camera so that the effect is in the picture at all moments between
 /// the start and `until`. Does nothing if there are no elements at these moments.

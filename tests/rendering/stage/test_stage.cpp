@@ -68,6 +68,36 @@ TEST_F(StageTest, aDiffuseSquareUnderTheSunHasAlbedoTimesIlluminanceOverPi)
     EXPECT_NEAR(middle(), 0.5f * 1000.0f / kPi, 0.5f);
 }
 
+TEST_F(StageTest, waterMirrorsTheSkyByFresnelsEquationsAndLetsTheRestOut)
+{
+    render::StageMesh mesh;
+    addSquare(mesh, 5.0f, 0.0f);
+    mesh.waterVertices = mesh.positions.size();
+    ASSERT_TRUE(stage_->setMesh(mesh).ok());
+    render::StageBackground sky;
+    sky.luminance = sky.horizon = glm::vec3(1000.0f);
+    ASSERT_TRUE(stage_->setBackground(sky).ok());
+    EXPECT_NEAR(middle(), 0.02f * 1000.0f, 0.1f); // seen from above; waves of slopes below 0.1 change nothing
+    lighting_.skyLuminance = glm::vec3(100.0f);
+    EXPECT_NEAR(middle(), 0.02f * 1000.0f + 0.98f * 0.5f * 100.0f, 0.5f);
+}
+
+TEST_F(StageTest, waterCastsNoShadowAndTheSunGlintsInIt)
+{
+    render::StageMesh mesh;
+    addSquare(mesh, 5.0f, 0.0f);
+    addSquare(mesh, 5.0f, 1.0f);
+    mesh.waterVertices = 6; // the upper square
+    ASSERT_TRUE(stage_->setMesh(mesh).ok());
+    lighting_.sunIlluminance = glm::vec3(1000.0f);
+    const float above = middle();
+    EXPECT_GT(above,
+              1.3f * 0.98f * 0.5f * 1000.0f / kPi); // the camera looks into the glint, which the waves widen
+    lighting_.sunDirection = glm::normalize(glm::vec3(1.0f, 1.0f, 0.0f));
+    const float aside = middle();
+    EXPECT_NEAR(aside, 0.98f * 0.5f * 1000.0f * std::sqrt(0.5f) / kPi, 10.0f); // lit, as nothing shades it
+}
+
 TEST_F(StageTest, underAnEvenSkyItHasAlbedoTimesTheSkysLuminance)
 {
     render::StageMesh mesh;
