@@ -1,10 +1,16 @@
 // The picture of the editor: it depends on text and time alone, not on what was shown before.
 #include "fxsdk/editor/preview/preview.h"
+#include "fxsdk/editor/preview/reference_error.h"
 #include "fxsdk/editor/preview/why_invisible.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/platform/gl_context.h"
 
 #include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <chrono>
 
 namespace fx::editor {
 namespace {
@@ -136,6 +142,115 @@ TEST_F(PreviewTest, saysWhyNothingIsSeen)
     for (const char* part : {"/emitters/0: it is muted", "/emitters/0/emission/start: it begins at 3 s",
                              "/emitters/0/opticalDepth: it is 0"})
         EXPECT_NE(all.find(part), std::string::npos) << all;
+}
+
+TEST_F(PreviewTest, overlaysShowBoundsAndVelocitiesOfTheParticles)
+{
+    show(*preview_, kPreset);
+    ASSERT_TRUE(preview_->seek(1.0).ok());
+    (void)picture(*preview_);
+    OverlayChoice choice;
+    choice.bounds = choice.velocities = true;
+    const OverlayData data = preview_->overlays(choice, frame());
+    EXPECT_EQ(data.bounded, 1u);
+    EXPECT_EQ(data.arrows, preview_->particles());
+    EXPECT_EQ(data.moving, preview_->particles());
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const WireLine& line : data.lines)
+        if (line.kind == WireKind::Bounds)
+            for (const glm::dvec3& p : {line.from, line.to})
+                low = glm::min(low, p), high = glm::max(high, p);
+    size_t arrows = 0;
+    for (const WireLine& line : data.lines) {
+        if (line.kind != WireKind::Velocity)
+            continue;
+        ++arrows;
+        EXPECT_LE(glm::length(line.to - line.from), 0.1 * 12.0); // at 1.5 m/s and 1 s of fall at most
+        for (int i = 0; i < 3; ++i)
+            EXPECT_TRUE(line.from[i] >= low[i] && line.from[i] <= high[i]);
+    }
+    EXPECT_EQ(arrows, data.arrows);
+    EXPECT_TRUE(preview_->overlays({}, frame()).lines.empty());
+}
+
+TEST_F(PreviewTest, overdrawCountsDisksOnTheirPlace)
+{
+    show(*preview_,
+         R"({"version": 1, "emitters": [{"maxParticles": 7, "emission": {"bursts": [{"time": 0, "count": 7}]},
+        "lifetime": 5, "speed": 0, "forces": {"gravity": 0}, "position": [0, 1, 0], "radius": 2.0, "size": 0}]})");
+    ASSERT_TRUE(preview_->seek(0.5).ok());
+    OverlayChoice choice;
+    choice.overdraw = true;
+    const OverdrawMap map = preview_->overlays(choice, frame()).overdraw;
+    ASSERT_EQ(map.columns, kSide / 8);
+    ASSERT_EQ(map.rows, kSide / 8);
+    EXPECT_NEAR(map.largest, 7.0, 1e-6); // all at one place, in the middle
+    EXPECT_NEAR(double(map.counts[size_t(map.rows / 2 * map.columns + map.columns / 2)]), 7.0, 1e-6);
+    EXPECT_EQ(map.counts[0], 0.0f);
+}
+
+TEST_F(PreviewTest, theVolumeOfLightSlicesHoldsTheMedium)
+{
+    show(
+        *preview_,
+        R"({"version": 1, "emitters": [{"maxParticles": 60, "emission": {"rate": 60}, "lifetime": 5, "speed": 0,
+        "forces": {"gravity": 0}, "size": 0.2, "position": [0, 1.2, 0], "radius": 0.5, "opticalDepth": 10}]})");
+    ASSERT_TRUE(preview_->seek(1.0).ok());
+    (void)picture(*preview_);
+    OverlayChoice choice;
+    choice.lightSlices = true;
+    const OverlayData data = preview_->overlays(choice, frame());
+    ASSERT_GE(data.volumes, 1u);
+    ASSERT_EQ(data.lines.size(), 12u * data.volumes);
+    glm::dvec3 middle(0.0); // of the first, the widest
+    for (size_t i = 0; i < 12; ++i)
+        middle += (data.lines[i].from + data.lines[i].to) / 24.0;
+    double reach = 0.0;
+    for (size_t i = 0; i < 12; ++i)
+        reach = std::max(reach, glm::length(data.lines[i].from - middle));
+    EXPECT_LT(glm::length(middle - glm::dvec3(0.0, 1.2, 0.0)), reach);
+    EXPECT_GT(reach, 0.5);
+}
+
+TEST(ErrorPicture, statesMeanP99AndLargestOfTheClippedLuminance)
+{
+    std::vector<float> picture(300, 0.5f), reference(300, 0.5f);
+    picture[0] = picture[1] = picture[2] = 0.75f;      // 0.25 brighter
+    reference[3] = reference[4] = reference[5] = 3.0f; // counts as white: 0.5 darker
+    const ErrorPicture error = errorOf(picture, reference, 10, 10);
+    EXPECT_NEAR(error.mean, 0.0075, 1e-7);
+    EXPECT_NEAR(error.p99, 0.25, 1e-7);
+    EXPECT_NEAR(error.largest, 0.5, 1e-7);
+    const std::vector<uint8_t> colors = errorColors(error);
+    ASSERT_EQ(colors.size(), 400u);
+    EXPECT_EQ(colors[8], 0); // no error is black
+    EXPECT_GT(colors[4], colors[0] - 1);
+    EXPECT_GT(colors[5], colors[1]);
+}
+
+TEST_F(PreviewTest, theReferenceOfASmallPictureIsNearAndCanBeStopped)
+{
+    show(*preview_, kPreset);
+    ASSERT_TRUE(preview_->seek(1.0).ok());
+    PreviewFrame linear = frame();
+    linear.isLinear = true;
+    ASSERT_TRUE(preview_->render(linear).ok());
+    std::vector<float> rows = render::readTexture(preview_->device(), preview_->texture(), kSide, kSide, 3);
+    std::vector<float> downwards;
+    for (int y = kSide - 1; y >= 0; --y)
+        downwards.insert(downwards.end(), rows.begin() + std::ptrdiff_t(3 * kSide * y),
+                         rows.begin() + std::ptrdiff_t(3 * kSide * (y + 1)));
+    ReferenceRun run(preview_->scene(), 1.0, linear, downwards);
+    const base::Result<ErrorPicture>& result = run.result();
+    ASSERT_TRUE(result.ok()) << result.status().message();
+    EXPECT_DOUBLE_EQ(run.progress(), 1.0);
+    EXPECT_LT(result->mean, 0.03);
+    ReferenceRun wrong(preview_->scene(), 1.0, linear, rows); // upside down
+    ASSERT_TRUE(wrong.result().ok());
+    EXPECT_GT(wrong.result()->mean, 3.0 * result->mean);
+    ReferenceRun stopped(preview_->scene(), 300.0, linear, downwards);
+    stopped.stop();
+    EXPECT_EQ(stopped.result().status().code(), base::Code::Interrupted);
 }
 
 } // namespace

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """fx edit without a display: events of mouse and keyboard edit the file that they should."""
 import json
+import re
 import shutil
+import struct
 import unittest
+import zlib
 
 from fx_program import LIBRARY, FxTest, fx
 
@@ -19,7 +22,237 @@ click save
 """
 
 
+# A preset whose picture is soon drawn, also by the reference renderer.
+SMALL = """{"version": 1,
+  "emitters": [
+    {"name": "balls", "maxParticles": 40, "emission": {"rate": 20, "bursts": [{"time": 0.5, "count": 4}]}, "lifetime": 2,
+     "shape": "sphere", "position": [0, 1, 0], "size": 0.4, "radius": 0.25, "speed": 0.6, "opticalDepth": 3,
+     "forces": {"gravity": 0, "vortices": [{"radius": 1, "speed": 1}]}}
+  ],
+  "preview": {"camera": {"position": [0, 1, 6], "target": [0, 1, 0]}}
+}
+"""
+
+
+class Pixels:
+    """RGB rows of a PNG with 8 bits, cut to a rectangle."""
+
+    def __init__(self, path, rectangle=None):
+        data = path.read_bytes()
+        width, height, _, kind = struct.unpack(">IIBB", data[16:26])
+        channels = {2: 3, 6: 4}[kind]
+        packed, at = b"", 8
+        while at < len(data):
+            size, = struct.unpack(">I", data[at:at + 4])
+            packed += data[at + 8:at + 8 + size] if data[at + 4:at + 8] == b"IDAT" else b""
+            at += 12 + size
+        raw = zlib.decompress(packed)
+        stride = width * channels
+        left, top, right, bottom = rectangle or (0, 0, width, height)
+        before, self.rows = bytes(stride), []
+        for y in range(bottom):
+            kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+            for i in range(stride if kind else 0):
+                a, b, c = line[i - channels] if i >= channels else 0, before[i], before[i - channels] if i >= channels else 0
+                nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+                line[i] = (line[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
+            before = bytes(line)
+            if y >= top:
+                self.rows.append(before[left * channels:right * channels])
+
+    def __eq__(self, other):
+        return self.rows == other.rows
+
+    def mean(self):
+        return sum(map(sum, self.rows)) / sum(map(len, self.rows))
+
+
 class Edit(FxTest):
+    def small(self, script, *options):
+        """Runs a script on the small preset; returns the outcome."""
+        preset = self.write("small.fx.json", SMALL)
+        events = self.write("events.txt", script.format(folder=self.folder))
+        outcome = fx("edit", preset, "--headless", "--width", 960, "--height", 640, "--script", events,
+                     "--recovery", self.folder / "recovery", *options)
+        if "has no editor" in outcome.err:
+            self.skipTest(outcome.err)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        return outcome
+
+    def read(self, name):
+        return (self.folder / name).read_text()
+
+    def view(self, name, places, share=(0.0, 1.0)):
+        """The picture of a screenshot, without the lines of text at its top."""
+        left, top, right, bottom = map(int, re.search(r"^viewport (.*)$", places, re.M)[1].split())
+        width = right - left
+        return Pixels(self.folder / name, (left + int(share[0] * width), top + 90, left + int(share[1] * width), bottom))
+
+    def test_a_stage_changes_the_picture_and_the_file_only_when_it_is_kept(self):
+        outcome = self.small("""
+places
+shot {folder}/document.png
+click stage
+click stage/night
+key escape
+shot {folder}/night.png
+text {folder}/chosen.fx.json
+click stage
+click stage/reset
+click stage/figure
+key escape
+shot {folder}/figure.png
+click stage
+click stage/studio-gray
+click stage/sun/elevation
+type 20
+key enter
+click stage/keep
+key escape
+text {folder}/kept.fx.json
+key ctrl+z
+text {folder}/undone.fx.json
+""")
+        names = ("document.png", "night.png", "figure.png")
+        document, night, figure = (self.view(name, outcome.out) for name in names)
+        self.assertLess(night.mean(), 0.5 * document.mean())
+        self.assertNotEqual(figure, document)
+        self.assertEqual(self.read("chosen.fx.json"), SMALL)
+        self.assertEqual(self.read("undone.fx.json"), SMALL)
+        preview = json.loads(self.read("kept.fx.json"))["preview"]
+        self.assertEqual(preview["mesh"], {"file": "library:stage-studio-gray.obj"})
+        self.assertAlmostEqual(preview["lighting"]["sunDirection"][1], 0.34202, places=5)
+        self.assertIn("figure", preview)
+
+    def test_an_own_mesh_stands_in_the_picture(self):
+        self.write("own.obj", "v -9 -1 -3\nv 9 -1 -3\nv 9 9 -3\nv -9 9 -3\nf 1 2 3 4\n")
+        outcome = self.small("""
+places
+shot {folder}/document.png
+click stage
+click stage/mesh
+type own.obj
+key enter
+key escape
+shot {folder}/own.png
+""")
+        self.assertNotEqual(self.view("document.png", outcome.out), self.view("own.png", outcome.out))
+
+    def test_a_dragged_handle_is_one_edit_that_equals_the_typed_one(self):
+        self.small("""
+click select/emitters/0
+drag handle/emitters/0/position 60 -25
+text {folder}/dragged.fx.json
+key ctrl+z
+text {folder}/undone.fx.json
+drag handle/emitters/0/size 30 0
+drag handle/emitters/0/forces/vortices/0/radius 40 0
+text {folder}/sizes.fx.json
+""")
+        self.assertEqual(self.read("undone.fx.json"), SMALL)
+        emitter = json.loads(self.read("dragged.fx.json"))["emitters"][0]
+        x, y, z = emitter["position"]
+        self.assertGreater(x, 0.3)
+        self.assertGreater(y, 1.1)
+        self.assertAlmostEqual(z, 0.0)
+        self.small(f"""
+click select/emitters/0
+click /emitters/0/position/0
+type {x}
+key enter
+click /emitters/0/position/1
+type {y}
+key enter
+text {{folder}}/typed.fx.json
+""")
+        self.assertEqual(json.loads(self.read("typed.fx.json")), json.loads(self.read("dragged.fx.json")))
+        sizes = json.loads(self.read("sizes.fx.json"))["emitters"][0]
+        self.assertGreater(sizes["size"], 0.5)
+        self.assertGreater(sizes["forces"]["vortices"][0]["radius"], 1.1)
+
+    def test_a_click_on_a_handle_edits_nothing(self):
+        self.small("""
+click select/emitters/0
+click handle/emitters/0/position
+click mark/emitters/0/emission/bursts/0/time
+text {folder}/clicked.fx.json
+""")
+        self.assertEqual(self.read("clicked.fx.json"), SMALL)
+
+    def test_a_burst_is_dragged_along_the_timeline_as_one_edit(self):
+        self.small("""
+drag mark/emitters/0/emission/bursts/0/time 80 0
+text {folder}/dragged.fx.json
+key ctrl+z
+text {folder}/undone.fx.json
+""")
+        burst = json.loads(self.read("dragged.fx.json"))["emitters"][0]["emission"]["bursts"][0]
+        self.assertGreater(burst["time"], 0.8)
+        self.assertEqual(round(100 * burst["time"], 6), round(100 * burst["time"]))
+        self.assertEqual(self.read("undone.fx.json"), SMALL)
+
+    def test_each_overlay_is_drawn_and_taken_away(self):
+        names = ("bounds", "velocities", "overdraw", "slices", "shapes")
+        script = "time 1\nclick select/emitters/0\nplaces\nshot {folder}/plain.png\n"
+        for name in names:
+            toggle = f"click overlays\nclick overlay/{name}\nkey escape\n"
+            script += f"{toggle}shot {{folder}}/{name}.png\n{toggle}"
+        outcome = self.small(script + "shot {folder}/again.png\n")
+        plain = self.view("plain.png", outcome.out)
+        for name in names:
+            self.assertNotEqual(self.view(f"{name}.png", outcome.out), plain, name)
+        self.assertEqual(self.view("again.png", outcome.out), plain)
+
+    def test_before_and_now_are_on_both_sides_of_the_line(self):
+        outcome = self.small("""
+time 1
+click overlays
+click overlay/shapes
+key escape
+click select/emitters/0
+places
+shot {folder}/before.png
+click /emitters/0/radius/0
+type 0.6
+key enter
+shot {folder}/now.png
+click compare
+shot {folder}/both.png
+drag handle/split 100 0
+shot {folder}/moved.png
+""")
+        shares = {"left": (0.0, 0.45), "right": (0.55, 1.0), "next": (0.53, 0.56)}
+        view = {(name, side): self.view(name + ".png", outcome.out, shares[side])
+                for name in ("before", "now", "both", "moved") for side in shares}
+        self.assertNotEqual(view["before", "next"], view["now", "next"])
+        self.assertEqual(view["both", "left"].rows[:150], view["before", "left"].rows[:150])
+        self.assertEqual(view["both", "right"].rows[:150], view["now", "right"].rows[:150])
+        self.assertEqual(view["moved", "next"].rows[:150], view["before", "next"].rows[:150])
+
+    def test_the_error_against_the_reference_is_stated_and_shown(self):
+        outcome = self.small("""
+time 1
+places
+shot {folder}/plain.png
+click error
+compared
+shot {folder}/error.png
+click error/shown
+shot {folder}/hidden.png
+""")
+        found = re.search(r"error of 1.00 s, 160x\d+: mean ([\d.]+), p99 ([\d.]+), largest ([\d.]+) of white", outcome.out)
+        self.assertTrue(found, outcome.out)
+        mean, p99, largest = map(float, found.groups())
+        self.assertTrue(0.0 < mean <= p99 <= largest <= 1.0, outcome.out)
+        self.assertLess(mean, 0.05)
+        plain = self.view("plain.png", outcome.out)
+        self.assertNotEqual(self.view("error.png", outcome.out), plain)
+        self.assertEqual(self.view("hidden.png", outcome.out).rows[30:], plain.rows[30:])
+
+    def test_a_comparison_with_the_reference_can_be_cancelled(self):
+        outcome = self.small("time 1\nclick error\nclick error/cancel\ncompared\n")
+        self.assertIn("cancelled", outcome.out)
+
     def edit(self, script):
         preset = self.folder / "campfire.fx.json"
         shutil.copy(LIBRARY / "campfire.fx.json", preset)

@@ -63,6 +63,8 @@ public:
 
     /// Text of the file when it was last read or written by the editor.
     const std::string& savedText() const { return savedText_; }
+    /// State of the file when it was last read or written by the editor.
+    const Json& savedJson() const { return savedJson_; }
     /// Takes over the text of the file after a change outside. This is an edit that can be undone.
     /// @return Parse or Schema; the document is unchanged
     base::Status reload(const std::string& text);

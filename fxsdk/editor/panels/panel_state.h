@@ -23,6 +23,22 @@ struct PictureState
     double milliseconds = 0.0;  ///< [ms] of the last picture: seek and drawing
     float exposureEv100 = 0.0f; ///< [EV100] of the scene
     std::string failure;        ///< why the picture does not show the document; empty: it does
+    EffectPlacement placement;  ///< of the effect of a preset
+    OverlayData overlays;
+    uint32_t beforeTexture = 0; ///< GL name of the picture of before; 0: none
+    std::string beforeFailure;  ///< why there is no picture of before; empty: there is one
+};
+
+/// What the host tells of the comparison with the reference renderer.
+struct ErrorState
+{
+    bool isAsked = false;   ///< the host shall begin
+    bool isStopped = false; ///< the host shall cancel
+    bool isRunning = false;
+    double progress = 0.0; ///< [0, 1]
+    uint32_t texture = 0;  ///< GL name of the error as a picture, upper row first; 0: none
+    bool isShown = false;  ///< over the picture
+    std::string text;      ///< mean, p99 and largest error, or the cause of a failure
 };
 
 /// A rectangle on the screen [pixel].
@@ -65,11 +81,15 @@ struct PanelState
 
     Session& session;
     PictureState picture;
+    ErrorState error;
     /// Places of the widgets of this frame by name, for scripts and tests.
     std::map<std::string, Place> places;
     std::string scrolledTo;             ///< name of a widget that its panel scrolls to; empty: none
     ImVec2 pictureSize{640.0f, 360.0f}; ///< [pixel] wanted for the next picture
 
+    std::string heldHandle;    ///< name of the handle that is dragged; empty: none
+    std::string heldMark;      ///< name of the mark of the timeline that is dragged; empty: none
+    ImVec2 heldOffset;         ///< [pixel] from the mouse to the handle
     ImGuiID typedField = 0;    ///< field that is being typed into
     std::string typed;         ///< its text
     uint64_t gesture = 0;      ///< number of the last drag

@@ -3,13 +3,15 @@
 #pragma once
 
 #include "fxsdk/editor/panels/panel_state.h"
+#include "fxsdk/editor/session/view_projection.h"
 
 namespace fx::editor {
 
 void topBar(PanelState& state);         ///< file, undo, exposure, messages
 void outlinerPanel(PanelState& state);  ///< elements of techniques with solo and mute, other parts
 void inspectorPanel(PanelState& state); ///< members of the selection
-void viewportPanel(PanelState& state);  ///< the picture and its camera
+void viewportPanel(PanelState& state);  ///< the picture, its camera and its handles
+void viewportBar(PanelState& state);    ///< choices of stage, overlays and comparisons of the picture
 void timelinePanel(PanelState& state);  ///< play, scrub, marks of bursts
 void curvePanel(PanelState& state);     ///< keys of the curve or gradient that is edited
 void findingsPanel(PanelState& state);  ///< errors and warnings with remedies
@@ -27,6 +29,13 @@ std::string linkText(const PanelState& state);
 
 /// Title of an element for people, such as "Emitter flames".
 std::string elementTitle(const Document& document, const std::string& pointer);
+
+/// Draws what the session chooses over the picture: wires, overdraw. @param view of the picture
+void drawOverlays(PanelState& state, const ViewProjection& view, ImVec2 low, ImVec2 high);
+
+/// Handles of shapes, of the sun and of the comparison: draws them, and moves the one that is held. Call it
+/// after the item of the picture. @return whether the mouse holds one
+bool viewportHandles(PanelState& state, const ViewProjection& view, ImVec2 low, ImVec2 high);
 
 /// A button with a place. @return true when it was clicked
 bool button(PanelState& state, const char* label, const std::string& name);

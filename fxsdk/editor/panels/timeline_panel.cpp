@@ -1,7 +1,9 @@
 #include "fxsdk/editor/panels/number_field.h"
 #include "fxsdk/editor/panels/panels.h"
+#include "fxsdk/editor/session/time_marks.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fx::editor {
 
@@ -43,30 +45,59 @@ void transport(PanelState& state)
         playback.speed = std::clamp(edit->value, 0.0, 16.0);
 }
 
-/// Starts and bursts of all elements, at their times.
-void marks(const Json& document, const Json& schema, ImVec2 low, ImVec2 size, double end)
+constexpr float kMarkGrab = 6.0f; // [pixel]
+
+ImU32 colorOf(MarkKind kind)
 {
-    ImDrawList* const draw = ImGui::GetWindowDrawList();
-    const auto line = [&](const Json& time, ImU32 color) {
-        if (!time.is_number() || time.get<double>() > end)
-            return;
-        const float x = low.x + size.x * float(time.get<double>() / end);
-        draw->AddLine({x, low.y + 2}, {x, low.y + size.y - 2}, color, 2.0f);
-    };
-    for (const std::string& pointer : soloElements(document, schema)) {
-        const Json& element = document.at(Json::json_pointer(pointer));
-        if (!element.is_object())
-            continue;
-        line(element.value("start", Json()), IM_COL32(120, 190, 255, 200));
-        const Json emission = element.value("emission", Json::object());
-        if (!emission.is_object())
-            continue;
-        line(emission.value("start", Json()), IM_COL32(120, 190, 255, 200));
-        const Json bursts = emission.value("bursts", Json::array());
-        for (const Json& burst : bursts)
-            if (burst.is_object())
-                line(burst.value("time", Json()), IM_COL32(255, 140, 90, 220));
+    switch (kind) {
+    case MarkKind::Start:
+        return IM_COL32(120, 190, 255, 200);
+    case MarkKind::Burst:
+        return IM_COL32(255, 140, 90, 220);
+    case MarkKind::Event:
+        return IM_COL32(170, 230, 120, 220);
     }
+    return IM_COL32_WHITE;
+}
+
+/// Draws the marks, and drags the one that is held. Call it after the item of the bar.
+/// @return whether the mouse holds one
+bool marks(PanelState& state, ImVec2 low, ImVec2 size)
+{
+    Session& session = state.session;
+    const double end = session.playback.end;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const bool isTaken = ImGui::IsItemActivated() && ImGui::IsMouseDown(0);
+    const bool isActive = ImGui::IsItemActive();
+    if (!isActive)
+        state.heldMark.clear();
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const std::vector<TimeMark> all = timeMarks(session.document);
+    float nearest = kMarkGrab;
+    for (const TimeMark& mark : all) {
+        if (mark.time > end)
+            continue;
+        const float x = low.x + size.x * float(mark.time / end);
+        const std::string name = "mark" + mark.pointer;
+        state.places[name] = {{x - 3, low.y}, {x + 3, low.y + size.y}, true};
+        if (isTaken && std::abs(mouse.x - x) < nearest) {
+            nearest = std::abs(mouse.x - x);
+            state.heldMark = name;
+        }
+        const bool isHeld = state.heldMark == name;
+        draw->AddLine({x, low.y + 2}, {x, low.y + size.y - 2}, colorOf(mark.kind), isHeld ? 4.0f : 2.0f);
+        draw->AddCircleFilled({x, low.y + size.y - 4}, isHeld ? 5.0f : 3.5f, colorOf(mark.kind));
+    }
+    if (isTaken)
+        ++state.gesture;
+    if (state.heldMark.empty() || isTaken || ImGui::GetIO().MouseDelta.x == 0.0f)
+        return !state.heldMark.empty();
+    for (const TimeMark& mark : all)
+        if ("mark" + mark.pointer == state.heldMark)
+            session.run(session.document.set(
+                mark.pointer, timeAt(session.document, mark, double((mouse.x - low.x) / size.x) * end),
+                state.gesture));
+    return true;
 }
 
 void bar(PanelState& state)
@@ -76,12 +107,13 @@ void bar(PanelState& state)
     const ImVec2 size(std::max(ImGui::GetContentRegionAvail().x, 50.0f), ImGui::GetFontSize() * 2.2f);
     ImGui::InvisibleButton("bar", size);
     state.mark("timeline/bar");
-    if (ImGui::IsItemActive()) {
+    const bool isPressed = ImGui::IsItemActive();
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(low, {low.x + size.x, low.y + size.y}, IM_COL32(24, 27, 33, 255));
+    if (!marks(state, low, size) && isPressed) {
         playback.isPlaying = false;
         playback.scrub(double((ImGui::GetIO().MousePos.x - low.x) / size.x) * playback.end);
     }
-    ImDrawList* const draw = ImGui::GetWindowDrawList();
-    draw->AddRectFilled(low, {low.x + size.x, low.y + size.y}, IM_COL32(24, 27, 33, 255));
     for (int i = 0; i <= 10; ++i) {
         const float x = low.x + size.x * float(i) / 10.0f;
         draw->AddLine({x, low.y + size.y * 0.7f}, {x, low.y + size.y}, IM_COL32(255, 255, 255, 60));
@@ -89,8 +121,6 @@ void bar(PanelState& state)
             draw->AddText({x + 3, low.y + size.y * 0.45f}, IM_COL32(150, 155, 165, 255),
                           numberText(playback.end * i / 10.0).c_str());
     }
-    if (state.session.document.kind() == DocumentKind::Preset)
-        marks(state.session.document.json(), state.session.document.schema(), low, size, playback.end);
     const float x = low.x + size.x * float(playback.time() / playback.end);
     draw->AddLine({x, low.y}, {x, low.y + size.y}, IM_COL32(255, 255, 255, 255), 2.0f);
     draw->AddTriangleFilled({x - 6, low.y}, {x + 6, low.y}, {x, low.y + 9}, IM_COL32(255, 255, 255, 255));

@@ -44,40 +44,87 @@ void flyByKeys(PanelState& state)
         state.session.camera.fly(step * way);
 }
 
+/// A text on a dark plate.
+void plate(const std::string& text, ImVec2 at)
+{
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    draw->AddRectFilled(at, {at.x + extent.x + 12, at.y + extent.y + 8}, IM_COL32(0, 0, 0, 150), 4.0f);
+    draw->AddText({at.x + 6, at.y + 4}, IM_COL32_WHITE, text.c_str());
+}
+
+ImTextureID imageOf(uint32_t texture)
+{
+    return reinterpret_cast<ImTextureID>(uintptr_t(texture));
+}
+
+/// The present picture, the one of before left of the line, or the error.
+void pictures(const PanelState& state, ImVec2 low, ImVec2 high)
+{
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const PictureState& picture = state.picture;
+    if (state.error.isShown && state.error.texture != 0)
+        return draw->AddImage(imageOf(state.error.texture), low, high);
+    if (picture.texture != 0) // rows of GL begin at the bottom
+        draw->AddImage(imageOf(picture.texture), low, high, {0, 1}, {1, 0});
+    const Comparison& comparison = state.session.comparison;
+    const float split = float(comparison.split);
+    if (comparison.isShown && picture.beforeTexture != 0)
+        draw->AddImage(imageOf(picture.beforeTexture), low, {low.x + split * (high.x - low.x), high.y},
+                       {0, 1}, {split, 0});
+}
+
+void failurePlate(const std::string& failure, ImVec2 low, ImVec2 high)
+{
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const float wrap = high.x - low.x - 24.0f;
+    const ImVec2 size = ImGui::CalcTextSize(failure.c_str(), nullptr, false, wrap);
+    draw->AddRectFilled({low.x + 6, high.y - size.y - 18}, {high.x - 6, high.y - 6},
+                        IM_COL32(90, 20, 16, 220), 4.0f);
+    draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + 12, high.y - size.y - 12},
+                  IM_COL32(255, 225, 220, 255), failure.c_str(), nullptr, wrap);
+}
+
 } // namespace
 
 void viewportPanel(PanelState& state)
 {
+    viewportBar(state);
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    state.pictureSize = {std::max(room.x, 16.0f), std::max(room.y, 16.0f)};
+    state.pictureSize = {std::floor(std::max(room.x, 16.0f)), std::floor(std::max(room.y, 16.0f))};
     const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImVec2 high(low.x + state.pictureSize.x, low.y + state.pictureSize.y);
     ImGui::InvisibleButton("picture", state.pictureSize,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
     state.mark("viewport");
-    moveByMouse(state);
+    pictures(state, low, high);
+    const ViewProjection view(state.session.camera, {double(low.x), double(low.y)},
+                              {double(state.pictureSize.x), double(state.pictureSize.y)});
+    ImGui::GetWindowDrawList()->PushClipRect(low, high, true);
+    drawOverlays(state, view, low, high);
+    ImGui::GetWindowDrawList()->PopClipRect();
+    if (!viewportHandles(state, view, low, high))
+        moveByMouse(state);
     flyByKeys(state);
-    ImDrawList* const draw = ImGui::GetWindowDrawList();
-    const ImVec2 high(low.x + state.pictureSize.x, low.y + state.pictureSize.y);
-    if (state.picture.texture != 0) // rows of GL begin at the bottom
-        draw->AddImage(reinterpret_cast<ImTextureID>(uintptr_t(state.picture.texture)), low, high, {0, 1},
-                       {1, 0});
     char text[160];
     std::snprintf(text, sizeof text, "%u particles   %.0f ms   %.2f s%s", state.picture.particles,
                   state.picture.milliseconds, state.session.playback.time(),
                   state.session.soloMute().isActive() ? "   solo or mute" : "");
-    const ImVec2 extent = ImGui::CalcTextSize(text);
-    draw->AddRectFilled({low.x + 6, low.y + 6}, {low.x + extent.x + 18, low.y + extent.y + 14},
-                        IM_COL32(0, 0, 0, 150), 4.0f);
-    draw->AddText({low.x + 12, low.y + 10}, IM_COL32(255, 255, 255, 255), text);
-    if (!state.picture.failure.empty()) {
-        const float wrap = state.pictureSize.x - 24.0f;
-        const ImVec2 size = ImGui::CalcTextSize(state.picture.failure.c_str(), nullptr, false, wrap);
-        draw->AddRectFilled({low.x + 6, high.y - size.y - 18}, {high.x - 6, high.y - 6},
-                            IM_COL32(90, 20, 16, 220), 4.0f);
-        draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + 12, high.y - size.y - 12},
-                      IM_COL32(255, 225, 220, 255), state.picture.failure.c_str(), nullptr, wrap);
+    float line = low.y + 6;
+    for (const std::string& shown :
+         {std::string(text), overlayText(state.session.overlays, state.picture.overlays), state.error.text})
+    {
+        if (shown.empty())
+            continue;
+        plate(shown, {low.x + 6, line});
+        line += ImGui::GetFontSize() + 12.0f;
     }
+    const std::string& before = state.picture.beforeFailure;
+    const bool isBefore =
+        state.picture.failure.empty() && state.session.comparison.isShown && !before.empty();
+    if (const std::string& failure = isBefore ? before : state.picture.failure; !failure.empty())
+        failurePlate(failure, low, high);
 }
 
 } // namespace fx::editor

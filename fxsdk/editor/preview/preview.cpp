@@ -6,6 +6,7 @@
 #include "fxsdk/cli/scene/default_stage.h"
 #include "fxsdk/cli/scene/instance_definition.h"
 #include "fxsdk/cli/scene/view_settings.h"
+#include "fxsdk/editor/preview/overlay_data.h"
 #include "fxsdk/presets/preset_loader.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -235,9 +236,41 @@ FxViewSettings Preview::settingsOf(const PreviewFrame& frame) const
 {
     FxViewSettings settings = cli::toApi(file_.view);
     settings.exposureEv100 = frame.exposureEv100.value_or(settings.exposureEv100);
-    settings.toneMap = 1;
+    settings.toneMap = frame.isLinear ? 0 : 1;
+    if (frame.isLinear) {
+        settings.shimmerStrength = 0.0f;
+        settings.dazzle = 0;
+        settings.multipleScattering = 0;
+    }
     settings.dazzleRiseTime = settings.dazzleFallTime = 0.0f; // a still has no history
     return settings;
+}
+
+EffectPlacement Preview::placement() const
+{
+    if (file_.instances.empty())
+        return {};
+    const scene_file::SceneInstance& instance = file_.instances.front();
+    return {instance.position, glm::dquat(instance.rotation), double(instance.scale)};
+}
+
+OverlayData Preview::overlays(const OverlayChoice& choice, const PreviewFrame& frame)
+{
+    OverlayData data;
+    if (isFirst_)
+        return data;
+    if (choice.bounds || choice.velocities)
+        addParticleWires(*fxScene_, choice, data);
+    if (choice.overdraw) {
+        OrbitCamera camera;
+        camera.look(frame.pose.position, frame.pose.target);
+        camera.fovYDegrees = frame.fovYDegrees;
+        const ViewProjection view(camera, {0.0, 0.0}, {double(frame.width), double(frame.height)});
+        data.overdraw = overdrawOf(*fxScene_, view, frame.width, frame.height);
+    }
+    if (choice.lightSlices)
+        addLightSlices(lit_.lighting().sunShadow, cameraOf(frame).origin, data);
+    return data;
 }
 
 std::vector<std::string> Preview::causes(const PreviewFrame& frame)

@@ -7,6 +7,7 @@
 #include "foundation/result/status.h"
 #include "fxsdk/cli/scene/lit_stage.h"
 #include "fxsdk/editor/document/schema_tree.h"
+#include "fxsdk/editor/session/overlays.h"
 #include "fxsdk/fxsdk.hpp"
 #include "fxsdk/scene_file/scene_file.h"
 #include "rendering/gl/gl_device.h"
@@ -29,6 +30,9 @@ struct PreviewFrame
     int width = 640;                    ///< [pixel]
     int height = 360;                   ///< [pixel]
     std::optional<float> exposureEv100; ///< [EV100] empty: that of the scene
+    /// True: scene-linear and exposed, with light that is scattered once, and without glare and shimmer: as
+    /// the reference renderer computes it.
+    bool isLinear = false;
 };
 
 class Preview
@@ -49,6 +53,11 @@ public:
     bool hasScene() const { return !isFirst_; }
     /// Draws stage and effects. @return an error of GL
     base::Status render(const PreviewFrame& frame);
+
+    /// What overlays show of the last picture.
+    OverlayData overlays(const OverlayChoice& choice, const PreviewFrame& frame);
+    /// From the coordinates of a preset to the world; that of the first instance.
+    EffectPlacement placement() const;
 
     /// GL name of the picture, display-referred RGBA32F, lower row first; 0 before the first picture.
     uint32_t texture() const { return stage_ ? stage_->colorTexture() : 0; }

@@ -4,6 +4,7 @@
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/editor/panels/panels.h"
 #include "fxsdk/editor/preview/why_invisible.h"
+#include "fxsdk/scene_file/stages.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/image/image.h"
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 namespace fx::editor {
@@ -19,6 +21,8 @@ namespace fx::editor {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int kErrorWidth = 160; // [pixel] of the comparison with the reference renderer
 
 PreviewFrame frameOf(const Session& session, ImVec2 size)
 {
@@ -56,6 +60,7 @@ base::Result<std::unique_ptr<EditorHost>> EditorHost::create(std::unique_ptr<Ses
         return base::Status(base::Code::GlUnsupported,
                             "the OpenGL renderer of Dear ImGui cannot start: libGL.so is missing");
     host->session_ = std::move(session);
+    host->loader_ = loader;
     host->preview_ = std::move(*preview);
     host->state_ = std::make_unique<PanelState>(*host->session_);
     host->updatePicture();
@@ -64,8 +69,12 @@ base::Result<std::unique_ptr<EditorHost>> EditorHost::create(std::unique_ptr<Ses
 
 EditorHost::~EditorHost()
 {
-    if (preview_)
-        ImGui_ImplOpenGL3_Shutdown();
+    reference_.reset();
+    if (!preview_)
+        return;
+    if (errorTexture_ != 0)
+        preview_->device().gl.DeleteTextures(1, &errorTexture_);
+    ImGui_ImplOpenGL3_Shutdown();
 }
 
 /// Shows the document; the first that is valid also places the camera.
@@ -80,12 +89,28 @@ void EditorHost::showDocument(uint64_t revision)
         state_->picture.failure =
             (hadScene ? "The picture shows the last valid state. " : "There is no picture yet. ") +
             status.message();
-    if (hadScene || !preview_->hasScene())
-        return;
+    const bool hasNewStage = shownStage_ != session_->stage().name;
+    shownStage_ = session_->stage().name;
+    const scene_file::Stage* const stage = scene_file::findStage(shownStage_);
+    const bool isInside =
+        stage && Json::parse(stage->members).contains("camera"); // other places see it from outside
+    if (preview_->hasScene() && (!hadScene || (hasNewStage && isInside)))
+        takeCamera();
+}
+
+void EditorHost::takeCamera()
+{
     const scene_file::CameraPath& camera = preview_->scene().camera;
     const scene_file::CameraPose pose = camera.at(0.0);
     session_->camera.look(pose.position, pose.target);
     session_->camera.fovYDegrees = camera.fovYDegrees;
+}
+
+EditorHost::PictureKey EditorHost::keyOf(const PreviewFrame& frame) const
+{
+    return {shownRevision_,    session_->playback.step(), frame.pose.position,
+            frame.pose.target, frame.fovYDegrees,         frame.width,
+            frame.height,      frame.exposureEv100,       session_->overlays};
 }
 
 /// Takes over the document and draws the picture, where something has changed. The answer to an edit is in
@@ -96,9 +121,7 @@ void EditorHost::updatePicture()
     if (const uint64_t revision = session_->shownRevision(); revision != shownRevision_)
         showDocument(revision);
     const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
-    const PictureKey key{shownRevision_,    session_->playback.step(), frame.pose.position,
-                         frame.pose.target, frame.fovYDegrees,         frame.width,
-                         frame.height,      frame.exposureEv100};
+    const PictureKey key = keyOf(frame);
     if (key == pictureKey_ || !preview_->hasScene())
         return;
     pictureKey_ = key;
@@ -111,8 +134,111 @@ void EditorHost::updatePicture()
     preview_->device().gl.Finish();
     picture.texture = preview_->texture();
     picture.particles = preview_->particles();
+    picture.placement = preview_->placement();
+    picture.overlays = preview_->overlays(session_->overlays, frame);
     picture.exposureEv100 = preview_->scene().view.exposureEv100;
     picture.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The picture of before has the time and the camera of the present one.
+void EditorHost::updateBefore()
+{
+    PictureState& picture = state_->picture;
+    if (!session_->comparison.isShown || !preview_->hasScene())
+        return;
+    if (!before_) {
+        auto before = Preview::create(loader_);
+        if (!before) {
+            picture.beforeFailure = before.status().message();
+            session_->comparison.isShown = false;
+            return;
+        }
+        before_ = std::move(*before);
+    }
+    const uint64_t choice = session_->choiceRevision();
+    if (beforeState_ != session_->stateBefore() || beforeChoice_ != choice || !before_->hasScene()) {
+        beforeState_ = session_->stateBefore();
+        beforeChoice_ = choice;
+        const base::Status status =
+            before_->show(session_->textOf(beforeState_), session_->name(), session_->document.kind());
+        picture.beforeFailure =
+            status.ok() ? std::string() : "There is no picture of before. " + status.message();
+        beforeKey_.reset();
+    }
+    const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
+    PictureKey key = keyOf(frame);
+    key.revision = 0;
+    if (key == beforeKey_ || !before_->hasScene())
+        return;
+    beforeKey_ = key;
+    base::Status status = before_->seek(session_->playback.time());
+    if (status.ok())
+        status = before_->render(frame);
+    if (!status.ok())
+        picture.beforeFailure = status.message();
+    picture.beforeTexture = before_->texture();
+}
+
+/// Draws the present moment small and as light, and begins the reference of it.
+base::Status EditorHost::startError()
+{
+    PreviewFrame frame = frameOf(*session_, state_->pictureSize);
+    frame.height = std::max(frame.height * kErrorWidth / std::max(frame.width, 1), 8);
+    frame.width = kErrorWidth;
+    frame.isLinear = true;
+    pictureKey_.reset(); // the next frame draws the picture again
+    if (base::Status status = preview_->render(frame); !status)
+        return status;
+    cli::Picture small = cli::fromBottomUp(
+        frame.width, frame.height, 3,
+        render::readTexture(preview_->device(), preview_->texture(), frame.width, frame.height, 3));
+    reference_ = std::make_unique<ReferenceRun>(preview_->scene(), session_->playback.time(), frame,
+                                                std::move(small.pixels));
+    return {};
+}
+
+void EditorHost::showError(const ErrorPicture& error)
+{
+    const render::GlFunctions& gl = preview_->device().gl;
+    if (errorTexture_ != 0)
+        gl.DeleteTextures(1, &errorTexture_);
+    gl.CreateTextures(GL_TEXTURE_2D, 1, &errorTexture_);
+    gl.TextureStorage2D(errorTexture_, 1, GL_RGBA8, error.width, error.height);
+    gl.TextureParameteri(errorTexture_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(errorTexture_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    const std::vector<uint8_t> colors = errorColors(error);
+    gl.TextureSubImage2D(errorTexture_, 0, 0, 0, error.width, error.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                         colors.data());
+    ErrorState& state = state_->error;
+    state.texture = errorTexture_;
+    state.isShown = true;
+    char text[160];
+    std::snprintf(text, sizeof text, "error of %.2f s, %dx%d: mean %.4f, p99 %.4f, largest %.4f of white",
+                  session_->playback.time(), error.width, error.height, error.mean, error.p99, error.largest);
+    state.text = text;
+}
+
+void EditorHost::updateError()
+{
+    ErrorState& state = state_->error;
+    if (std::exchange(state.isAsked, false) && !reference_ && preview_->hasScene()) {
+        const base::Status status = startError();
+        state.text = status.ok() ? std::string() : status.message();
+    }
+    if (std::exchange(state.isStopped, false) && reference_)
+        reference_->stop();
+    state.isRunning = reference_ != nullptr;
+    if (!reference_)
+        return;
+    state.progress = reference_->progress();
+    if (!reference_->isDone())
+        return;
+    if (const auto& result = reference_->result(); result)
+        showError(*result);
+    else
+        state.text = result.status().message();
+    reference_.reset();
+    state.isRunning = false;
 }
 
 base::Status EditorHost::writePicture(const std::string& file)
@@ -175,7 +301,9 @@ base::Status EditorHost::frame(double seconds, uint32_t framebuffer)
 {
     session_->update(seconds);
     updateLink(seconds); // before the picture, which takes longer
+    updateError();       // before the picture, which it draws over
     updatePicture();
+    updateBefore();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     drawEditor(*state_);

@@ -7,6 +7,7 @@
 
 #include "fxsdk/editor/panels/editor_ui.h"
 #include "fxsdk/editor/preview/preview.h"
+#include "fxsdk/editor/preview/reference_error.h"
 
 #include <glm/vec3.hpp>
 
@@ -57,12 +58,19 @@ private:
         int width;
         int height;
         std::optional<float> exposureEv100;
+        OverlayChoice overlays;
         bool operator==(const PictureKey&) const = default;
     };
 
     EditorHost() = default;
     void showDocument(uint64_t revision);
+    void takeCamera();
+    PictureKey keyOf(const PreviewFrame& frame) const;
     void updatePicture();
+    void updateBefore();
+    void updateError();
+    base::Status startError();
+    void showError(const ErrorPicture& error);
     base::Status writePicture(const std::string& file);
     void answerWhy();
     void updateLink(double seconds);
@@ -71,8 +79,18 @@ private:
     std::unique_ptr<Preview> preview_;
     std::unique_ptr<PanelState> state_;
     uint64_t shownRevision_ = 0;
+    std::string shownStage_;               ///< of Session::stage()
     uint64_t offeredRevision_ = 0;         ///< of the document, for the running game
     std::optional<PictureKey> pictureKey_; ///< of the last picture
+
+    std::unique_ptr<Preview> before_; ///< of the comparison, from its first picture on
+    Json beforeState_;                ///< that it shows
+    uint64_t beforeChoice_ = 0;       ///< Session::choiceRevision() that it shows
+    std::optional<PictureKey> beforeKey_;
+
+    std::unique_ptr<ReferenceRun> reference_; ///< while it runs
+    uint32_t errorTexture_ = 0;
+    render::GlLoader loader_;
 };
 
 } // namespace fx::editor

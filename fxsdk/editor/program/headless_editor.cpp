@@ -92,6 +92,8 @@ public:
             return listPlaces();
         if (verb == "linked")
             return waitForGame();
+        if (verb == "compared")
+            return waitForReference();
         return input(verb, words, line);
     }
 
@@ -202,6 +204,19 @@ private:
         }
         std::printf("%s\n", linkText(host_.state()).c_str());
         return {};
+    }
+
+    base::Status waitForReference()
+    {
+        const ErrorState& error = host_.state().error;
+        base::Status status = frames(1);
+        while (status.ok() && error.isRunning) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            status = frames(1);
+        }
+        if (status.ok())
+            std::printf("%s\n", error.text.c_str());
+        return status.ok() ? frames(2) : status;
     }
 
     base::Status input(const std::string& verb, std::istringstream& words, const std::string& line)

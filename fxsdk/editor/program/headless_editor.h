@@ -14,6 +14,7 @@
 ///   text FILE             writes the document as the editor would save it
 ///   time SECONDS          scrubs
 ///   places                prints the names of all widgets
+///   compared              waits for the comparison with the reference renderer, and prints its result
 ///   linked                waits until the running game has answered to the last edit, and prints the answer
 #pragma once
 

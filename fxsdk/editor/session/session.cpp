@@ -70,6 +70,38 @@ void Session::setMuted(const std::string& element, bool isMuted)
     ++choice_;
 }
 
+const Json& Session::stateBefore() const
+{
+    const Json* const kept = snapshots.state(0);
+    return kept ? *kept : document.savedJson();
+}
+
+void Session::setStage(StageChoice choice)
+{
+    if (choice == stage_)
+        return;
+    stage_ = std::move(choice);
+    ++choice_;
+}
+
+void Session::keepStage()
+{
+    Json kept = onStage(document.json(), document.kind(), stage_);
+    const bool isScene = document.kind() == DocumentKind::Scene;
+    if (exposureEv100)
+        (isScene ? kept : kept["preview"])["exposureEv100"] = *exposureEv100;
+    if (kept == document.json()) {
+        message = "Stage and exposure are those of the document.";
+        return;
+    }
+    if (isScene)
+        document.replace(std::move(kept), "keep the stage");
+    else
+        run(document.set("/preview", kept["preview"]));
+    setStage({});
+    exposureEv100.reset();
+}
+
 void Session::run(const base::Status& status)
 {
     message = status.ok() ? std::string() : status.message();
@@ -122,11 +154,18 @@ void Session::saveAs(const std::string& path)
     message = "Saved " + path;
 }
 
+std::string Session::textOf(const Json& state) const
+{
+    const bool isAll = !soloMute_.isActive() || document.kind() == DocumentKind::Scene;
+    if (isAll && stage_ == StageChoice() && &state == &document.json())
+        return document.text();
+    return writeJson(
+        onStage(isAll ? state : soloMute_.shown(state, document.schema()), document.kind(), stage_));
+}
+
 std::string Session::shownText() const
 {
-    if (!soloMute_.isActive() || document.kind() == DocumentKind::Scene)
-        return document.text();
-    return writeJson(soloMute_.shown(document.json(), document.schema()));
+    return textOf(document.json());
 }
 
 const std::vector<DocumentFinding>& Session::findings()

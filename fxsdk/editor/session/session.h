@@ -9,7 +9,9 @@
 #include "fxsdk/editor/document/snapshots.h"
 #include "fxsdk/editor/document/solo_mute.h"
 #include "fxsdk/editor/session/orbit_camera.h"
+#include "fxsdk/editor/session/overlays.h"
 #include "fxsdk/editor/session/playback.h"
+#include "fxsdk/editor/session/stage_choice.h"
 
 #include <filesystem>
 #include <memory>
@@ -18,6 +20,13 @@
 #include <vector>
 
 namespace fx::editor {
+
+/// Two pictures side by side: a state of before on the left, the present on the right.
+struct Comparison
+{
+    bool isShown = false;
+    double split = 0.5; ///< [0, 1] place of the line between them
+};
 
 class Session
 {
@@ -37,6 +46,8 @@ public:
     Snapshots snapshots;
     Playback playback;
     OrbitCamera camera;
+    OverlayChoice overlays;
+    Comparison comparison;
     std::optional<float> exposureEv100; ///< [EV100] empty: that of the preview
     std::string selection;              ///< JSON pointer of the object in the inspector; "" is the document
     std::string curve;                  ///< JSON pointer of the curve that is edited; empty: none
@@ -45,6 +56,16 @@ public:
     const SoloMute& soloMute() const { return soloMute_; }
     void setSolo(const std::string& element, bool isSolo);
     void setMuted(const std::string& element, bool isMuted);
+
+    /// The state of before that is compared: A where it is kept, otherwise the saved one.
+    const Json& stateBefore() const;
+    /// Changes with solo, mute and stage, which both pictures have.
+    uint64_t choiceRevision() const { return choice_; }
+
+    const StageChoice& stage() const { return stage_; }
+    void setStage(StageChoice choice);
+    /// Writes stage and exposure of the picture into the document, as one edit.
+    void keepStage();
 
     /// Runs a command, keeps its failure as message(), and mends the selection.
     void run(const base::Status& status);
@@ -55,10 +76,13 @@ public:
 
     /// Name of the document for people and messages.
     const std::string& name() const { return name_; }
-    /// Changes with what is to be shown: document, solo and mute.
+    /// Changes with what is to be shown: document, solo, mute and stage.
     uint64_t shownRevision() const { return document.revision() + choice_; }
     /// Text to be shown instead of the document.
     std::string shownText() const;
+
+    /// Text that shows another state of the document under the same choices.
+    std::string textOf(const Json& state) const;
 
     /// Errors and warnings of the document; computed when the document has changed.
     const std::vector<DocumentFinding>& findings();
@@ -87,7 +111,8 @@ private:
     std::string name_;
     std::filesystem::path recoveryFolder_;
     SoloMute soloMute_;
-    uint64_t choice_ = 0; ///< changes of solo and mute
+    StageChoice stage_;
+    uint64_t choice_ = 0; ///< changes of solo, mute and stage
     Autosave autosave_;
     FileWatch watch_;
     std::optional<std::string> conflict_;

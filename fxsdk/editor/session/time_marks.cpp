@@ -1,0 +1,82 @@
+#include "fxsdk/editor/session/time_marks.h"
+
+#include "fxsdk/editor/document/solo_mute.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::editor {
+
+namespace {
+
+constexpr double kHundredths = 100.0;
+
+/// Calls `use` with the object elements of an array member and their pointers.
+template <class Use>
+void forEachIn(const Json& object, const char* member, const std::string& pointer, Use&& use)
+{
+    const auto list = object.find(member);
+    if (list == object.end() || !list->is_array())
+        return;
+    for (size_t i = 0; i < list->size(); ++i)
+        if ((*list)[i].is_object())
+            use((*list)[i], pointer + "/" + member + "/" + std::to_string(i));
+}
+
+/// Adds the mark of a number; absent numbers have none.
+void add(const Json& object, const char* member, const std::string& pointer, MarkKind kind, double begin,
+         std::vector<TimeMark>& io)
+{
+    const auto found = object.find(member);
+    if (found != object.end() && found->is_number())
+        io.push_back({pointer + "/" + member, kind, begin + found->get<double>(), begin});
+}
+
+void addElement(const Json& element, const std::string& pointer, std::vector<TimeMark>& io)
+{
+    add(element, "start", pointer, MarkKind::Start, 0.0, io);
+    double first = 0.0; // birth
+    if (const auto emission = element.find("emission"); emission != element.end() && emission->is_object()) {
+        const std::string at = pointer + "/emission";
+        add(*emission, "start", at, MarkKind::Start, 0.0, io);
+        const Json start = emission->value("start", Json(0.0));
+        first = start.is_number() ? start.get<double>() : 0.0;
+        forEachIn(*emission, "bursts", at, [&](const Json& burst, const std::string& where) {
+            add(burst, "time", where, MarkKind::Burst, 0.0, io);
+        });
+    }
+    forEachIn(element, "events", pointer, [&](const Json& event, const std::string& where) {
+        add(event, "age", where, MarkKind::Event, first, io);
+    });
+}
+
+} // namespace
+
+std::vector<TimeMark> timeMarks(const Document& document)
+{
+    std::vector<TimeMark> marks;
+    if (!document.json().is_object())
+        return marks;
+    if (document.kind() == DocumentKind::Scene) {
+        forEachIn(document.json(), "instances", "", [&](const Json& instance, const std::string& where) {
+            add(instance, "start", where, MarkKind::Start, 0.0, marks);
+        });
+        return marks;
+    }
+    for (const std::string& pointer : soloElements(document.json(), document.schema()))
+        if (const Json& element = document.json().at(Json::json_pointer(pointer)); element.is_object())
+            addElement(element, pointer, marks);
+    return marks;
+}
+
+Json timeAt(const Document& document, const TimeMark& mark, double time)
+{
+    const double value = std::max(std::round((time - mark.begin) * kHundredths) / kHundredths, 0.0);
+    const Json* const schema = schemaAt(document.schema(), document.json(), Json::json_pointer(mark.pointer));
+    const auto limit = [&](const char* name, double otherwise) {
+        return schema && schema->contains(name) ? (*schema)[name].get<double>() : otherwise;
+    };
+    return std::clamp(value, limit("minimum", 0.0), limit("maximum", 1e9));
+}
+
+} // namespace fx::editor
