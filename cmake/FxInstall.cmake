@@ -1,8 +1,10 @@
-# What is installed, in four components, which are four Debian packages too (cmake/FxPackages.cmake):
+# What is installed, in five components, of which four are Debian packages too (cmake/FxPackages.cmake):
 #   runtime  the shared library, and the license
 #   dev      headers, static library, packages of CMake and pkg-config, description of the API
 #   tools    the fx command, the JSON schemas by which editors complete presets and scenes, and the presets of the library
 #            with the files that they name
+#   editor   the effect editor for games: sources of the panels, which a game compiles with its own ImGui, the headers that they
+#            include, and the library of what knows nothing of ImGui. In no Debian package
 #   python   the Python package (fxsdk/python/CMakeLists.txt)
 # OPTIONAL: after building the library alone, what exists is installed.
 include(GNUInstallDirs)
@@ -28,7 +30,7 @@ if(TARGET fx_livelink)
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fxsdk" COMPONENT dev)
 endif()
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/fxsdkConfig.cmake.in" "${PROJECT_BINARY_DIR}/fxsdkConfig.cmake"
-    INSTALL_DESTINATION "${FX_PACKAGE_DIR}" PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
+    INSTALL_DESTINATION "${FX_PACKAGE_DIR}" PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR FX_DATA_DIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/fxsdkConfigVersion.cmake" COMPATIBILITY SameMajorVersion)
 install(EXPORT fxsdkTargets NAMESPACE fxsdk:: DESTINATION "${FX_PACKAGE_DIR}" COMPONENT dev)
 install(FILES "${PROJECT_BINARY_DIR}/fxsdkConfig.cmake" "${PROJECT_BINARY_DIR}/fxsdkConfigVersion.cmake"
@@ -40,6 +42,20 @@ endforeach()
 install(FILES "${PROJECT_BINARY_DIR}/fxsdk.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 if(TARGET fxsdk_static)
     install(FILES "${PROJECT_BINARY_DIR}/fxsdk-static.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+endif()
+
+if(TARGET fx_editor)
+    set(FX_EDITOR_DIR "${FX_DATA_DIR}/editor")
+    install(FILES "$<TARGET_FILE:fx_editor>" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT editor OPTIONAL)
+    foreach(folder panels embed)
+        install(DIRECTORY "${PROJECT_SOURCE_DIR}/fxsdk/editor/${folder}" DESTINATION "${FX_EDITOR_DIR}/fxsdk/editor" COMPONENT editor
+            FILES_MATCHING PATTERN "*.cpp")
+    endforeach()
+    foreach(folder foundation fxsdk rendering simulation)
+        install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${FX_EDITOR_DIR}" COMPONENT editor
+            FILES_MATCHING PATTERN "*.h" PATTERN "*.inl" PATTERN "fxsdk/include" EXCLUDE PATTERN "fxsdk/livelink/include" EXCLUDE
+            PATTERN "fxsdk/editor/program" EXCLUDE PATTERN "fxsdk/python" EXCLUDE)
+    endforeach()
 endif()
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/fxsdk/presets/library/" "${PROJECT_BINARY_DIR}/fxsdk/presets/library/"

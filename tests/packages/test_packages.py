@@ -143,6 +143,28 @@ class Archive(Unpacked):
         self.assertLessEqual({"libtbb12", "libhwy1", "libxxhash0"}, licenses)
 
 
+class Editor(unittest.TestCase):
+    """The component editor: a game outside of the tree compiles the panels with its own ImGui and draws frames of them."""
+
+    def test_a_game_opens_the_editor_inside_of_itself(self):
+        if not (BUILD / "lib/libfx_editor.a").exists():
+            self.skipTest("this build has no panels: Dear ImGui was missing")
+        folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, folder)
+        for component in ("runtime", "dev", "editor"):
+            run("cmake", "--install", BUILD, "--prefix", folder / "sdk", "--component", component)
+        game = folder / "game"
+        game.mkdir()
+        shutil.copy(HERE / "consumer_editor.cpp", game)
+        shutil.copy(HERE / "CMakeLists.editor.txt.in", game / "CMakeLists.txt")
+        run("cmake", "-G", "Ninja", "-S", game, "-B", game / "build", f"-DCMAKE_PREFIX_PATH={folder / 'sdk'}", "-DCMAKE_UNITY_BUILD=ON")
+        run("cmake", "--build", game / "build")
+        preset = shutil.copy(ROOT / "fxsdk/presets/library/campfire.fx.json", game)
+        out = run(game / "build/game", preset, folder / "recovery", cwd=folder)
+        self.assertRegex(out, r"^\d+ particles, \d+ bright pixels, 0 pixels of the margin, error 0")
+        self.assertFalse(list(folder.glob("sdk/share/fxsdk/editor/fxsdk/editor/program")))  # windows stay outside
+
+
 class Sources(unittest.TestCase):
     """The sources as a part of another project, by add_subdirectory."""
 

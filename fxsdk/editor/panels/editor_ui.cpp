@@ -15,8 +15,8 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_N
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 template <class Contents>
-void window(const char* title, float x, float y, float width, float height, ImGuiWindowFlags flags,
-            Contents&& contents)
+void panelWindow(const char* title, float x, float y, float width, float height, ImGuiWindowFlags flags,
+                 Contents&& contents)
 {
     ImGui::SetNextWindowPos({x, y});
     ImGui::SetNextWindowSize({std::max(width, 32.0f), std::max(height, 32.0f)});
@@ -49,19 +49,18 @@ void lowerTabs(PanelState& state)
 void shortcuts(Session& session)
 {
     const ImGuiIO& io = ImGui::GetIO();
-    const auto isPressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
     if (io.WantTextInput)
         return;
-    if (isPressed(ImGuiKey_Space))
+    if (isKeyPressed(ImGuiKey_Space))
         session.playback.isPlaying = !session.playback.isPlaying;
     if (!io.KeyCtrl)
         return;
-    if (isPressed(ImGuiKey_Z) && !io.KeyShift)
+    if (isKeyPressed(ImGuiKey_Z) && !io.KeyShift)
         session.undo();
-    else if (isPressed(ImGuiKey_Y) || (isPressed(ImGuiKey_Z) && io.KeyShift))
+    else if (isKeyPressed(ImGuiKey_Y) || (isKeyPressed(ImGuiKey_Z) && io.KeyShift))
         session.redo();
 #if IMGUI_VERSION_NUM >= 18700
-    else if (isPressed(ImGuiKey_S))
+    else if (isKeyPressed(ImGuiKey_S))
         session.save();
 #else
     else if (ImGui::IsKeyPressed('S', false)) // GLFW and scripts number letters as ASCII does
@@ -95,29 +94,32 @@ void applyStyle(float scale)
     io.FontGlobalScale = 1.25f * scale; // the built-in font has 13 pixels
 }
 
-void drawEditor(PanelState& state)
+void drawEditor(PanelState& state, ImVec2 low, ImVec2 size)
 {
     state.places.clear();
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFontSize();
     const float top = line * 2.3f;
     const float left = std::min(size.x * 0.22f, line * 18.0f);
     const float right = std::min(size.x * 0.36f, line * 30.0f);
     const float middle = size.x - left - right;
     const float time = line * 6.6f;
-    const float low = std::max(size.y * 0.26f, line * 11.0f);
+    const float lower = std::max(size.y * 0.26f, line * 11.0f);
+    const auto window = [&](const char* title, float x, float y, float w, float h, ImGuiWindowFlags flags,
+                            auto&& contents) {
+        panelWindow(title, low.x + x, low.y + y, w, h, flags, contents);
+    };
     window("Commands", 0, 0, size.x, top, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar,
            [&] { topBar(state); });
     window("Elements", 0, top, left, size.y - top, 0, [&] { outlinerPanel(state); });
     window("Inspector", left + middle, top, right, size.y - top, 0, [&] { inspectorPanel(state); });
-    window("Picture", left, top, middle, size.y - top - time - low,
+    window("Picture", left, top, middle, size.y - top - time - lower,
            ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar, [&] { viewportPanel(state); });
-    window("Timeline", left, size.y - time - low, middle, time, ImGuiWindowFlags_NoTitleBar,
+    window("Timeline", left, size.y - time - lower, middle, time, ImGuiWindowFlags_NoTitleBar,
            [&] { timelinePanel(state); });
-    window("Details", left, size.y - low, middle, low, ImGuiWindowFlags_NoTitleBar,
+    window("Details", left, size.y - lower, middle, lower, ImGuiWindowFlags_NoTitleBar,
            [&] { lowerTabs(state); });
     if (state.session.recovery() || state.session.conflict()) {
-        ImGui::SetNextWindowPos({left + 24.0f, top + 48.0f});
+        ImGui::SetNextWindowPos({low.x + left + 24.0f, low.y + top + 48.0f});
         if (ImGui::Begin("Question", nullptr,
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                              ImGuiWindowFlags_NoCollapse))

@@ -11,8 +11,8 @@ namespace fx::editor {
 /// @param scale [1] size of text and widgets; 1: text of 16 pixels
 void applyStyle(float scale);
 
-/// Draws all panels, which cover the display, and runs keyboard commands: Ctrl+Z undo, Ctrl+Y redo, Ctrl+S
-/// save, Space play.
-void drawEditor(PanelState& state);
+/// Draws all panels into a rectangle of the display [pixel], and runs keyboard commands: Ctrl+Z undo, Ctrl+Y
+/// redo, Ctrl+S save, Space play.
+void drawEditor(PanelState& state, ImVec2 low, ImVec2 size);
 
 } // namespace fx::editor

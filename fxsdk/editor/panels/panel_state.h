@@ -75,6 +75,24 @@ struct GameLink
     bool hasLooked = false;
 };
 
+/// Whether a key went down, or is down; before 1.87 ImGui knows keys by the numbers of their host.
+inline bool isKeyPressed(ImGuiKey key)
+{
+#if IMGUI_VERSION_NUM >= 18700
+    return ImGui::IsKeyPressed(key, false);
+#else
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+#endif
+}
+inline bool isKeyDown(ImGuiKey key)
+{
+#if IMGUI_VERSION_NUM >= 18700
+    return ImGui::IsKeyDown(key);
+#else
+    return ImGui::IsKeyDown(ImGui::GetKeyIndex(key));
+#endif
+}
+
 struct PanelState
 {
     explicit PanelState(Session& shown) : session(shown) {}

@@ -13,7 +13,7 @@ constexpr double kBrightest = 1e6; // [lx], [cd/m2]
 
 void closeByEscape()
 {
-    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
+    if (isKeyPressed(ImGuiKey_Escape))
         ImGui::CloseCurrentPopup();
 }
 

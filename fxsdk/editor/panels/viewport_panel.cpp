@@ -35,7 +35,7 @@ void flyByKeys(PanelState& state)
 {
     if (ImGui::GetIO().WantTextInput)
         return;
-    const auto isDown = [](ImGuiKey key) { return ImGui::IsKeyDown(ImGui::GetKeyIndex(key)) ? 1.0 : 0.0; };
+    const auto isDown = [](ImGuiKey key) { return isKeyDown(key) ? 1.0 : 0.0; };
     const glm::dvec3 way(isDown(ImGuiKey_RightArrow) - isDown(ImGuiKey_LeftArrow),
                          isDown(ImGuiKey_PageUp) - isDown(ImGuiKey_PageDown),
                          isDown(ImGuiKey_UpArrow) - isDown(ImGuiKey_DownArrow));
@@ -55,7 +55,7 @@ void plate(const std::string& text, ImVec2 at)
 
 ImTextureID imageOf(uint32_t texture)
 {
-    return reinterpret_cast<ImTextureID>(uintptr_t(texture));
+    return (ImTextureID)(uintptr_t)texture; // a pointer, or from 1.91 on an integer
 }
 
 /// The present picture, the one of before left of the line, or the error.

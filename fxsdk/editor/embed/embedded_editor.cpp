@@ -1,0 +1,316 @@
+#include "fxsdk/editor/embed/embedded_editor.h"
+
+#include "fxsdk/cli/scene/picture.h"
+#include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/editor/panels/panels.h"
+#include "fxsdk/editor/preview/why_invisible.h"
+#include "fxsdk/scene_file/stages.h"
+#include "rendering/gl/gl_read_texture.h"
+#include "rendering/image/image.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+namespace fx::editor {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kErrorWidth = 160; // [pixel] of the comparison with the reference renderer
+
+PreviewFrame frameOf(const Session& session, ImVec2 size)
+{
+    PreviewFrame frame;
+    frame.pose.position = session.camera.position();
+    frame.pose.target = session.camera.target();
+    frame.fovYDegrees = session.camera.fovYDegrees;
+    frame.width = int(size.x);
+    frame.height = int(size.y);
+    frame.exposureEv100 = session.exposureEv100;
+    return frame;
+}
+
+} // namespace
+
+base::Status writePng(render::GlDevice& device, uint32_t texture, int width, int height,
+                      const std::string& file)
+{
+    const cli::Picture picture =
+        cli::fromBottomUp(width, height, 3, render::readTexture(device, texture, width, height, 3));
+    const auto png = image::writePng({picture.width, picture.height, picture.channels, picture.pixels});
+    if (!png)
+        return png.status();
+    return cli::writeFileAtomically(file, {reinterpret_cast<const char*>(png->data()), png->size()});
+}
+
+base::Result<std::unique_ptr<EmbeddedEditor>> EmbeddedEditor::create(std::unique_ptr<Session> session,
+                                                                     const render::GlLoader& loader)
+{
+    std::unique_ptr<EmbeddedEditor> host(new EmbeddedEditor);
+    auto preview = Preview::create(loader);
+    if (!preview)
+        return preview.status();
+    host->session_ = std::move(session);
+    host->loader_ = loader;
+    host->preview_ = std::move(*preview);
+    host->state_ = std::make_unique<PanelState>(*host->session_);
+    host->updatePicture();
+    return host;
+}
+
+EmbeddedEditor::~EmbeddedEditor()
+{
+    reference_.reset();
+    if (preview_ && errorTexture_ != 0)
+        preview_->device().gl.DeleteTextures(1, &errorTexture_);
+}
+
+/// Shows the document; the first that is valid also places the camera.
+void EmbeddedEditor::showDocument(uint64_t revision)
+{
+    const bool hadScene = preview_->hasScene();
+    const base::Status status =
+        preview_->show(session_->shownText(), session_->name(), session_->document.kind());
+    shownRevision_ = revision;
+    state_->picture.failure.clear();
+    if (!status.ok())
+        state_->picture.failure =
+            (hadScene ? "The picture shows the last valid state. " : "There is no picture yet. ") +
+            status.message();
+    const bool hasNewStage = shownStage_ != session_->stage().name;
+    shownStage_ = session_->stage().name;
+    const scene_file::Stage* const stage = scene_file::findStage(shownStage_);
+    const bool isInside =
+        stage && Json::parse(stage->members).contains("camera"); // other places see it from outside
+    if (preview_->hasScene() && (!hadScene || (hasNewStage && isInside)))
+        takeCamera();
+}
+
+void EmbeddedEditor::takeCamera()
+{
+    const scene_file::CameraPath& camera = preview_->scene().camera;
+    const scene_file::CameraPose pose = camera.at(0.0);
+    session_->camera.look(pose.position, pose.target);
+    session_->camera.fovYDegrees = camera.fovYDegrees;
+}
+
+EmbeddedEditor::PictureKey EmbeddedEditor::keyOf(const PreviewFrame& frame) const
+{
+    return {shownRevision_,    session_->playback.step(), frame.pose.position,
+            frame.pose.target, frame.fovYDegrees,         frame.width,
+            frame.height,      frame.exposureEv100,       session_->overlays};
+}
+
+/// Takes over the document and draws the picture, where something has changed. The answer to an edit is in
+/// the frame after it.
+void EmbeddedEditor::updatePicture()
+{
+    const Clock::time_point start = Clock::now();
+    if (const uint64_t revision = session_->shownRevision(); revision != shownRevision_)
+        showDocument(revision);
+    const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
+    const PictureKey key = keyOf(frame);
+    if (key == pictureKey_ || !preview_->hasScene())
+        return;
+    pictureKey_ = key;
+    PictureState& picture = state_->picture;
+    base::Status status = preview_->seek(session_->playback.time());
+    if (status.ok())
+        status = preview_->render(frame);
+    if (!status.ok())
+        picture.failure = status.message();
+    preview_->device().gl.Finish();
+    picture.texture = preview_->texture();
+    picture.particles = preview_->particles();
+    picture.placement = preview_->placement();
+    picture.overlays = preview_->overlays(session_->overlays, frame);
+    picture.exposureEv100 = preview_->scene().view.exposureEv100;
+    picture.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The picture of before has the time and the camera of the present one.
+void EmbeddedEditor::updateBefore()
+{
+    PictureState& picture = state_->picture;
+    if (!session_->comparison.isShown || !preview_->hasScene())
+        return;
+    if (!before_) {
+        auto before = Preview::create(loader_);
+        if (!before) {
+            picture.beforeFailure = before.status().message();
+            session_->comparison.isShown = false;
+            return;
+        }
+        before_ = std::move(*before);
+    }
+    const uint64_t choice = session_->choiceRevision();
+    if (beforeState_ != session_->stateBefore() || beforeChoice_ != choice || !before_->hasScene()) {
+        beforeState_ = session_->stateBefore();
+        beforeChoice_ = choice;
+        const base::Status status =
+            before_->show(session_->textOf(beforeState_), session_->name(), session_->document.kind());
+        picture.beforeFailure =
+            status.ok() ? std::string() : "There is no picture of before. " + status.message();
+        beforeKey_.reset();
+    }
+    const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
+    PictureKey key = keyOf(frame);
+    key.revision = 0;
+    if (key == beforeKey_ || !before_->hasScene())
+        return;
+    beforeKey_ = key;
+    base::Status status = before_->seek(session_->playback.time());
+    if (status.ok())
+        status = before_->render(frame);
+    if (!status.ok())
+        picture.beforeFailure = status.message();
+    picture.beforeTexture = before_->texture();
+}
+
+/// Draws the present moment small and as light, and begins the reference of it.
+base::Status EmbeddedEditor::startError()
+{
+    PreviewFrame frame = frameOf(*session_, state_->pictureSize);
+    frame.height = std::max(frame.height * kErrorWidth / std::max(frame.width, 1), 8);
+    frame.width = kErrorWidth;
+    frame.isLinear = true;
+    pictureKey_.reset(); // the next frame draws the picture again
+    if (base::Status status = preview_->render(frame); !status)
+        return status;
+    cli::Picture small = cli::fromBottomUp(
+        frame.width, frame.height, 3,
+        render::readTexture(preview_->device(), preview_->texture(), frame.width, frame.height, 3));
+    reference_ = std::make_unique<ReferenceRun>(preview_->scene(), session_->playback.time(), frame,
+                                                std::move(small.pixels));
+    return {};
+}
+
+void EmbeddedEditor::showError(const ErrorPicture& error)
+{
+    const render::GlFunctions& gl = preview_->device().gl;
+    if (errorTexture_ != 0)
+        gl.DeleteTextures(1, &errorTexture_);
+    gl.CreateTextures(GL_TEXTURE_2D, 1, &errorTexture_);
+    gl.TextureStorage2D(errorTexture_, 1, GL_RGBA8, error.width, error.height);
+    gl.TextureParameteri(errorTexture_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(errorTexture_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    const std::vector<uint8_t> colors = errorColors(error);
+    gl.TextureSubImage2D(errorTexture_, 0, 0, 0, error.width, error.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                         colors.data());
+    ErrorState& state = state_->error;
+    state.texture = errorTexture_;
+    state.isShown = true;
+    char text[160];
+    std::snprintf(text, sizeof text, "error of %.2f s, %dx%d: mean %.4f, p99 %.4f, largest %.4f of white",
+                  session_->playback.time(), error.width, error.height, error.mean, error.p99, error.largest);
+    state.text = text;
+}
+
+void EmbeddedEditor::updateError()
+{
+    ErrorState& state = state_->error;
+    if (std::exchange(state.isAsked, false) && !reference_ && preview_->hasScene()) {
+        const base::Status status = startError();
+        state.text = status.ok() ? std::string() : status.message();
+    }
+    if (std::exchange(state.isStopped, false) && reference_)
+        reference_->stop();
+    state.isRunning = reference_ != nullptr;
+    if (!reference_)
+        return;
+    state.progress = reference_->progress();
+    if (!reference_->isDone())
+        return;
+    if (const auto& result = reference_->result(); result)
+        showError(*result);
+    else
+        state.text = result.status().message();
+    reference_.reset();
+    state.isRunning = false;
+}
+
+base::Status EmbeddedEditor::writePicture(const std::string& file)
+{
+    const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
+    return writePng(preview_->device(), preview_->texture(), frame.width, frame.height, file);
+}
+
+void EmbeddedEditor::answerWhy()
+{
+    std::vector<std::string> reasons =
+        whyInvisible(session_->document, session_->soloMute(), session_->playback.time());
+    for (std::string& cause : preview_->causes(frameOf(*session_, state_->pictureSize)))
+        reasons.push_back(std::move(cause));
+    state_->asksWhy = false;
+    state_->why.clear();
+    for (const std::string& reason : reasons)
+        state_->why += "- " + reason + "\n";
+}
+
+base::Status EmbeddedEditor::link(const std::string& address)
+{
+    if (session_->document.kind() != DocumentKind::Preset)
+        return {base::Code::InvalidArgument, "a running game shows presets (*.fx.json), no scenes"};
+    if (!address.empty()) {
+        const base::Result<link::Address> parsed = link::parseAddress(address);
+        if (parsed)
+            startLink(*state_, *parsed);
+        return parsed.status();
+    }
+    const std::vector<link::Game> games = link::findGames();
+    if (games.size() != 1)
+        return {games.empty() ? base::Code::NotFound : base::Code::Capacity,
+                std::to_string(games.size()) + " games are running in " + link::linkFolder() +
+                    "; write --link ADDRESS (`fx link list` lists them)"};
+    startLink(*state_, games.front().address);
+    return {};
+}
+
+/// Offers each valid state of the document to the game, which gets the newest as fast as it takes them.
+void EmbeddedEditor::updateLink(double seconds)
+{
+    link::LiveEdit& edit = state_->link.edit;
+    if (edit.state() == link::LinkState::Off) {
+        offeredRevision_ = 0;
+        return;
+    }
+    const uint64_t revision = session_->document.revision();
+    const auto isError = [](const DocumentFinding& finding) { return !finding.diagnostic.warning; };
+    if (revision != offeredRevision_) {
+        offeredRevision_ = revision;
+        const std::vector<DocumentFinding>& findings = session_->findings();
+        if (std::none_of(findings.begin(), findings.end(), isError))
+            edit.offer(session_->document.text(), revision);
+    }
+    edit.update(seconds);
+}
+
+void EmbeddedEditor::answerRequests()
+{
+    if (state_->asksWhy)
+        answerWhy();
+    if (state_->renderTo.empty())
+        return;
+    const std::string file = std::exchange(state_->renderTo, {});
+    session_->run(writePicture(file));
+    if (session_->message.empty())
+        session_->message = "Wrote " + file;
+}
+
+void EmbeddedEditor::draw(double seconds, ImVec2 low, ImVec2 size)
+{
+    session_->update(seconds);
+    updateLink(seconds); // before the picture, which takes longer
+    updateError();       // before the picture, which it draws over
+    updatePicture();
+    updateBefore();
+    drawEditor(*state_, low, size);
+    answerRequests();
+}
+
+} // namespace fx::editor
