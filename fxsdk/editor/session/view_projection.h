@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <optional>
+#include <utility>
 
 namespace fx::editor {
 
