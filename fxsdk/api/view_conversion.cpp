@@ -72,6 +72,7 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
     check.range(given.lodImpostorPixels, 0.0f, fx::render::LodSettings::kMaxImpostorPixels,
                 "settings.lodImpostorPixels");
     check.range(given.blockParallax, 0.0f, fx::render::BlockSettings::kMaxParallax, "settings.blockParallax");
+    check.range(given.blockError, 0.0f, 1.0f, "settings.blockError");
 }
 
 void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
@@ -193,6 +194,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.lod.bias = given.lodBias;
     settings.lod.impostorPixels = given.lodImpostorPixels;
     settings.blocks.parallax = given.blockParallax;
+    settings.blocks.error = given.blockError;
     render::SliceSettings& slices = settings.slices;
     slices.enabled = given.lightSlices != 0;
     slices.resolution = {int(given.lightSliceTexels), int(given.lightSlicePlanes)};

@@ -34,6 +34,7 @@ public:
     {
         const auto section = double(crossSection);
         section_ += section;
+        middle_ += section * glm::dvec3(more.middle);
         albedo_ += section * glm::dvec3(more.albedo);
         light_ += section * glm::dvec3(more.light);
         fireShare_ += section * double(more.fireShare);
@@ -48,6 +49,7 @@ public:
         BlockContent content = sum;
         const double per = 1.0 / std::max(section_, double(std::numeric_limits<float>::min()));
         content.crossSection = float(section_);
+        content.middle = glm::vec3(per * middle_);
         content.albedo = glm::vec3(per * albedo_);
         content.light = glm::vec3(per * light_);
         content.fireShare = float(per * fireShare_);
@@ -59,7 +61,7 @@ public:
 
 private:
     double section_ = 0.0, fireShare_ = 0.0, heat_ = 0.0;
-    glm::dvec3 albedo_{0.0}, light_{0.0};
+    glm::dvec3 middle_{0.0}, albedo_{0.0}, light_{0.0};
 };
 
 } // namespace
@@ -70,6 +72,7 @@ BlockContent BlockContents::sumOfBalls(const SnapshotGroup& group) const
     BlockContent& sum = all.sum;
     for (uint32_t i = 0; i < group.count(); ++i) {
         BlockContent ball;
+        ball.middle = vectorAt(group, blob::PositionX, i);
         ball.albedo = vectorAt(group, blob::AlbedoR, i);
         ball.light = ball.brightest = lightOf(group, i, ball.albedo);
         ball.fireShare = group.start(blob::FireShare)[i];
@@ -95,7 +98,10 @@ BlockContent BlockContents::sumOfBlocks(const SnapshotGroup& group) const
         if (!inner.group || inner.balls == 0)
             continue;
         const float scale = group.start(base::block_column::Scale)[i];
-        all.add(inner, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
+        const base::BlockFrame frame = base::BlockFrame().inside(group, i);
+        BlockContent placed = inner;
+        placed.middle = frame.position + frame.turned(inner.middle);
+        all.add(placed, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
         sum.speed = std::max(sum.speed, scale * inner.speed);
         sum.isAnimated = sum.isAnimated || inner.isAnimated;
         first = first ? first : &inner;

@@ -26,6 +26,7 @@ struct BlockContent
     const base::SnapshotGroup* group = nullptr; ///< null: no block in use shows the variant
     float radius = 0.0f;                        ///< [m] of a ball about the origin that holds the content
     float crossSection = 0.0f;                  ///< [m2] sum
+    glm::vec3 middle{0.0f};                     ///< [m] mean of the centers, in units of the block
     glm::vec3 albedo{0.0f};                     ///< mean
     glm::vec3 light{0.0f};                      ///< [cd/m2] mean of BlockBall::light
     glm::vec3 brightest{0.0f};                  ///< [cd/m2] largest BlockBall::light, by channel

@@ -18,7 +18,7 @@ struct TileAxes
 
 /// The octahedral map of all directions, divided into cells x cells squares.
 /// @param cells 1 to kMaxDirectionCells
-constexpr int kMaxDirectionCells = 256;
+constexpr int kMaxDirectionCells = 4096;
 
 /// The cell of a unit vector.
 glm::ivec2 directionCell(const glm::vec3& direction, int cells);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace fx::render {
 
@@ -29,10 +30,12 @@ void BlockTileJobs::add(std::span<const TileJob> jobs, const BlockContents& cont
             contents.balls(job.variant, balls_);
         }
         const float brightest = std::max({content.brightest.x, content.brightest.y, content.brightest.z});
-        jobs_.push_back({{job.corner, int(begin), int(content.balls)},
-                         {job.axes.right, job.radius},
-                         {job.axes.up, float(job.size)},
-                         {brightest > 0.0f ? 1.0f / brightest : 0.0f, 0.0f, 0.0f, 0.0f}});
+        jobs_.push_back(
+            {{job.corner, int(begin), int(content.balls)},
+             {job.axes.right, job.radius / std::sqrt(1.0f - job.nearness * job.nearness)},
+             {job.axes.up, float(job.size)},
+             {brightest > 0.0f ? 1.0f / brightest : 0.0f, content.isColored ? 1.0f : 0.0f, job.density, 0.0f},
+             {job.nearness / job.radius, job.radius, 0.0f, 0.0f}});
     }
 }
 

@@ -43,7 +43,10 @@ private:
         glm::ivec4 place; ///< xy [texel] corner; z first ball; w balls
         glm::vec4 right;  ///< xyz; w [m] half the side
         glm::vec4 up;     ///< xyz; w [texel] side
-        glm::vec4 light;  ///< x [m2/cd] one over the brightest light of the content
+        /// x [m2/cd] one over the brightest light of the content; y 1: its balls differ in color;
+        /// z [1] factor of the depth
+        glm::vec4 light;
+        glm::vec4 eye; ///< x [1/m] one over its distance; y [m] radius of the block
     };
 
     std::pmr::vector<Job> jobs_; ///< in the order of sizes once addTo() is called

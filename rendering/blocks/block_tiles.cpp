@@ -15,8 +15,21 @@ constexpr uint32_t kMaxPages = kTilePageColumns * kMaxTilePageRows;
 /// Balls times 8 x 8 texels that the jobs of a frame may have beyond the tiles that nothing can replace.
 constexpr uint64_t kWorkOfFrame = uint64_t(1) << 20;
 
+constexpr int kMaxNearnessSteps = 4096;
 constexpr double kMaxTileSeconds = 0.1; ///< [s] of animated content: sizes, opacities and colors change too
 constexpr double kMostDeferred = 4.0;   ///< [1] factor of the limits of a tile that is replaced later
+
+/// A tile for another distance is wrong by up to the difference of nearness [rad] at the rim.
+int nearnessSteps(float angle)
+{
+    const float steps = 0.5f / std::max(angle, 0.5f / float(kMaxNearnessSteps));
+    return std::min(int(std::bit_ceil(uint32_t(std::ceil(steps)))), kMaxNearnessSteps);
+}
+
+int16_t densityClass(float density)
+{
+    return int16_t(std::lround(2.0f * std::clamp(std::log2(std::max(density, 1e-6f)), -16.0f, 16.0f)));
+}
 
 uint32_t slotsAlong(int size)
 {
@@ -27,8 +40,9 @@ uint32_t slotsAlong(int size)
 
 size_t BlockTiles::KeyHash::operator()(const Key& key) const
 {
-    return size_t(base::hashWord(base::hashWord(key.identity, uint64_t(uint32_t(key.cell))),
-                                 uint64_t(key.cells) << 16 | key.size));
+    const uint64_t place = base::hashWord(key.identity, uint64_t(uint32_t(key.cell)));
+    return size_t(base::hashWord(place, uint64_t(key.cells) << 16 | key.size | uint64_t(key.nearness) << 32 |
+                                            uint64_t(uint16_t(key.density)) << 48));
 }
 
 void BlockTiles::begin(const TileSettings& settings)
@@ -63,11 +77,20 @@ std::optional<Tile> BlockTiles::find(const TileRequest& request)
         return std::nullopt;
     const float pixels = std::clamp(request.pixels, 1.0f, 4.0f * float(kMaxTile));
     const float radius = 0.5f * pixels;
-    const int cells = cellsForAngle(request.along, settings_.parallax / radius);
+    const float angle = std::min(settings_.parallax / radius, request.angle);
+    const int cells = cellsForAngle(request.along, angle);
     const int size = std::clamp(int(std::bit_ceil(uint32_t(std::ceil(settings_.resolution * pixels)))),
-                                kMinTile, kMaxTile);
+                                std::clamp(request.texels, kMinTile, kMaxTile), kMaxTile);
     const glm::ivec2 cell = directionCell(request.along, cells);
-    const Key key{content.identity, cell.y * cells + cell.x, uint16_t(cells), uint16_t(size)};
+    const int steps = nearnessSteps(angle);
+    const float nearness = std::clamp(request.nearness, 0.0f, kMaxNearness);
+    const Key key{content.identity,
+                  cell.y * cells + cell.x,
+                  uint16_t(cells),
+                  uint16_t(size),
+                  uint16_t(std::lround(nearness * float(steps))),
+                  uint16_t(steps),
+                  content.isColored ? densityClass(request.density) : int16_t(0)};
     const auto same = found_.find(key);
     if (same != found_.end() && isFresh(slots_[same->second], request))
         return use(same->second);
@@ -213,7 +236,8 @@ Tile BlockTiles::use(uint32_t slot)
     const glm::ivec2 corner = kMaxTile * glm::ivec2(page % kTilePageColumns, page / kTilePageColumns) +
                               size * glm::ivec2(place % along, place / along);
     const int cells = used.key.cells;
-    return {corner, size, axesOfCell({used.key.cell % cells, used.key.cell / cells}, cells), used.brightest};
+    return {corner, size, axesOfCell({used.key.cell % cells, used.key.cell / cells}, cells),
+            float(used.key.nearness) / float(used.key.nearnessSteps), used.brightest};
 }
 
 void BlockTiles::make(uint32_t slot, const TileRequest& request)
@@ -222,7 +246,8 @@ void BlockTiles::make(uint32_t slot, const TileRequest& request)
     const glm::vec3& light = request.content->brightest;
     slots_[slot].seconds = request.seconds;
     slots_[slot].brightest = std::max({light.x, light.y, light.z});
-    jobs_.push_back({request.variant, tile.corner, tile.size, tile.axes, request.content->radius});
+    jobs_.push_back({request.variant, tile.corner, tile.size, tile.axes, request.content->radius,
+                     tile.nearness, std::exp2(0.5f * float(slots_[slot].key.density))});
     work_ += uint64_t(request.content->balls) * uint64_t(tile.size / 8) * uint64_t(tile.size / 8);
 }
 

@@ -19,8 +19,9 @@ namespace fx::render {
 constexpr int kMinTile = 16;
 constexpr int kMaxTile = 128;
 constexpr size_t kTileSizes = 4;
-constexpr int kTilePageColumns = 16; ///< pages of kMaxTile^2 texels side by side in the atlas
-constexpr int kMaxTilePageRows = 8;  ///< 2048 x 1024 texels
+constexpr float kMaxNearness = 0.75f; ///< [1] radius over distance; impostors are not nearer than 1.5 radii
+constexpr int kTilePageColumns = 16;  ///< pages of kMaxTile^2 texels side by side in the atlas
+constexpr int kMaxTilePageRows = 8;   ///< 2048 x 1024 texels
 constexpr uint32_t kMaxTileBalls =
     61440; ///< content with more balls gets no tiles; software renderers end loops after 65,535 turns
 
@@ -31,7 +32,9 @@ struct TileJob
     glm::ivec2 corner{0}; ///< [texel] in the atlas
     int size = 0;         ///< [texel]
     TileAxes axes;
-    float radius = 0.0f; ///< [m] half the side of the tile, in units of the block
+    float radius = 0.0f;   ///< [m] of the block, in its units
+    float nearness = 0.0f; ///< [1] radius over the distance of the eye; 0: rays are parallel
+    float density = 1.0f;  ///< [1] factor of the depth of colored content, for what hides what is behind it
 };
 
 /// A tile as it is drawn.
@@ -40,6 +43,7 @@ struct Tile
     glm::ivec2 corner{0};
     int size = 0;
     TileAxes axes;
+    float nearness = 0.0f;  ///< [1] radius of the block over the distance of the tile's eye
     float brightest = 0.0f; ///< [cd/m2] light for which the tile has the value 1
 };
 
@@ -51,6 +55,10 @@ struct TileRequest
     glm::vec3 along{0.0f}; ///< unit vector from the eye to the block, in the space of the block
     float pixels = 0.0f;   ///< [pixel] diameter of the block on the picture
     double seconds = 0.0;  ///< local time of animated content
+    float nearness = 0.0f; ///< [1] radius of the block over its distance; 0: orthographic
+    float density = 1.0f;  ///< [1] factor of its optical depth
+    float angle = 1e9f;    ///< [rad] largest difference of directions, if smaller than that of the settings
+    int texels = 0;        ///< least side of the tile
 };
 
 /// Limits of the error of a tile.
@@ -86,6 +94,9 @@ private:
         uint64_t identity = 0;
         int32_t cell = 0; ///< number of the cell
         uint16_t cells = 0, size = 0;
+        uint16_t nearness = 0; ///< number of steps of 1 / nearnessSteps
+        uint16_t nearnessSteps = 1;
+        int16_t density = 0; ///< half of the binary logarithm; 0 where balls have one color
         bool operator==(const Key&) const = default;
     };
     struct KeyHash

@@ -19,8 +19,8 @@ using base::BlockFrame;
 using base::SnapshotGroup;
 using base::vectorAt;
 
-/// [1] Share of BlockWalkSettings::maxPixels from which the content fades in.
-constexpr float kFadePixels = 0.8f;
+/// [1] Share of BlockWalkSettings::maxPixels, and of its error, from which the content fades in.
+constexpr float kFadePixels = 0.8f, kFadeError = 0.8f;
 /// [1] Distance over the radius below which a block is its content, and from which it is an impostor alone.
 constexpr float kNearest = 1.5f, kFar = 2.0f;
 
@@ -119,6 +119,24 @@ float BlockWalk::impostorShare(const BlockFrame& frame, float radius, float& out
     return share;
 }
 
+/// Chooses the tile of a block by the error that is predicted.
+/// @return share of the block that may be drawn as an impostor
+float BlockWalk::shareByError(const BlockFrame& frame, TileRequest& io) const
+{
+    const BlockContent& content = *io.content;
+    if (!settings_->errors || !(settings_->error > 0.0f) || content.balls > kMaxTileBalls)
+        return 1.0f;
+    const TileErrors* const errors = settings_->errors->find(io.variant, *contents_, seconds_);
+    if (!errors)
+        return 1.0f;
+    const TileChoice choice =
+        chooseTile(errorAt(*errors, frame.density), sourceOf(content, settings_->exposure),
+                   {io.pixels, io.nearness}, settings_->error);
+    io.texels = choice.texels;
+    io.angle = choice.angle;
+    return 1.0f - glm::smoothstep(kFadeError, 1.0f, choice.least / settings_->error);
+}
+
 /// Blocks have at most kMaxBlockLevels levels, which bounds the recursion.
 void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
 {
@@ -140,15 +158,20 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
     float pixels = 0.0f;
     float share = impostorShare(frame, radius, pixels);
     const bool isBalls = !groups_->isBlocks(*content.group);
-    if (isBalls && effectBalls_ + content.balls > settings_->maxBalls) {
+    const bool isFull = isBalls && effectBalls_ + content.balls > settings_->maxBalls;
+    if (isFull) {
         if (!camera_.orthographic && glm::length(frame.position) < kNearest * radius)
             return; // around the eye there is no impostor
         share = 1.0f;
     }
     if (share > 0.0f && section > 0.0f) {
         const glm::vec3 towards = camera_.orthographic ? camera_.forward : glm::normalize(frame.position);
-        const auto tile =
-            tiles_.find({variant, &content, glm::conjugate(frame.rotation) * towards, pixels, seconds_});
+        TileRequest request{variant, &content, glm::conjugate(frame.rotation) * towards, pixels, seconds_};
+        request.nearness = camera_.orthographic ? 0.0f : radius / glm::length(frame.position);
+        request.density = frame.density;
+        const float exact = shareByError(frame, request);
+        share *= isFull ? 1.0f : exact;
+        const auto tile = share > 0.0f ? tiles_.find(request) : std::nullopt;
         if (tile)
             addImpostor(frame, content, *tile, weight * share);
         else
@@ -183,7 +206,9 @@ void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content
     ball.velocity = frame.velocity;
     ball.seed = detailSeed(frame.id);
     ball.rank = listRank(instance_, frame.id, 0);
-    records_.push_back({{frame.rotation * tile.axes.right, 0.0f},
+    const float middle = glm::dot(content.middle, tile.axes.along) / content.radius;
+    const float steps = std::round(127.0f * (1.0f + glm::clamp(middle, -1.0f, 1.0f)));
+    records_.push_back({{frame.rotation * tile.axes.right, steps + tile.nearness},
                         {frame.rotation * tile.axes.up, perWidth * perWidth / section},
                         {float(tile.size), float(tile.corner.x), float(tile.corner.y),
                          content.isColored ? tile.brightest * settings_->exposure : -1.0f}});

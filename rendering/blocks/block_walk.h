@@ -2,7 +2,7 @@
 /// Decides which blocks are drawn as impostors and which ones as what they consist of.
 #pragma once
 
-#include "rendering/blocks/block_tiles.h"
+#include "rendering/blocks/block_error.h"
 #include "rendering/frame/view_volume.h"
 #include "rendering/media/late_balls.h"
 
@@ -15,8 +15,10 @@ namespace fx::render {
 /// shaders/blocks/block_chord.glsl.
 struct BlockRecord
 {
-    glm::vec4 right; ///< xyz unit vector along world axes; w 0
-    glm::vec4 up;    ///< xyz likewise; w [1/m2] one over the cross section at density 1
+    /// xyz unit vector along world axes; w [1] radius of the block over the distance of the tile's eye, below
+    /// 1, plus the depth of the middle of the content as a number of 1/127 radii from -1 radius on
+    glm::vec4 right;
+    glm::vec4 up; ///< xyz likewise; w [1/m2] one over the cross section at density 1
     /// x [texel] side of the tile; yz [texel] corner; w exposed light per unit of the tile, -1: the tile has
     /// no colors of its own
     glm::vec4 tile;
@@ -30,6 +32,10 @@ struct BlockWalkSettings
     /// content fades in.
     float maxPixels = 96.0f;
     float exposure = 1.0f; ///< [m2/cd]
+    /// [1] Predicted root mean square error, in units of white, up to which a block is drawn as an impostor.
+    /// From 0.8 of it on its content fades in. 0: not limited.
+    float error = 0.0f;
+    BlockErrors* errors = nullptr; ///< predictions; null: not limited
     uint32_t maxBalls = 0; ///< of an effect: beyond, blocks are drawn as impostors however large they are
     uint32_t maxCasters = 65536; ///< of an effect: beyond, blocks instead of balls cast shadows
 };
@@ -76,6 +82,7 @@ private:
     void addCasters(const base::BlockFrame& frame, uint32_t variant);
     float leastRadius(const glm::vec3& center) const;
     float impostorShare(const base::BlockFrame& frame, float radius, float& outPixels) const;
+    float shareByError(const base::BlockFrame& frame, TileRequest& io) const;
 
     const CameraGeometry& camera_;
     ViewVolume volume_;

@@ -18,12 +18,14 @@ vec4 tileAt(vec2 texel, float layer)
     return textureLod(blockAtlas, vec2(texel.x, texel.y + 0.25 * layer * size.y) / size, 0.0);
 }
 
-// Where a point relative to the center of the block is in its tile [texel].
-vec2 tileTexel(vec3 p, vec3 right, vec3 up, vec3 tile, float perRadius)
+// Where a point relative to the center of the block is in its tile [1], -1..1, as seen by the eye of the tile.
+// perHalf: [1/m] one over half the side of the tile; nearness: [1] of the depth of the point, over that of the eye of the tile
+vec2 placeInTile(vec3 p, vec3 right, vec3 up, float perHalf, float nearness)
 {
-    vec2 uv = clamp(vec2(dot(p, right), dot(p, up)) * perRadius, -1.0, 1.0);
-    return tile.xy + 0.5 + (0.5 + 0.5 * uv) * (tile.z - 1.0);
+    return clamp(vec2(dot(p, right), dot(p, up)) * perHalf / max(1.0 + nearness, 0.1), -1.0, 1.0);
 }
+
+vec2 texelAt(vec2 place, vec4 tile) { return tile.yz + 0.5 + (0.5 + 0.5 * place) * (tile.x - 1.0); }
 
 BlockChord emptyBlockChord()
 {
@@ -37,26 +39,32 @@ BlockChord blockChord(uint ball, vec3 toCenter, vec3 direction, float radius)
     vec4 up = texelFetch(balls, ballTexel(ball, kTileUp), 0);
     vec4 tile = texelFetch(balls, ballTexel(ball, kTile), 0);
     vec3 along = cross(up.xyz, right.xyz);
-    float perRadius = 1.0 / radius;
+    float nearness = fract(up.w); // [1] radius of the block over the distance of the eye of the tile
+    float center = floor(up.w) / 127.0 - 1.0; // [radius] from the plane through the center, of the middle of the medium
+    float flat_ = sqrt(1.0 - nearness * nearness);
+    float perHalf = flat_ / radius; // [1/m]
     float perLength = max(dot(direction, along), 0.1);
     float middle = dot(toCenter, along) / perLength; // [m] ray parameter of the plane through the center
-    vec3 place = vec3(tile.yz, tile.x);
-    vec2 texel = tileTexel(middle * direction - toCenter, right.xyz, up.xyz, place, perRadius);
-    // The ray is not parallel to those of the tile: it is looked up where the middle of the medium is on it.
+    // The ray may differ from that of the tile: it is looked up where the middle of the medium is on it. That of all of the block is
+    // the first guess.
+    vec2 at = placeInTile((middle + center * radius / perLength) * direction - toCenter, right.xyz, up.xyz, perHalf, center * nearness);
+    vec2 texel = texelAt(at, tile);
     vec4 near = tileAt(texel, 0.0), far = tileAt(texel, 1.0);
     float whole = max(far.w, 1e-12);
-    float center = 1.0 - (near.x + near.y + near.z + near.w + far.x + far.y + far.z + 0.5 * far.w) * 0.25 / whole;
-    center = far.w > 0.0 ? clamp(center, -1.0, 1.0) : 0.0; // [radius] from the plane through the center
-    texel = tileTexel((middle + center * radius / perLength) * direction - toCenter, right.xyz, up.xyz, place, perRadius);
+    float ofRay = 1.0 - (near.x + near.y + near.z + near.w + far.x + far.y + far.z + 0.5 * far.w) * 0.25 / whole;
+    center = far.w > 0.0 ? clamp(ofRay, -1.0, 1.0) : center;
+    at = placeInTile((middle + center * radius / perLength) * direction - toCenter, right.xyz, up.xyz, perHalf, center * nearness);
+    texel = texelAt(at, tile);
     near = tileAt(texel, 0.0);
     far = tileAt(texel, 1.0);
+    float ofTile = inversesqrt(1.0 + dot(at, at) * nearness * nearness / (flat_ * flat_)); // perLength of its ray
     BlockChord chord;
     float perDepth = 1.0 / max(far.w, 1e-12);
     chord.before = perDepth * (near - vec4(0.0, near.xyz));
     chord.behind = perDepth * (far - vec4(near.w, far.xyz));
-    chord.depth = far.w / perLength;
+    chord.depth = max(far.w, 0.0) * ofTile / perLength;
     chord.start = middle - radius / perLength;
-    chord.perPlane = 4.0 * perLength * perRadius;
+    chord.perPlane = 4.0 * perLength / radius;
     chord.color = vec4(0.0);
     chord.light = vec3(0.0);
     for (int i = 0; i < (tile.w >= 0.0 ? 1 : 0); ++i) { // software renderers skip a loop without turns

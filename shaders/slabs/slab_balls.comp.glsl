@@ -62,8 +62,8 @@ void main()
         float wider = blob.centerRadius.w / radius;
         imageStore(balls, ballTexel(ball, kMedium), vec4(isThere ? blob.medium.x * block.up.w * wider * wider : 0.0, radius, blob.layer.x, -1.0));
         imageStore(balls, ballTexel(ball, kTile), block.tile);
-        imageStore(balls, ballTexel(ball, kTileRight), block.right);
-        imageStore(balls, ballTexel(ball, kTileUp), block.up);
+        imageStore(balls, ballTexel(ball, kTileRight), vec4(block.right.xyz, 0.0));
+        imageStore(balls, ballTexel(ball, kTileUp), vec4(block.up.xyz, block.right.w));
     }
 #endif
 }

@@ -12,7 +12,7 @@ const int kDetail = 6;  // x seed [0, 1); y noise periods across the radius
 // Of a ball with a tile, see blocks/block_chord.glsl; kMedium.x is then the factor of the tile's depth, kMedium.w is -1:
 const int kTile = 6;      // x [texel] side; yz [texel] corner; w exposed light per unit of the tile, -1: it has no colors
 const int kTileRight = 7; // xyz axis; w 0
-const int kTileUp = 8;    // xyz axis
+const int kTileUp = 8;    // xyz axis; w fraction: radius over the distance of the tile's eye; floor: [radius / 127] depth of the middle of the content + 127
 // Only where fields have detail:
 const int kCarried0 = 7; // xyz [cell] coordinates of the first generation; w first texel of the detail of the field + 1, or 0
 const int kCarried1 = 8; // xyz of the second; w thinning of the ball by itself

@@ -53,6 +53,8 @@ TEST_F(ViewArguments, aSettingOutOfRangeIsRefusedByNameAndTheOldOnesStay)
     refuse("lodImpostorPixels", [](FxViewSettings& s) { s.lodImpostorPixels = kNan; });
     refuse("blockParallax", [](FxViewSettings& s) { s.blockParallax = -0.1f; });
     refuse("blockParallax", [](FxViewSettings& s) { s.blockParallax = 16.5f; });
+    refuse("blockError", [](FxViewSettings& s) { s.blockError = -0.1f; });
+    refuse("blockError", [](FxViewSettings& s) { s.blockError = kNan; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.3f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.0f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = kNan; });

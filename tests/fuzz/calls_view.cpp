@@ -28,6 +28,7 @@ FxViewSettings CallsPlayer::anySettings()
     settings.lodBias = floatNumber(8.0);
     settings.lodImpostorPixels = floatNumber(13.0);
     settings.blockParallax = floatNumber(16.0);
+    settings.blockError = floatNumber(1.0);
     settings.activationOverlay = input_.below(2);
     settings.budgetMilliseconds = floatNumber(10.0);
     settings.budgetClock = FX_BUDGET_CLOCK_CPU;

@@ -64,9 +64,16 @@ class FxAccuracyOfImpostors(FxTest):
         for control in ("resolution-0.5", "parallax-2"):
             self.assertEqual(lines[control]["work"]["share_within_limit"], 0.0, control)
 
-    def test_random_cases_are_as_many_as_asked_for(self):
-        for line in lines_of("impostors", "--scene", "cases", "--cases", "1", *QUICK):
-            self.assertEqual((line["parameters"]["cases"], line["work"]["pictures"]), (1, 1))
+    def test_random_blocks_are_impostors_where_these_are_within_a_level_of_gray(self):
+        lines = by_setting(lines_of("impostors", "--scene", "cases", "--cases", "100", *QUICK))
+        for line in lines.values():
+            self.assertEqual((line["parameters"]["cases"], line["work"]["pictures"]), (100, 100))
+        chosen, any_error = lines["default"]["work"], lines["any-error"]["work"]
+        self.assertGreaterEqual(chosen["impostor_pictures"], 40)
+        self.assertGreaterEqual(chosen["impostor_share_within_error"], 0.99)
+        self.assertGreaterEqual(lines["error-4"]["work"]["impostor_pictures"], chosen["impostor_pictures"] + 20)
+        self.assertEqual(any_error["impostor_pictures"], 100)  # a control: the error is not limited
+        self.assertLess(any_error["impostor_share_within_error"], 0.5)
 
 
 class FxAccuracyOfLightSlices(FxTest):

@@ -30,19 +30,22 @@ struct ImpostorSetting
     const char* tier;
     float parallax;   ///< [pixel] 0: all balls are drawn
     float resolution; ///< texels a pixel
-    bool hasCases;    ///< whether random cases are drawn with it
+    float error;      ///< [1] limit of the predicted error; 0: not limited
+    bool isForCases;  ///< random cases are drawn with it
+    bool isForScenes; ///< the other scenes are
 };
 constexpr render::BlockSettings kUsual;
 constexpr ImpostorSetting kSettings[] = {
-    {"balls", "", 0.0f, kUsual.resolution, true},
-    {"default", "default", kUsual.parallax, kUsual.resolution, true},
-    {"resolution-0.5", "", kUsual.parallax, 0.5f, false},
-    {"resolution-1", "", kUsual.parallax, 1.0f, false},
-    {"resolution-2", "", kUsual.parallax, 2.0f, true},
-    {"resolution-4", "", kUsual.parallax, 4.0f, false},
-    {"parallax-0.125", "", 0.125f, kUsual.resolution, false},
-    {"parallax-2", "", 2.0f, kUsual.resolution, false},
-    {"finest", "", 0.125f, 4.0f, true},
+    {"balls", "", 0.0f, kUsual.resolution, 0.0f, true, true},
+    {"default", "default", kUsual.parallax, kUsual.resolution, kUsual.error, true, true},
+    {"error-2", "", kUsual.parallax, kUsual.resolution, 2.0f / 255.0f, false, true},
+    {"error-4", "", kUsual.parallax, kUsual.resolution, 4.0f / 255.0f, true, true},
+    {"any-error", "", kUsual.parallax, kUsual.resolution, 0.0f, true, true},
+    {"resolution-0.5", "", kUsual.parallax, 0.5f, 0.0f, false, true},
+    {"resolution-2", "", kUsual.parallax, 2.0f, 0.0f, false, true},
+    {"parallax-0.125", "", 0.125f, kUsual.resolution, 0.0f, false, true},
+    {"parallax-2", "", 2.0f, kUsual.resolution, 0.0f, false, true},
+    {"finest", "", 0.02f, 4.0f, 0.0f, false, true},
 };
 
 /// Blocks, and a camera that sees them all.
@@ -51,9 +54,6 @@ struct Subject
     sim::BlocksDef blocks;
     LitView view;
     LitSize size;
-    /// false: balls differ in color, or blocks are nearer than 20 radii or smaller than 24 pixels, which
-    /// impostors draw less exactly
-    bool isEasy = false;
 };
 
 /// A view of blocks of radius 1 m about the origin. @param pixels [pixel] diameter of a block
@@ -131,7 +131,6 @@ Subject randomCase(uint64_t number)
     block.rotation = anyTurn(13, number);
     subject.blocks.blocks.push_back(block);
     subject.size.width = subject.size.height = 112;
-    subject.isEasy = !heap.isColored && pixels >= 24.0 && distance >= 20.0;
     subject.view = viewFrom(distance * glm::normalize(chance.direction() + glm::dvec3(0.0, 0.0, 0.01)),
                             pixels, subject.size.height);
     return subject;
@@ -147,8 +146,10 @@ struct Collected
     double light = 0.0, wanted = 0.0;
     double seconds = 0.0, firstSeconds = 0.0;
     uint64_t tiles = 0, impostors = 0, bytes = 0;
-    std::vector<double> rmse;     ///< of each picture
-    std::vector<double> easyRmse; ///< of those of Subject::isEasy
+    std::vector<double> rmse;         ///< of each picture
+    std::vector<double> impostorRmse; ///< of those in which a block is an impostor
+    double impostorSeconds = 0.0;     ///< of those
+    double ballSeconds = 0.0;         ///< of the same pictures, ball by ball
 };
 
 class ImpostorAccuracy final : public AccuracyTechnique
@@ -158,9 +159,10 @@ public:
         : scene_(scene), cases_(scene == "cases" ? (scale.cases > 0 ? scale.cases : kUsualCases) : 0)
     {
         for (const ImpostorSetting& setting : kSettings) {
-            if (cases_ > 0 && !setting.hasCases)
+            if (!(cases_ > 0 ? setting.isForCases : setting.isForScenes))
                 continue;
-            nlohmann::json parameters = {{"parallax", setting.parallax}, {"resolution", setting.resolution}};
+            nlohmann::json parameters = {
+                {"parallax", setting.parallax}, {"resolution", setting.resolution}, {"error", setting.error}};
             if (cases_ > 0)
                 parameters["cases"] = cases_;
             settings_.push_back({setting.name, setting.tier, parameters});
@@ -183,6 +185,7 @@ private:
     std::vector<AccuracySetting> settings_;
     std::vector<ImpostorSetting> used_;
     std::vector<Collected> collected_;      ///< of each setting
+    double secondsOfBalls_ = 0.0;           ///< of the last picture, ball by ball, which is drawn first
     size_t given_ = 0;                      ///< settings that have been given since they were measured
     std::unique_ptr<BlockPainter> painter_; ///< all pictures of a scene have one size
 };
@@ -190,17 +193,20 @@ private:
 base::Status ImpostorAccuracy::draw(const Subject& subject, const LitPicture& truth,
                                     const ImpostorSetting& setting, Collected& io)
 {
-    painter_->settings() = {setting.parallax, setting.resolution, render::BlockSettings::kMaxPixels};
-    const auto first = painter_->paint(subject.blocks, subject.view);
-    if (!first.ok())
-        return first.status();
-    io.tiles += painter_->statistics().blockTilesDrawn;
+    painter_->settings() = {setting.parallax, setting.resolution, render::BlockSettings::kMaxPixels,
+                            setting.error};
+    if (setting.parallax > 0.0f) {
+        const auto first = painter_->paint(subject.blocks, subject.view);
+        if (!first.ok())
+            return first.status();
+        io.tiles += painter_->statistics().blockTilesDrawn;
+        io.firstSeconds += first->seconds;
+    }
     const auto picture = painter_->paint(subject.blocks, subject.view); // with tiles that are there
     if (!picture.ok())
         return picture.status();
     io.impostors += painter_->statistics().blockImpostors;
     io.bytes = std::max(io.bytes, uint64_t(painter_->statistics().textureBytes));
-    io.firstSeconds += first->seconds;
     io.seconds += picture->seconds;
     double squares = 0.0;
     size_t values = 0;
@@ -222,8 +228,13 @@ base::Status ImpostorAccuracy::draw(const Subject& subject, const LitPicture& tr
     io.rmse.push_back(std::sqrt(squares / double(std::max<size_t>(values, 1))));
     if (cases_ > 0)
         io.errors.push_back(io.rmse.back());
-    if (subject.isEasy)
-        io.easyRmse.push_back(io.rmse.back());
+    if (painter_->statistics().blockImpostors > 0) {
+        io.impostorRmse.push_back(io.rmse.back());
+        io.impostorSeconds += picture->seconds;
+        io.ballSeconds += secondsOfBalls_;
+    } else if (setting.parallax == 0.0f) {
+        secondsOfBalls_ = picture->seconds;
+    }
     return {};
 }
 
@@ -250,7 +261,7 @@ base::Status ImpostorAccuracy::measure(const Subject& subject, const std::functi
 base::Status ImpostorAccuracy::measureAll(const std::function<bool()>& stop)
 {
     collected_.assign(used_.size(), {});
-    given_ = 0;
+    given_ = 1;
     if (cases_ > 0) {
         for (uint32_t i = 0; i < cases_; ++i)
             if (base::Status status = measure(randomCase(i), stop); !status)
@@ -267,15 +278,38 @@ base::Status ImpostorAccuracy::measureAll(const std::function<bool()>& stop)
     return {};
 }
 
-double shareWithinLimit(const std::vector<double>& rmse)
+double shareWithin(double limit, const std::vector<double>& rmse)
 {
-    const auto within = std::ranges::count_if(rmse, [](double error) { return error <= kLimit; });
+    const auto within = std::ranges::count_if(rmse, [limit](double error) { return error <= limit; });
     return double(within) / double(std::max<size_t>(rmse.size(), 1));
+}
+
+double quantileOf(std::vector<double> values, double share)
+{
+    if (values.empty())
+        return 0.0;
+    const auto place = values.begin() + ptrdiff_t(share * double(values.size() - 1));
+    std::ranges::nth_element(values, place);
+    return *place;
+}
+
+/// Of random cases: how often blocks become impostors, and how exact these are.
+std::string noteOfCases(const Collected& got, double limit)
+{
+    char note[160];
+    std::snprintf(note, sizeof note,
+                  "%.1f %% impostors, %.2f %% of these within %.2g/255, median %.2f, largest %.2f, time %.2f",
+                  100.0 * double(got.impostorRmse.size()) / double(std::max<size_t>(got.rmse.size(), 1)),
+                  100.0 * shareWithin(limit, got.impostorRmse), 255.0 * limit,
+                  255.0 * quantileOf(got.impostorRmse, 0.5), 255.0 * quantileOf(got.impostorRmse, 1.0),
+                  got.impostorSeconds / std::max(got.ballSeconds, 1e-9));
+    return note;
 }
 
 base::Result<AccuracySample> ImpostorAccuracy::run(size_t setting, const std::function<bool()>& stop)
 {
-    if (given_++ % used_.size() == 0)
+    const bool isDue = given_++ % used_.size() == 0 && (cases_ == 0 || collected_.empty()); // cases are many
+    if (isDue)
         if (base::Status status = measureAll(stop); !status)
             return status;
     const Collected& got = collected_[setting];
@@ -284,13 +318,17 @@ base::Result<AccuracySample> ImpostorAccuracy::run(size_t setting, const std::fu
     sample.seconds = got.seconds;
     sample.items = double(got.rmse.size());
     const double rmse = std::sqrt(got.squares / double(std::max<uint64_t>(got.values, 1)));
-    const double share = shareWithinLimit(got.rmse);
+    const double share = shareWithin(kLimit, got.rmse);
     const double brighter = got.wanted > 0.0 ? got.light / got.wanted - 1.0 : 0.0;
+    const double limit = used_[setting].error > 0.0f ? double(used_[setting].error) : kLimit;
     sample.work = {{"rmse", rmse},
                    {"pictures", got.rmse.size()},
                    {"share_within_limit", share},
-                   {"easy_pictures", got.easyRmse.size()},
-                   {"easy_share_within_limit", shareWithinLimit(got.easyRmse)},
+                   {"impostor_pictures", got.impostorRmse.size()},
+                   {"impostor_share_within_error", shareWithin(limit, got.impostorRmse)},
+                   {"impostor_rmse_median", quantileOf(got.impostorRmse, 0.5)},
+                   {"impostor_rmse_max", quantileOf(got.impostorRmse, 1.0)},
+                   {"impostor_time", got.impostorSeconds / std::max(got.ballSeconds, 1e-9)},
                    {"brighter", brighter},
                    {"impostors", got.impostors},
                    {"tiles", got.tiles},
@@ -299,7 +337,7 @@ base::Result<AccuracySample> ImpostorAccuracy::run(size_t setting, const std::fu
     char note[128];
     std::snprintf(note, sizeof note, "rmse %.2f/255, %.1f %% within 1/255, %+.2f %% light, %.0f kB",
                   255.0 * rmse, 100.0 * share, 100.0 * brighter, 1e-3 * double(got.bytes));
-    sample.note = note;
+    sample.note = cases_ > 0 ? noteOfCases(got, limit) : note;
     return sample;
 }
 

@@ -2,7 +2,8 @@
 // lit, drawn as impostors and ball by ball in the composition `slabs` with 16 slabs, in turn. Prints one JSON
 // object: processor time of a frame at rest (all lists are built again), with a moving light and with
 // animated blocks, of both; time of the first frame, which draws all tiles; PSNR of the tone-mapped pictures
-// over covered pixels; bytes. Fails when blocks are refused, or when impostors change nothing. More balls
+// over covered pixels; bytes; impostors. Fails when blocks are refused, or when impostors whose error is not
+// limited change nothing. More balls
 // than can be drawn one by one are compared in 16 random crops of the picture.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
@@ -39,6 +40,7 @@ struct Options
 {
     uint64_t count = 1'000'000;
     int width = 640, height = 360, repeat = 3;
+    float error = render::BlockSettings().error; ///< [1] of impostors; 0: not limited
     bool isSmall = false;
 };
 
@@ -52,8 +54,9 @@ void require(const base::Status& status)
 class BlockPictures
 {
 public:
-    BlockPictures(const BlockSceneSize& size, const std::optional<PictureCrop>& crop = {})
-        : scene_(taken(blockScene(size, crop))),
+    /// @param error [1] limit of the error of impostors; 0: none
+    BlockPictures(const BlockSceneSize& size, float error, const std::optional<PictureCrop>& crop = {})
+        : error_(error), scene_(taken(blockScene(size, crop))),
           stage_(taken(QualityStage::create(scene_, size.width, size.height)))
     {
         require(stage_->simulate(base::toTicks(1.0)));
@@ -66,6 +69,7 @@ public:
         render::ViewSettings settings = stage_->view().renderer.settings();
         settings.blocks.parallax = blocks ? render::BlockSettings().parallax : 0.0f;
         settings.blocks.resolution = resolution;
+        settings.blocks.error = error_;
         settings.exposureEv100 = scene_.view.exposureEv100 + 1e-5f * float(++frames_ % 64); // nothing is kept
         const glm::vec3 sun = scene_.view.lighting.sunDirection;
         settings.lighting.sunDirection = {std::cos(turn) * sun.x - std::sin(turn) * sun.z, sun.y,
@@ -73,7 +77,8 @@ public:
         stage_->view().setSettings(settings);
         require(stage_->draw());
         const render::FrameStatistics& drawn = statistics();
-        if (drawn.spilledBalls > 0 || drawn.blockParticlesRefused > 0 || (drawn.blockImpostors > 0) != blocks)
+        const bool isAsAsked = blocks ? drawn.blockImpostors > 0 || error_ > 0.0f : drawn.blockImpostors == 0;
+        if (drawn.spilledBalls > 0 || drawn.blockParticlesRefused > 0 || !isAsAsked)
             fail("blocks are missing or are not drawn as asked: impostors " +
                  std::to_string(drawn.blockImpostors) + ", balls spilled " +
                  std::to_string(drawn.spilledBalls) + ", refused " +
@@ -95,6 +100,7 @@ public:
     QualityStage& stage() { return *stage_; }
 
 private:
+    float error_;
     scene_file::SceneFile scene_;
     std::unique_ptr<QualityStage> stage_;
     uint64_t frames_ = 0;
@@ -163,19 +169,19 @@ void addTimes(nlohmann::json& io, const std::string& name, const Times& times, b
     io["ratio" + name] = times.ratio();
 }
 
-double psnrOfCrops(const BlockSceneSize& size)
+double psnrOfCrops(const BlockSceneSize& size, float error)
 {
-    SquaredError error;
+    SquaredError squares;
     for (int i = 0; i < kCrops; ++i) {
         const auto u = base::randomUnit4(16, 0, uint64_t(i), base::RandomPurpose::Position);
         const PictureCrop crop{0.2f + 0.6f * u[0], 0.25f + 0.5f * u[1], kCropSize};
-        BlockPictures pictures(size, crop);
+        BlockPictures pictures(size, error, crop);
         pictures.settle();
         const std::vector<float> blocks = pictures.stage().picture();
         pictures.draw(false);
-        error.add(blocks, pictures.stage().picture(), pictures.stage().background(), size.width, crop);
+        squares.add(blocks, pictures.stage().picture(), pictures.stage().background(), size.width, crop);
     }
-    return error.psnr();
+    return squares.psnr();
 }
 
 void measure(Options options)
@@ -190,12 +196,16 @@ void measure(Options options)
     const uint64_t count = uint64_t(size.blocks) * size.ballsPerBlock;
     const bool isSingle = count <= kMaxSingle;
 
-    nlohmann::json line = {{"name", "blocks"},       {"count", count},
-                           {"blocks", size.blocks},  {"particles_per_block", size.ballsPerBlock},
-                           {"width", options.width}, {"height", options.height}};
+    nlohmann::json line = {{"name", "blocks"},
+                           {"count", count},
+                           {"blocks", size.blocks},
+                           {"particles_per_block", size.ballsPerBlock},
+                           {"width", options.width},
+                           {"height", options.height},
+                           {"block_error", options.error}};
     Machine machine = readMachine();
     {
-        BlockPictures pictures(size);
+        BlockPictures pictures(size, options.error);
         machine.glRenderer = pictures.stage().rendererName();
         if (isSingle)
             pictures.draw(false);
@@ -205,6 +215,7 @@ void measure(Options options)
         pictures.settle();
         const std::vector<float> blocks = pictures.stage().picture();
         line["bytes"] = pictures.statistics().textureBytes;
+        line["impostors"] = pictures.statistics().blockImpostors;
         addTimes(line, "", timesOf(pictures, options.repeat, isSingle, [](int) { return 0.0f; }), isSingle);
         if (isSingle) {
             SquaredError error;
@@ -217,10 +228,10 @@ void measure(Options options)
                  isSingle);
     }
     if (!isSingle)
-        line["psnr"] = psnrOfCrops(size);
+        line["psnr"] = psnrOfCrops(size, options.error);
     if (isSingle) {
         size.isMoving = true;
-        BlockPictures pictures(size);
+        BlockPictures pictures(size, options.error);
         pictures.draw(true);
         addTimes(line, "_animated",
                  timesOf(pictures, options.repeat, true,
@@ -238,6 +249,11 @@ void addOptions(CLI::App& command, int& outExitCode)
     auto options = std::make_shared<Options>();
     command.add_option("--count", options->count, "Balls of all blocks together; default 1,000,000")
         ->check(CLI::Range(uint64_t(1), uint64_t(30'000'000)));
+    command
+        .add_option("--block-error", options->error,
+                    "[1] Root mean square error, in units of white, up to which blocks are impostors; "
+                    "0: not limited; default 1/255")
+        ->check(CLI::Range(0.0f, 1.0f));
     addSizeOption(command, options->width, options->height);
     addRepeatOption(command, options->repeat);
     addSmallOption(command, options->isSmall);

@@ -3,10 +3,11 @@
 /// on the processor with the formulas that the shaders are compiled from.
 
 #include "benchmarks/scenes/block_heaps.h"
+#include "benchmarks/scenes/chance.h"
 #include "benchmarks/scenes/slice_forms.h"
 #include "benchmarks/stability/rows/block_walks.h"
+#include "benchmarks/stability/rows/processor_tile.h"
 #include "benchmarks/stability/stability_row.h"
-#include "shaders/formulas/formula.h"
 
 #include <algorithm>
 #include <array>
@@ -15,120 +16,6 @@
 
 namespace fx::cli {
 namespace {
-
-constexpr int kPlanes = 8;
-using Planes = std::array<float, kPlanes + 1>; ///< [1] depth up to each plane; 0 up to the first
-
-/// As RGBA16F stores it.
-float toHalf(float x)
-{
-    int exponent = 0;
-    const float share = std::frexp(std::min(x, 60000.0f), &exponent);
-    const int bits = std::min(11, exponent + 24); // below 2^-13 the steps stay
-    return std::ldexp(std::nearbyint(std::ldexp(share, bits)), exponent - bits);
-}
-
-/// A ray from the eye at the origin.
-struct BlockRay
-{
-    glm::vec3 direction; ///< unit vector
-    glm::vec3 toCenter;  ///< [m] of the block, whose radius is `radius`
-    float radius = 1.0f; ///< [m]
-};
-
-/// shaders/blocks/block_tiles.comp.glsl and block_chord.glsl.
-class ProcessorTile
-{
-public:
-    /// @param balls must stay valid
-    /// @param isHalf false: values are stored as float
-    ProcessorTile(std::span<const render::BlockBall> balls, const render::TileAxes& axes, float radius,
-                  int size, bool isHalf = true)
-        : isHalf_(isHalf), balls_(balls), axes_(axes), radius_(radius), size_(size),
-          texels_(size_t(size) * size_t(size))
-    {}
-
-    int size() const { return size_; }
-    /// Computed when it is first read.
-    const Planes& texel(int x, int y) const
-    {
-        std::optional<Planes>& found = texels_[size_t(y) * size_t(size_) + size_t(x)];
-        if (!found)
-            found = texelAt(glm::vec2(float(x), float(y)));
-        return *found;
-    }
-
-    /// Depth between two places [m] of a ray.
-    double depth(const BlockRay& ray, float t0, float t1) const
-    {
-        const float perLength = std::max(glm::dot(ray.direction, axes_.along), 0.1f);
-        const float middle = glm::dot(ray.toCenter, axes_.along) / perLength;
-        Planes found = lookedUp((middle * ray.direction - ray.toCenter) / ray.radius);
-        float center = 0.0f, sum = 0.0f;
-        for (int k = 1; k < kPlanes; ++k)
-            sum += found[size_t(k)];
-        if (found[kPlanes] > 0.0f)
-            center = std::clamp(1.0f - (sum + 0.5f * found[kPlanes]) * 0.25f / found[kPlanes], -1.0f, 1.0f);
-        found = lookedUp(((middle + center * ray.radius / perLength) * ray.direction - ray.toCenter) /
-                         ray.radius);
-        const float start = middle - ray.radius / perLength, perPlane = 4.0f * perLength / ray.radius;
-        const auto passed = [&](float t) {
-            const float place = (t - start) * perPlane;
-            float share = 0.0f;
-            for (int k = 0; k < kPlanes; ++k)
-                share += (found[size_t(k) + 1] - found[size_t(k)]) * std::clamp(place - float(k), 0.0f, 1.0f);
-            return share;
-        };
-        return double((passed(t1) - passed(t0)) / perLength);
-    }
-
-private:
-    /// @param place [texel]
-    Planes texelAt(const glm::vec2& place) const
-    {
-        const float half = radius_, texel = 2.0f * half / float(size_ - 1);
-        const glm::vec2 p = place * texel - half;
-        Planes sum{};
-        for (const render::BlockBall& ball : balls_) {
-            const glm::vec3 center(ball.place);
-            const float radius = std::max(ball.place.w, texel);
-            const glm::vec2 d = p - glm::vec2(glm::dot(center, axes_.right), glm::dot(center, axes_.up));
-            const float q2 = std::max(1.0f - glm::dot(d, d) / (radius * radius), 0.0f), q = std::sqrt(q2);
-            const float depth = 1.11408460164327f * ball.medium.w / (radius * radius) * q2 * q2 * q;
-            const float perHalf = 1.0f / std::max(radius * q, 1e-6f * radius);
-            for (int k = 1; k <= kPlanes; ++k) {
-                const float plane = half * (0.25f * float(k) - 1.0f) - glm::dot(center, axes_.along);
-                sum[size_t(k)] += depth * formula::fxKernelPassed(std::clamp(plane * perHalf, -1.0f, 1.0f));
-            }
-        }
-        for (float& value : sum)
-            value = isHalf_ ? toHalf(value) : value;
-        return sum;
-    }
-
-    /// Bilinear. @param p place in the block, in radii
-    Planes lookedUp(const glm::vec3& p) const
-    {
-        const auto place = [&](const glm::vec3& axis) {
-            return (0.5f + 0.5f * std::clamp(glm::dot(p, axis), -1.0f, 1.0f)) * float(size_ - 1);
-        };
-        const float x = place(axes_.right), y = place(axes_.up);
-        const int x0 = std::min(int(x), size_ - 2), y0 = std::min(int(y), size_ - 2);
-        const float u = x - float(x0), v = y - float(y0);
-        Planes mixed{};
-        for (size_t k = 0; k < mixed.size(); ++k)
-            mixed[k] = (1.0f - v) * ((1.0f - u) * texel(x0, y0)[k] + u * texel(x0 + 1, y0)[k]) +
-                       v * ((1.0f - u) * texel(x0, y0 + 1)[k] + u * texel(x0 + 1, y0 + 1)[k]);
-        return mixed;
-    }
-
-    bool isHalf_;
-    std::span<const render::BlockBall> balls_;
-    render::TileAxes axes_;
-    float radius_; ///< [m]
-    int size_;
-    mutable std::vector<std::optional<Planes>> texels_;
-};
 
 render::TileAxes axesAlong(const glm::vec3& along)
 {
@@ -142,11 +29,21 @@ double opacity(double depth)
     return -std::expm1(-depth);
 }
 
+/// One block of one heap.
+sim::BlocksDef blockOf(const HeapOfBalls& heap)
+{
+    sim::BlocksDef def;
+    def.types.push_back(heapOf(heap, 1.0f));
+    def.blocks.emplace_back();
+    (void)sim::completeTypes(def.types); // one short list is never refused
+    return def;
+}
+
 /// A block of radius about 1 m, its balls, and the exact medium.
 class Heap
 {
 public:
-    explicit Heap(const HeapOfBalls& heap) : Heap(blocksOf(heap)) {}
+    explicit Heap(const HeapOfBalls& heap) : Heap(blockOf(heap)) {}
     explicit Heap(const sim::BlocksDef& def) : def_(def), effect_(def_), balls_(effect_.ballsOf(top()))
     {
         std::vector<render::MediumCaster> casters;
@@ -180,14 +77,6 @@ public:
     }
 
 private:
-    static sim::BlocksDef blocksOf(const HeapOfBalls& heap)
-    {
-        sim::BlocksDef def;
-        def.types.push_back(heapOf(heap, 1.0f));
-        def.blocks.emplace_back();
-        (void)sim::completeTypes(def.types); // one short list is never refused
-        return def;
-    }
     uint32_t top() const { return def_.blocks[0].type; }
 
     sim::BlocksDef def_;
@@ -292,6 +181,48 @@ double refreshError(double pixels, double number, double parallax)
     return std::sqrt(squares / double(rays.size()));
 }
 
+/// Root mean square error of the light of a block, white is 1, that a view draws as an impostor; 0 if it
+/// draws balls. @param limit [1] of the predicted error; 0: none
+double chosenError(double distance, double number, float limit)
+{
+    bench::Chance chance(300 + uint64_t(number));
+    HeapOfBalls form;
+    form.seed = uint64_t(number) + 1;
+    form.balls = uint32_t(std::pow(100.0, chance()));
+    form.smallest = chance.between(0.2, 0.4);
+    form.largest = form.smallest + chance.between(0.0, 0.2);
+    form.depth = 0.1 * std::pow(100.0, chance());
+    const glm::vec3 along(0.0f, 0.0f, -1.0f);
+    sim::BlocksDef def = blockOf(form);
+    def.blocks[0].rotation = anyTurn(19, uint64_t(number));
+    Heap heap(def);
+    const double away = distance * double(heap.radius());
+    const WalkedBlocks walked = heap.effect().walk({0.0, 0.0, -away}, 1e6f, {}, limit);
+    if (walked.counts.impostors == 0)
+        return 0.0;
+    const render::BlockRecord& record = walked.records[0];
+    const glm::quat back = glm::conjugate(def.blocks[0].rotation);
+    const glm::vec3 right = back * glm::vec3(record.right), up = back * glm::vec3(record.up);
+    const ProcessorTile tile(heap.balls(), {right, up, glm::cross(up, right)}, heap.radius(),
+                             int(record.tile.x),
+                             {.nearness = record.right.w - std::floor(record.right.w),
+                              .isHalf = true,
+                              .isForInterpolation = true,
+                              .middle = std::floor(record.right.w) / 127.0f - 1.0f});
+    double squares = 0.0;
+    size_t covered = 0;
+    for (const BlockRay& ray : heap.rays(along, away, 24)) {
+        const double exact = opacity(heap.exact(ray, 0.0, 1e3));
+        const BlockRay turned{back * ray.direction, back * ray.toCenter, ray.radius};
+        const double difference = opacity(tile.depth(turned, 0.0f, 1e3f)) - exact;
+        squares += exact < 0.01 ? 0.0 : difference * difference;
+        covered += exact < 0.01 ? 0 : 1;
+    }
+    const glm::vec3 light = heap.effect().content(0).light; // at an exposure of 1 m2/cd
+    const double white = std::sqrt(double(glm::dot(light, light)) / 3.0);
+    return white * std::sqrt(squares / double(std::max<size_t>(covered, 1)));
+}
+
 std::vector<StabilitySweep> refresh(bool isQuick)
 {
     const StabilitySweep large{
@@ -308,9 +239,18 @@ std::vector<StabilitySweep> refresh(bool isQuick)
     small.error = [](double pixels, double number) {
         return refreshError(pixels, number, 0.5) * pixels / 60.0;
     };
-    return {large, small, controlOf(large, "tiles kept up to 8 pixels", [](double pixels, double number) {
-                return refreshError(pixels, number, 8.0);
-            })};
+    const StabilitySweep chosen{
+        "impostors that a view draws, against balls",
+        values("distance [radius]", {3, 8, 20, 60}),
+        evenSteps("case", 0, 60, 60, isQuick),
+        1.0 / 255.0,
+        false,
+        [](double distance, double number) { return chosenError(distance, number, 1.0f / 255.0f); }};
+    return {large, small, chosen,
+            controlOf(large, "tiles kept up to 8 pixels",
+                      [](double pixels, double number) { return refreshError(pixels, number, 8.0); }),
+            controlOf(chosen, "error not limited",
+                      [](double distance, double number) { return chosenError(distance, number, 0.0f); })};
 }
 
 /// A heap, and blocks of it. @param depth [1] of the whole, about
@@ -351,7 +291,7 @@ double nestedTileError(double levels, double depth, Texels texels)
     const Heap heap(nested(int(levels), depth));
     const glm::vec3 along = directionOf(3);
     const render::TileAxes axes = axesAlong(along);
-    const ProcessorTile tile(heap.balls(), axes, heap.radius(), kSide, texels == Texels::Half);
+    const ProcessorTile tile(heap.balls(), axes, heap.radius(), kSide, {0.0f, texels == Texels::Half, false});
     double worst = 0.0;
     for (int y = 0; y < kSide; y += kEach)
         for (int x = 0; x < kSide; x += kEach) {

@@ -65,7 +65,9 @@ public:
 
     /// Walks through the blocks as seen by an eye at the origin that looks along -z.
     /// @param place [m] of the effect relative to the eye
-    WalkedBlocks walk(const glm::dvec3& place, float maxPixels, const render::TileSettings& tiles = {})
+    /// @param error [1] limit of the predicted error; 0: none. The exposure is 1 m2/cd
+    WalkedBlocks walk(const glm::dvec3& place, float maxPixels, const render::TileSettings& tiles = {},
+                      float error = 0.0f)
     {
         WalkedBlocks out;
         render::CameraGeometry camera{};
@@ -75,9 +77,12 @@ public:
         camera.nearDistance = 1e-3f;
         camera.clipScale = glm::vec2(1.0f / kTangent);
         tiles_.begin(tiles);
+        errors_.begin(false);
         render::BlockWalk walk(camera, kHeight, tiles_, out.balls, out.casters, out.records);
         render::BlockWalkSettings settings;
         settings.maxPixels = maxPixels;
+        settings.error = error;
+        settings.errors = &errors_;
         settings.maxBalls = std::numeric_limits<uint32_t>::max() / 2;
         base::Placement placement;
         placement.position = place;
@@ -105,6 +110,7 @@ private:
     base::FrameSnapshot snapshot_;
     std::optional<base::BlockGroups> groups_;
     render::BlockContents contents_{std::pmr::new_delete_resource()};
+    render::BlockErrors errors_{std::pmr::new_delete_resource()};
     render::BlockTiles tiles_{std::pmr::new_delete_resource()};
 };
 

@@ -287,6 +287,11 @@ void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
                     "[pixel] Error up to which blocks are drawn as impostors; 0: ball by ball")
         ->check(CLI::Range(0.0f, 16.0f))
         ->capture_default_str();
+    command
+        .add_option("--block-error", arguments.blockError,
+                    "[1] Root mean square error, in units of white, up to which blocks are drawn as "
+                    "impostors; 0: not limited; default 1/255")
+        ->check(CLI::Range(0.0f, 1.0f));
 }
 
 void addReportOptions(CLI::App& command, RenderArguments& arguments)
@@ -388,6 +393,7 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
     settings.lod = {arguments.lodBias, arguments.impostorPixels};
     settings.blocks.parallax = arguments.blockParallax;
+    settings.blocks.error = arguments.blockError;
     settings.fragmentBudget = arguments.fragmentBudget;
     settings.slices.enabled = arguments.lightSlices != "off";
     if (settings.slices.enabled && !arguments.lightSlices.empty())

@@ -35,6 +35,7 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.lodBias = settings.lod.bias;
     api.lodImpostorPixels = settings.lod.impostorPixels;
     api.blockParallax = settings.blocks.parallax;
+    api.blockError = settings.blocks.error;
     api.lightSlices = settings.slices.enabled ? 1 : 0;
     api.lightSlicePlanes = uint32_t(settings.slices.resolution.planes);
     api.lightSliceTexels = uint32_t(settings.slices.resolution.texels);

@@ -227,6 +227,12 @@ typedef struct FxViewSettings
     /// its direction and its motion; default 0.5. 0: all particles of blocks are drawn. Impostors are drawn
     /// with FX_COMPOSITION_SLABS and without outputs only.
     float blockParallax;
+
+    /// [1] 0..1, in units of white: largest root mean square error, over the pixels that a block covers, that
+    /// an impostor of the block is predicted to have; default 1/255. Blocks that no impostor shows as exactly
+    /// are drawn as their particles or smaller blocks. The prediction is that of the block alone, unlit media
+    /// count as white. 0: not limited.
+    float blockError;
 } FxViewSettings;
 
 /// Default settings: daylight exposure, no lights, all effects enabled.
@@ -262,6 +268,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.voxels = 96;
     settings.lightRefreshFrames = 1;
     settings.blockParallax = 0.5f;
+    settings.blockError = 1.0f / 255.0f;
     return settings;
 }
 

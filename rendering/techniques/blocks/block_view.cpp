@@ -43,8 +43,9 @@ GatheredBlob commonOf(const SnapshotGroup& late)
 BlockView::BlockView(const TechniqueSetup& setup)
     : device_(*setup.device), blocks_(setup.schema->find(base::kBlockKind.name)),
       balls_(setup.schema->find(base::kBlockBallKind.name)), blobs_(setup.schema->find(base::kBlobKind.name)),
-      contents_(setup.memory), tiles_(setup.memory), jobs_(setup.memory), gathered_(setup.memory),
-      casters_(setup.memory), records_(setup.memory), ends_(setup.memory), late_(setup.memory)
+      contents_(setup.memory), errors_(setup.memory), tiles_(setup.memory), jobs_(setup.memory),
+      gathered_(setup.memory), casters_(setup.memory), records_(setup.memory), ends_(setup.memory),
+      late_(setup.memory)
 {}
 
 base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
@@ -61,6 +62,7 @@ base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
         tiles_.forget();
     isPending_ = false;
     tiles_.begin({in.settings->blocks.parallax, in.settings->blocks.resolution, !in.request->resetHistory});
+    errors_.begin(!in.request->resetHistory);
     const base::FrameSnapshot* const shown = in.snapshots->newer;
     for (size_t place = 0; shown && place < shown->addedCount(); ++place)
         addCounts(shown->added(place));
@@ -121,6 +123,8 @@ void BlockView::walk(const GatherInputs& in, BlockWalk& walk, size_t place)
     BlockWalkSettings settings;
     settings.maxPixels = std::min(in.settings->blocks.maxPixels, BlockSettings::kMaxPixels);
     settings.exposure = exposureFromEv100(in.settings->exposureEv100);
+    settings.error = in.settings->blocks.error;
+    settings.errors = &errors_;
     settings.maxBalls = late.count();
     const size_t jobs = tiles_.jobs().size();
     walk.run(groups, contents_, before, t, float(step), double(groups.root().constants()[constant::Seconds]),
@@ -201,7 +205,7 @@ void BlockView::count(FrameStatistics& statistics) const
     if (isKept_)
         return;
     statistics.blockTilesDrawn += jobs_.count();
-    statistics.blockTilesDeferred += tiles_.deferred();
+    statistics.blockTilesDeferred += tiles_.deferred() + errors_.deferred();
     statistics.uploadedBytes += jobs_.bytes() + records_.size() * sizeof(BlockRecord);
 }
 

@@ -21,7 +21,7 @@ public:
 
     base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
     void keep() override { isKept_ = true; }
-    bool isSettled() const override { return tiles_.deferred() == 0; }
+    bool isSettled() const override { return tiles_.deferred() + errors_.deferred() == 0; }
     void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
     void forget() override;
     void endFrame(bool succeeded) override;
@@ -42,6 +42,7 @@ private:
     FrameStatistics counts_;
 
     BlockContents contents_;
+    BlockErrors errors_;
     BlockTiles tiles_;
     BlockTileJobs jobs_;
     std::pmr::vector<GatheredBlob> gathered_;

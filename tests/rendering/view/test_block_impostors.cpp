@@ -36,6 +36,8 @@ double meanOf(const Picture& picture)
     return sum;
 }
 
+constexpr float kAll = 128.0f;
+
 class BlockImpostors : public BlockPictureTest
 {
 protected:
@@ -53,13 +55,22 @@ protected:
         view_->settings().lighting.skyLuminance = glm::vec3(0.0f);
     }
 
-    /// Drawn as impostors up to a diameter [pixel].
+    /// Drawn as impostors up to a diameter [pixel], however large their error is.
     Picture drawUpTo(float pixels, const base::FrameSnapshot& snapshot, const glm::dvec3& eye,
                      const glm::dvec3& target = glm::dvec3(0.0))
     {
         view_->settings().blocks = {};
         view_->settings().blocks.maxPixels = pixels;
+        view_->settings().blocks.error = 0.0f;
         return draw(snapshot, eye, target);
+    }
+    /// Drawn as impostors up to a predicted error.
+    Picture drawWithin(float error, const base::FrameSnapshot& snapshot, const glm::dvec3& eye)
+    {
+        view_->settings().blocks = {};
+        view_->settings().blocks.maxPixels = kAll;
+        view_->settings().blocks.error = error;
+        return draw(snapshot, eye);
     }
     Picture drawBalls(const base::FrameSnapshot& snapshot, const glm::dvec3& eye)
     {
@@ -67,8 +78,6 @@ protected:
         return draw(snapshot, eye);
     }
 };
-
-constexpr float kAll = 128.0f;
 
 } // namespace
 
@@ -90,6 +99,7 @@ TEST_F(BlockImpostors, areTheBallsOfTheirBlocks)
         if (distance < 10.0)
             continue; // rays through the rim of a near block are not parallel to those of its tile
         view_->settings().blocks = {};
+        view_->settings().blocks.error = 0.0f;
         view_->settings().blocks.resolution = 2.0f;
         EXPECT_LE(rmsDifference(draw(blocks, eye), balls), 0.75 * error) << distance;
     }
@@ -173,6 +183,49 @@ TEST_F(BlockImpostors, becomeTheirBallsWithoutAJump)
     }
     EXPECT_EQ(view_->statistics().blockImpostors, 0u);
     EXPECT_NEAR(last, meanOf(balls), 1e-5 * std::abs(last));
+}
+
+TEST_F(BlockImpostors, areWithinTheErrorThatIsAskedForOrAreBalls)
+{
+    glowAlone();
+    view_->settings().exposureEv100 = std::log2(1.0f / 1.2f); // 1 cd/m2 is white
+    const base::FrameSnapshot blocks = published(threeBlocks(true));
+    for (const double distance : {4.0, 6.0, 10.0, 20.0}) {
+        const glm::dvec3 eye(0.0, 0.25 * distance, distance);
+        const Picture balls = drawBalls(blocks, eye);
+        for (const float limit : {0.02f, 1.0f / 255.0f, 0.002f, 0.0005f}) {
+            const Picture picture = drawWithin(limit, blocks, eye);
+            EXPECT_LE(rmsDifference(picture, balls), double(limit)) << distance << ' ' << limit;
+            if (limit == 0.02f) {
+                EXPECT_EQ(view_->statistics().blockImpostors, 3u) << distance;
+            }
+            if (limit == 0.0005f) {
+                EXPECT_EQ(view_->statistics().blockImpostors, 0u) << distance;
+            }
+        }
+        if (distance >= 10.0) { // a control
+            EXPECT_GE(rmsDifference(drawUpTo(kAll, blocks, eye), balls), 1.0 / 255.0) << distance;
+        }
+    }
+}
+
+TEST_F(BlockImpostors, becomeTheirBallsWithoutAJumpAsTheErrorGetsSmaller)
+{
+    glowAlone();
+    view_->settings().exposureEv100 = std::log2(1.0f / 1.2f);
+    const base::FrameSnapshot blocks = published(threeBlocks(true));
+    const glm::dvec3 eye(0.0, 1.5, 6.0);
+    Picture last = drawWithin(0.01f, blocks, eye);
+    EXPECT_EQ(view_->statistics().blockImpostors, 3u);
+    bool isPart = false;
+    for (float limit = 0.01f; limit >= 0.0005f; limit *= 0.9f) {
+        const Picture next = drawWithin(limit, blocks, eye);
+        EXPECT_LE(rmsDifference(next, last), 1.5 * double(limit)) << limit;
+        isPart = isPart || view_->statistics().blobs > kBallsOfThree; // impostors and balls
+        last = next;
+    }
+    EXPECT_TRUE(isPart);
+    EXPECT_EQ(view_->statistics().blockImpostors, 0u);
 }
 
 TEST_F(BlockImpostors, areNotDrawnForBlocksAroundTheEye)
