@@ -147,7 +147,7 @@ struct Collected
     double seconds = 0.0, firstSeconds = 0.0;
     uint64_t tiles = 0, impostors = 0, bytes = 0;
     std::vector<double> rmse;         ///< of each picture
-    std::vector<double> impostorRmse; ///< of those in which a block is an impostor
+    std::vector<double> impostorRmse; ///< of those in which blocks are impostors and none fades to its balls
     double impostorSeconds = 0.0;     ///< of those
     double ballSeconds = 0.0;         ///< of the same pictures, ball by ball
 };
@@ -228,7 +228,8 @@ base::Status ImpostorAccuracy::draw(const Subject& subject, const LitPicture& tr
     io.rmse.push_back(std::sqrt(squares / double(std::max<size_t>(values, 1))));
     if (cases_ > 0)
         io.errors.push_back(io.rmse.back());
-    if (painter_->statistics().blockImpostors > 0) {
+    const render::FrameStatistics& drawn = painter_->statistics();
+    if (drawn.blockImpostors > 0 && drawn.blobs == drawn.blockImpostors) {
         io.impostorRmse.push_back(io.rmse.back());
         io.impostorSeconds += picture->seconds;
         io.ballSeconds += secondsOfBalls_;
