@@ -68,10 +68,10 @@ std::vector<Diagnostic> validate(const TempFolder& folder, const std::string& te
     return validateFile(folder.write("s.scene.json", text));
 }
 
-/// Most memory that this process has had; 0 under the address sanitizer, whose own memory would count.
+/// Most memory that this process has had; 0 under sanitizers, whose own memory would count.
 long peakMegabytes()
 {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     return 0;
 #else
     rusage usage{};
