@@ -40,6 +40,12 @@ public:
         : folder_(std::move(folder)), library_(library), hook_(hook)
     {}
 
+    /// The same resolver with another library.
+    AssetResolver withLibrary(std::span<const base::EmbeddedText> library) const
+    {
+        return {folder_, library, hook_};
+    }
+
     /// Reads the bytes of the asset `name`.
     /// @param maxBytes [byte] larger assets give TooLarge before anything is read
     /// @return InvalidArgument for a name that is not allowed, NotFound, TooLarge, Io

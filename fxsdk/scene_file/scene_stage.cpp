@@ -1,6 +1,7 @@
 #include "fxsdk/scene_file/scene_members.h"
 
 #include "fxsdk/scene_file/mesh_reader.h"
+#include "fxsdk/scene_file/stages.h"
 #include "rendering/image/image.h"
 
 #include <span>
@@ -31,7 +32,7 @@ base::Result<render::StageMesh> readMeshMember(const PresetValue& value, const a
     std::string name;
     value.read("file", name);
     std::string warning;
-    base::Result<render::StageMesh> mesh = readMesh(name, resolver, warning);
+    base::Result<render::StageMesh> mesh = readMesh(name, resolver.withLibrary(libraryWithStages()), warning);
     if (!warning.empty())
         value.warning("file", warning);
     if (!mesh)

@@ -1,7 +1,11 @@
 #include "fxsdk/scene_file/stages.h"
 
+#include "embedded/stage_files.h"
+#include "fxsdk/presets/preset_loader.h"
+
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace fx::scene_file {
 
@@ -58,6 +62,17 @@ constexpr auto kStages = std::to_array<Stage>({
 std::span<const Stage> stages()
 {
     return kStages;
+}
+
+std::span<const base::EmbeddedText> libraryWithStages()
+{
+    static const std::vector<base::EmbeddedText> files = [] {
+        const auto library = preset::libraryFiles(), added = stage_files::texts();
+        std::vector<base::EmbeddedText> all(library.begin(), library.end());
+        all.insert(all.end(), added.begin(), added.end());
+        return all;
+    }();
+    return files;
 }
 
 const Stage* findStage(std::string_view name)

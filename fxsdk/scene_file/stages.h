@@ -5,6 +5,8 @@
 /// Threads: any.
 #pragma once
 
+#include "foundation/result/embedded_text.h"
+
 #include <nlohmann/json.hpp>
 
 #include <span>
@@ -22,6 +24,10 @@ struct Stage
 
 /// All stages; the first is the one that presets without a "preview" stand on.
 std::span<const Stage> stages();
+
+/// What library:NAME means for meshes and props of scenes and previews: the files of
+/// preset::libraryFiles(), and the meshes of stages, which games do not need and libfxsdk does not have.
+std::span<const base::EmbeddedText> libraryWithStages();
 
 /// @return null if there is no stage of the name
 const Stage* findStage(std::string_view name);
