@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <fstream>
+
 namespace fx::editor {
 namespace {
 
@@ -102,6 +104,20 @@ TEST(StageChoice, theDocumentKeepsItAsOneEdit)
     EXPECT_EQ(s.document.text(), before);
     s.keepStage(); // nothing is chosen
     EXPECT_EQ(s.document.text(), before);
+}
+
+TEST(StageChoice, anExposureIsKeptAlsoWhereThePreviewIsNone)
+{
+    for (const std::string wrong : {"3", "[]", "\"x\"", "null"}) {
+        const std::string path = testing::TempDir() + "no-preview.fx.json";
+        std::ofstream(path) << R"({"version": 1, "preview": )" << wrong << "}";
+        auto session = Session::open(path, testing::TempDir());
+        ASSERT_TRUE(session.ok()) << session.status().message();
+        (*session)->exposureEv100 = 5.5f;
+        (*session)->keepStage();
+        EXPECT_EQ((*session)->document.json()["preview"], Json({{"exposureEv100", 5.5}})) << wrong;
+        (*session)->close(); // no recovery file is left
+    }
 }
 
 TEST(StageChoice, aTextThatIsNoPresetIsLeftToItsReaders)

@@ -88,8 +88,12 @@ void Session::keepStage()
 {
     Json kept = onStage(document.json(), document.kind(), stage_);
     const bool isScene = document.kind() == DocumentKind::Scene;
-    if (exposureEv100)
-        (isScene ? kept : kept["preview"])["exposureEv100"] = *exposureEv100;
+    if (exposureEv100) {
+        Json& holder = isScene ? kept : kept["preview"];
+        if (!holder.is_object()) // absent, or what the file states is no preview
+            holder = Json::object();
+        holder["exposureEv100"] = *exposureEv100;
+    }
     if (kept == document.json()) {
         message = "Stage and exposure are those of the document.";
         return;
