@@ -11,6 +11,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <limits>
 
 namespace fx::editor {
 namespace {
@@ -90,6 +93,64 @@ TEST_F(PreviewTest, aTextThatIsWrongLeavesThePicture)
     EXPECT_FALSE(status.ok());
     EXPECT_NE(status.message().find("maxParticles"), std::string::npos) << status.message();
     EXPECT_EQ(picture(*preview_), before);
+}
+
+TEST_F(PreviewTest, aSceneWhosePresetCannotBeLoadedLeavesTheSceneBefore)
+{
+    const std::filesystem::path folder(testing::TempDir() + "preview-scenes");
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "good.fx.json") << kPreset;
+    std::ofstream(folder / "broken.png") << "no picture";
+    std::ofstream(folder / "bad.fx.json")
+        << R"({"version": 1, "emitters": [{"emission": {"rate": 40}, "appearance": {"kind": "sprite", "texture": "broken.png"}}]})";
+    const std::string name = (folder / "a.scene.json").string();
+    const auto showScene = [&](const std::string& instances) {
+        return preview_->show(
+            R"({"version": 1, "camera": {"position": [0, 1, 6], "target": [0, 1, 0]}, "instances": [)" +
+                instances + "]}",
+            name, DocumentKind::Scene);
+    };
+    const std::string good = R"({"preset": "good.fx.json"})";
+    ASSERT_TRUE(showScene(good + ", " + good + ", " + good).ok());
+    ASSERT_TRUE(preview_->seek(1.0).ok());
+    const std::vector<float> before = picture(*preview_);
+    const uint32_t particles = preview_->particles();
+    EXPECT_GT(particles, 60u);
+    const base::Status status = showScene(R"({"preset": "bad.fx.json"})");
+    ASSERT_FALSE(status.ok());
+    EXPECT_NE(status.message().find("broken.png"), std::string::npos) << status.message();
+    EXPECT_EQ(preview_->scene().instances.size(), 3u);
+    ASSERT_TRUE(preview_->seek(0.5).ok());
+    ASSERT_TRUE(preview_->seek(1.0).ok());
+    EXPECT_EQ(preview_->particles(), particles);
+    EXPECT_EQ(picture(*preview_), before);
+    EXPECT_TRUE(showScene(good).ok());
+    EXPECT_EQ(preview_->particles(), particles / 3);
+}
+
+TEST_F(PreviewTest, anEffectWithMotionStandsWhereItsHandlesAre)
+{
+    const std::string moving = R"({"version": 1, "emitters": [{"maxParticles": 60, "emission": {"rate": 40},
+        "lifetime": 2, "radius": 0.05, "speed": 0, "forces": {"gravity": 0}}],
+        "preview": {"time": 1.5, "instance": {"keys": [{"time": 0, "position": [-4, 1, 0]},
+        {"time": 1.5, "position": [1, 2, 0]}, {"time": 2, "position": [2, 3, 0]}], "triggers": []}}})";
+    const auto middle = [&] {
+        OverlayChoice choice;
+        choice.bounds = true;
+        const OverlayData data = preview_->overlays(choice, frame());
+        glm::dvec3 sum(0.0);
+        for (const WireLine& line : data.lines)
+            sum += line.from + line.to;
+        return sum / (2.0 * double(std::max(data.lines.size(), size_t(1))));
+    };
+    for (const double shownAt : {0.0, 0.5, 1.5}) { // the time at which it was shown first has no influence
+        ASSERT_TRUE(preview_->seek(shownAt).ok());
+        show(*preview_, moving + std::string(size_t(2.0 * shownAt), ' '));
+        ASSERT_TRUE(preview_->seek(1.0).ok());
+        EXPECT_EQ(preview_->placement().position, glm::dvec3(1.0, 2.0, 0.0));
+        EXPECT_NEAR(glm::length(middle() - preview_->placement().position), 0.0, 0.02) << shownAt;
+    }
+    EXPECT_TRUE(preview_->scene().instances[0].play.isEmpty()); // the reference renderer gets the same
 }
 
 TEST_F(PreviewTest, firesLightTheGroundAndSmokeDarkensIt)
@@ -226,6 +287,20 @@ TEST(ErrorPicture, statesMeanP99AndLargestOfTheClippedLuminance)
     EXPECT_EQ(colors[8], 0); // no error is black
     EXPECT_GT(colors[4], colors[0] - 1);
     EXPECT_GT(colors[5], colors[1]);
+}
+
+TEST(ErrorPicture, colorsThatAreNoNumbersAreCountedAndAsWrongAsCanBe)
+{
+    std::vector<float> picture(300, 0.5f), reference(300, 0.5f);
+    reference[4] = std::numeric_limits<float>::quiet_NaN();
+    reference[9] = std::numeric_limits<float>::infinity();
+    picture[299] = -std::numeric_limits<float>::infinity();
+    const ErrorPicture error = errorOf(picture, reference, 10, 10);
+    EXPECT_EQ(error.notFinite, 3u);
+    EXPECT_NEAR(error.mean, 0.03, 1e-9);
+    EXPECT_EQ(error.largest, 1.0);
+    EXPECT_EQ(error.errors[1], 1.0f);
+    EXPECT_EQ(error.errors[2], 0.0f);
 }
 
 TEST_F(PreviewTest, theReferenceOfASmallPictureIsNearAndCanBeStopped)

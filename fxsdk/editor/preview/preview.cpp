@@ -39,6 +39,18 @@ std::string stageKeyOf(const std::string& text, DocumentKind kind)
     return preset.is_object() && preset.contains("preview") ? preset["preview"].dump() : std::string("none");
 }
 
+/// Puts an instance where its motion brings it by a scene time [s], and takes away what is not played.
+void holdStill(scene_file::SceneInstance& io, double time)
+{
+    const base::Placement place = io.placementAt(time);
+    io.position = place.position;
+    io.rotation = place.rotation;
+    const bool emits = scene_file::valueAt(io.play.emitting, io.start, 1.0) > 0.0;
+    io.play = {};
+    if (!emits)
+        io.play.emitting = {{0.0, 0.0}};
+}
+
 } // namespace
 
 base::Result<std::unique_ptr<Preview>> Preview::create(const render::GlLoader& loader)
@@ -100,8 +112,10 @@ void Preview::closeAsset(void*, const void* data, size_t)
     delete[] static_cast<const char*>(data);
 }
 
-/// Reads stage, camera and instances, and places the camera of a preset without one.
-base::Status Preview::readScene(const std::string& text, const std::string& name, DocumentKind kind)
+/// Reads stage, camera and instances, and places the camera of a preset without one. Instances stay where
+/// they are at their start, that of a preset where it is at the time of its preview, which its camera shows.
+base::Result<scene_file::SceneFile> Preview::readScene(const std::string& text, const std::string& name,
+                                                       DocumentKind kind, bool& outHasCamera) const
 {
     const std::string folder = preset::folderOf(name);
     const asset::AssetResolver resolver(folder.empty() ? "." : folder, preset::libraryFiles());
@@ -110,66 +124,90 @@ base::Status Preview::readScene(const std::string& text, const std::string& name
                                             : cli::sceneOfPresetText(text, name, &preview);
     if (!file)
         return file.status();
-    hasCamera_ = kind == DocumentKind::Scene || preview.hasCamera;
-    if (!hasCamera_ && isFirst_) // reads the file, which may be gone: the camera then stays where it is
+    outHasCamera = kind == DocumentKind::Scene || preview.hasCamera;
+    if (!outHasCamera && isFirst_) // reads the file, which may be gone: the camera then stays where it is
         (void)cli::frameEffect(*file, base::toTicks(kFramedSeconds), {});
-    file_ = std::move(*file);
-    file_.view.composition = render::Composition::Automatic;
-    file_.view.slices.automatic = true;
+    for (scene_file::SceneInstance& instance : file->instances)
+        holdStill(instance, preview.time.value_or(instance.start));
+    file->view.composition = render::Composition::Automatic;
+    file->view.slices.automatic = true;
+    return file;
+}
+
+/// Takes over lights, mesh and background.
+base::Status Preview::setStage(const scene_file::SceneFile& file)
+{
     std::vector<FxLight> lights;
-    for (const render::SceneLight& light : shownLights())
+    for (const render::SceneLight& light : shownLights(file))
         lights.push_back(cli::toApi(light));
     if (base::Status status =
             cli::toStatus(fxView_SetLights(view_->get(), lights.data(), uint32_t(lights.size())));
         !status)
         return status;
-    if (base::Status status = stage_->setMesh(file_.mesh); !status)
+    if (base::Status status = stage_->setMesh(file.mesh); !status)
         return status;
-    return stage_->setBackground(file_.background);
+    return stage_->setBackground(file.background);
 }
 
-base::Status Preview::loadPresets()
+base::Result<std::vector<FxPresetId>>
+Preview::loadPresets(const std::vector<scene_file::ScenePreset>& presets)
 {
     std::vector<FxPresetId> loaded;
     try {
-        for (const scene_file::ScenePreset& preset : file_.presets) {
+        for (const scene_file::ScenePreset& preset : presets) {
             assetText_ = preset.text;
             assetFolder_ = preset::folderOf(preset.file);
             loaded.push_back(context_->loadFile(kEdited));
         }
-        for (const FxPresetId preset : presets_)
-            context_->unload(preset);
     } catch (const fxsdk::Error& error) {
-        for (const FxPresetId preset : loaded)
-            (void)fxUnloadPreset(context_->get(), preset);
+        unload(loaded);
         return statusOf(error);
     }
-    presets_ = std::move(loaded);
-    return {};
+    return loaded;
 }
 
+void Preview::unload(const std::vector<FxPresetId>& presets)
+{
+    for (const FxPresetId preset : presets)
+        (void)fxUnloadPreset(context_->get(), preset);
+}
+
+/// All that can fail comes first, so that stage, presets and instances always belong to one text.
 base::Status Preview::show(const std::string& text, const std::string& name, DocumentKind kind)
 {
     std::string key = stageKeyOf(text, kind);
+    std::optional<scene_file::SceneFile> file; // empty: only the preset differs
+    bool hasCamera = hasCamera_;
     if (key != stageKey_ || isFirst_) {
-        if (base::Status status = readScene(text, name, kind); !status)
+        auto read = readScene(text, name, kind, hasCamera);
+        if (!read)
+            return read.status();
+        file = std::move(*read);
+    }
+    std::vector<scene_file::ScenePreset> presets = file ? file->presets : file_.presets;
+    if (kind == DocumentKind::Preset)
+        presets[0].text = text;
+    auto loaded = loadPresets(presets);
+    if (!loaded)
+        return loaded.status();
+    if (file) {
+        if (base::Status status = setStage(*file); !status) {
+            unload(*loaded);
+            if (!isFirst_)
+                (void)setStage(file_);
             return status;
+        }
+        file_ = std::move(*file);
         stageKey_ = std::move(key);
+        hasCamera_ = hasCamera;
         isFirst_ = false;
     }
-    std::string before;
-    if (kind == DocumentKind::Preset) {
-        before = std::move(file_.presets[0].text);
-        file_.presets[0].text = text;
-    }
-    if (base::Status status = loadPresets(); !status) {
-        if (kind == DocumentKind::Preset)
-            file_.presets[0].text = std::move(before);
-        return status;
-    }
+    file_.presets = std::move(presets);
     for (const Shown& shown : shown_)
         if (shown.id && fxScene_->isValid(*shown.id))
             fxScene_->destroy(*shown.id);
+    unload(presets_);
+    presets_ = std::move(*loaded);
     shown_.assign(file_.instances.size(), {});
     return seek(time_);
 }
@@ -178,8 +216,7 @@ base::Status Preview::show(const std::string& text, const std::string& name, Doc
 void Preview::create(size_t index)
 {
     const scene_file::SceneInstance& instance = file_.instances[index];
-    const FxInstanceDef def =
-        cli::instanceDefinition(instance, presets_[instance.preset], instance.start + time_);
+    const FxInstanceDef def = cli::instanceDefinition(instance, presets_[instance.preset], instance.start);
     shown_[index] = {fxScene_->create(def), -1.0};
 }
 
@@ -323,15 +360,15 @@ base::Status Preview::lightStage(const FxFrameDef& frame)
         status = cli::toStatus(fxView_GetEffectLight(view_->get(), i, &light));
         lights[i] = {glm::make_vec3(light.position), glm::make_vec3(light.intensity), light.radius};
     }
-    return status.ok()
-               ? lit_.read(view_->get(), std::span(lights).first(count), shownLights(), file_.view.lighting)
-               : status;
+    return status.ok() ? lit_.read(view_->get(), std::span(lights).first(count), shownLights(file_),
+                                   file_.view.lighting)
+                       : status;
 }
 
 /// As many as a view takes.
-std::span<const render::SceneLight> Preview::shownLights() const
+std::span<const render::SceneLight> Preview::shownLights(const scene_file::SceneFile& file)
 {
-    return std::span(file_.lights).first(std::min(file_.lights.size(), size_t(FX_MOST_LIGHTS)));
+    return std::span(file.lights).first(std::min(file.lights.size(), size_t(FX_MOST_LIGHTS)));
 }
 
 base::Status Preview::render(const PreviewFrame& frame)

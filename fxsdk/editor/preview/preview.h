@@ -61,6 +61,7 @@ public:
 
     /// GL name of the picture, display-referred RGBA32F, lower row first; 0 before the first picture.
     uint32_t texture() const { return stage_ ? stage_->colorTexture() : 0; }
+    /// The scene of the picture, in which no instance moves.
     const scene_file::SceneFile& scene() const { return file_; }
     /// Whether the preset states its camera; otherwise scene().camera shows the effect at several moments.
     bool hasCamera() const { return hasCamera_; }
@@ -81,14 +82,17 @@ private:
 
     Preview() = default;
     base::Status start(const render::GlLoader& loader);
-    base::Status readScene(const std::string& text, const std::string& name, DocumentKind kind);
-    base::Status loadPresets();
+    base::Result<scene_file::SceneFile> readScene(const std::string& text, const std::string& name,
+                                                  DocumentKind kind, bool& outHasCamera) const;
+    base::Status setStage(const scene_file::SceneFile& file);
+    base::Result<std::vector<FxPresetId>> loadPresets(const std::vector<scene_file::ScenePreset>& presets);
+    void unload(const std::vector<FxPresetId>& presets);
     void place(size_t index, double seconds);
     void create(size_t index);
     static render::CameraView cameraOf(const PreviewFrame& frame);
     static FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame);
     base::Status lightStage(const FxFrameDef& frame);
-    std::span<const render::SceneLight> shownLights() const;
+    static std::span<const render::SceneLight> shownLights(const scene_file::SceneFile& file);
     FxViewSettings settingsOf(const PreviewFrame& frame) const;
     static const void* openAsset(void* user, const char* name, size_t* outSize);
     static void closeAsset(void* user, const void* data, size_t size);

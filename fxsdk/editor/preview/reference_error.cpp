@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 
 namespace fx::editor {
 
@@ -15,12 +16,13 @@ constexpr double kSecondsAtOnce = 0.25; // [s] simulated between two looks at th
 constexpr int kSkyRings = 2;            // 16 directions of the sky
 constexpr std::array<double, 3> kLuminance{0.2126, 0.7152, 0.0722}; // of linear Rec. 709
 
+/// Not finite where a color is not.
 double luminanceOf(const float* rgb)
 {
     double sum = 0.0;
     for (size_t i = 0; i < 3; ++i)
         sum += kLuminance[i] * double(rgb[i]);
-    return std::clamp(sum, 0.0, 1.0);
+    return std::isfinite(sum) ? std::clamp(sum, 0.0, 1.0) : sum;
 }
 
 base::Status stopped()
@@ -39,8 +41,10 @@ ErrorPicture errorOf(const std::vector<float>& picture, const std::vector<float>
     const size_t count = std::min(picture.size(), reference.size()) / 3;
     error.errors.reserve(count);
     for (size_t i = 0; i < count; ++i) {
-        error.errors.push_back(
-            float(std::abs(luminanceOf(&picture[3 * i]) - luminanceOf(&reference[3 * i]))));
+        const double difference = luminanceOf(&picture[3 * i]) - luminanceOf(&reference[3 * i]);
+        const bool isNumber = std::isfinite(difference);
+        error.notFinite += isNumber ? 0 : 1;
+        error.errors.push_back(isNumber ? float(std::abs(difference)) : 1.0f);
         error.mean += double(error.errors.back());
     }
     if (count == 0)
@@ -103,7 +107,11 @@ const base::Result<ErrorPicture>& ReferenceRun::result()
 
 void ReferenceRun::run()
 {
-    result_ = compute();
+    try {
+        result_ = compute();
+    } catch (const std::exception& error) { // of the memory: the thread is none of the caller's
+        result_ = base::Status(base::Code::OutOfMemory, std::string("reference renderer: ") + error.what());
+    }
     isDone_ = true;
 }
 

@@ -26,6 +26,7 @@ struct ErrorPicture
     double mean = 0.0;
     double p99 = 0.0; ///< 99 of 100 pixels have at most this
     double largest = 0.0;
+    size_t notFinite = 0; ///< pixels of which a color is infinite or not a number; their error counts as 1
 };
 
 /// @param picture, reference RGB, exposed, by rows from the top, of equal sizes
