@@ -2,9 +2,9 @@
 
 #include "foundation/assets/mip_levels.h"
 #include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_unpack_scope.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <string>
 
@@ -13,38 +13,6 @@ namespace fx::render {
 namespace {
 
 constexpr int kMaxFrames = 2048; ///< layers that every OpenGL 4.5 offers
-
-/// Tightly packed rows from client memory while it lives; the host's settings afterwards.
-class UnpackScope
-{
-public:
-    explicit UnpackScope(GlFunctions& gl) : gl_(gl)
-    {
-        gl.GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &buffer_);
-        gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-        for (size_t i = 0; i < kParameters.size(); ++i) {
-            gl.GetIntegerv(kParameters[i], &saved_[i]);
-            gl.PixelStorei(kParameters[i], kParameters[i] == GL_UNPACK_ALIGNMENT ? 1 : 0);
-        }
-    }
-    ~UnpackScope()
-    {
-        for (size_t i = 0; i < kParameters.size(); ++i)
-            gl_.PixelStorei(kParameters[i], saved_[i]);
-        gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(buffer_));
-    }
-    UnpackScope(const UnpackScope&) = delete;
-    UnpackScope& operator=(const UnpackScope&) = delete;
-
-private:
-    static constexpr std::array<GLenum, 8> kParameters = {
-        GL_UNPACK_SWAP_BYTES,  GL_UNPACK_LSB_FIRST, GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT,
-        GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_ALIGNMENT};
-
-    GlFunctions& gl_;
-    GLint buffer_ = 0;
-    std::array<GLint, kParameters.size()> saved_{};
-};
 
 /// One frame of an atlas, cut out, lowest row first as GL counts.
 void cutFrame(const base::ImageAsset& image, int x0, int y0, int width, int height, std::vector<uint8_t>& out)
@@ -110,7 +78,7 @@ base::Result<GlAtlas> GlAssetCache::makeAtlas(const base::ImageAsset& image, int
         return status;
     }
     uint64_t bytes = 0;
-    const UnpackScope unpack(gl);
+    const GlUnpackScope unpack(gl);
     std::vector<uint8_t> texels;
     std::vector<uint8_t> smaller;
     for (int frame = 0; frame < atlas.frames; ++frame) {

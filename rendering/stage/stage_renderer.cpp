@@ -8,6 +8,7 @@
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_state_guard.h"
 #include "rendering/gl/gl_texture.h"
+#include "rendering/gl/gl_unpack_scope.h"
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
@@ -196,6 +197,7 @@ base::Status StageRenderer::setBackground(const StageBackground& background)
         if (!created)
             return created.status();
         picture = std::move(*created);
+        const GlUnpackScope unpack(impl_->device->gl);
         for (int row = 0; row < background.height; ++row) // GL counts rows from the bottom
             impl_->device->gl.TextureSubImage2D(
                 picture.name(), 0, 0, background.height - 1 - row, background.width, 1, GL_RGB, GL_FLOAT,

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace fx;
 using namespace fx::test;
@@ -152,6 +153,31 @@ TEST_F(StageTest, withoutAMeshThereIsTheBackground)
     background.horizon = glm::vec3(70.0f);
     ASSERT_TRUE(stage_->setBackground(background).ok());
     EXPECT_NEAR(middle(), 70.0f, 1e-3f);
+}
+
+TEST_F(StageTest, uploadsDoNotDependOnTheHostsPixelTransfer)
+{
+    render::StageBackground background;
+    background.width = background.height = 4;
+    background.image.assign(16, glm::vec3(70.0f));
+    const auto& gl = device_->gl;
+    GLuint buffer = 0; // of zeros
+    gl.CreateBuffers(1, &buffer);
+    gl.NamedBufferStorage(buffer, 4096, std::vector<char>(4096).data(), 0);
+    gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+    gl.PixelStorei(GL_UNPACK_SWAP_BYTES, 1);
+    EXPECT_TRUE(stage_->setBackground(background).ok());
+    GLint bound = 0, swaps = 0;
+    gl.GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &bound);
+    gl.GetIntegerv(GL_UNPACK_SWAP_BYTES, &swaps);
+    EXPECT_EQ(GLuint(bound), buffer);
+    EXPECT_EQ(swaps, 1);
+    gl.PixelStorei(GL_UNPACK_SWAP_BYTES, 0);
+    gl.DeleteBuffers(1, &buffer);
+    const float shown = middle();
+    EXPECT_TRUE(stage_->setBackground(background).ok());
+    EXPECT_EQ(shown, middle());
+    EXPECT_GT(shown, 1.0f);
 }
 
 TEST_F(StageTest, aMeshWhoseArraysDifferIsRefused)
