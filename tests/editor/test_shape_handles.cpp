@@ -69,6 +69,37 @@ TEST(ShapeHandles, sizesOfBallsStayNumbersAndFirstNumbersOfTriples)
               Json::array({2.0, 5.0, 6.0}));
 }
 
+TEST(ShapeHandles, sizesOfZeroAreDraggedBesideThePosition)
+{
+    for (const std::string shape : {"sphere", "box", "disc", "line", "cone", "torus"}) {
+        const Document document = presetWith(R"("shape": ")" + shape + R"(", "position": [1, 2, 3])");
+        const ShapeWires wires = shapeWires(document, "/emitters/0");
+        const ShapeHandle* const size = find(wires, "/emitters/0/size");
+        ASSERT_TRUE(size) << shape;
+        EXPECT_EQ(wires.handles.front().pointer, "/emitters/0/position"); // the last at one place is taken
+        EXPECT_GT(glm::length(size->place - glm::dvec3(1.0, 2.0, 3.0)), 0.1) << shape;
+        const Json same = valueAt(document, *size, size->place);
+        EXPECT_EQ(same.is_array() ? same[0] : same, Json(0.0)) << shape;
+        const Json longer = valueAt(document, *size, size->place + 0.5 * size->along);
+        EXPECT_EQ(longer.is_array() ? longer[0] : longer, Json(0.5)) << shape;
+    }
+}
+
+TEST(ShapeHandles, instancesAreDraggedUnlessKeysMoveThem)
+{
+    const auto scene = Document::fromText(R"({"version": 1, "instances": [{"preset": "library:sparks"},
+        {"preset": "library:sparks", "position": [1, 2, 3]},
+        {"preset": "library:sparks", "keys": [{"time": 0, "position": [1, 1, 1]}]},
+        {"preset": "library:sparks", "keys": [{"time": 0, "rotationDegrees": [0, 90, 0]}]}]})",
+                                          "a.scene.json");
+    ASSERT_TRUE(scene.ok()) << scene.status().message();
+    ASSERT_EQ(scene->kind(), DocumentKind::Scene);
+    EXPECT_EQ(find(shapeWires(*scene, "/instances/0"), "/instances/0/position")->place, glm::dvec3(0.0));
+    EXPECT_EQ(find(shapeWires(*scene, "/instances/1"), "/instances/1/position")->place, glm::dvec3(1, 2, 3));
+    EXPECT_TRUE(shapeWires(*scene, "/instances/2").handles.empty());
+    EXPECT_FALSE(shapeWires(*scene, "/instances/3").handles.empty());
+}
+
 TEST(ShapeHandles, directionsAreUnitVectorsAndTheShapeTurnsWithThem)
 {
     const Document document = presetWith(R"("shape": "line", "size": 2, "axis": [0, 0, 3])");
@@ -125,6 +156,27 @@ TEST(ViewProjection, projectsAndFindsTheWayBack)
     EXPECT_FALSE(view.project(camera.position() + glm::dvec3(3.0, 1.0, 6.0)).has_value()); // behind
     EXPECT_FALSE(
         view.alongLine(camera.position(), view.rayThrough({300.0, 200.0}), {300.0, 200.0}).has_value());
+}
+
+TEST(TimeMarks, eventsFollowTheFirstBirthOfRateAndBursts)
+{
+    const auto eventAt = [](const std::string& emission) {
+        const auto document =
+            Document::fromText(R"({"version": 1, "emitters": [{)" + emission +
+                                   R"("events": [{"on": "age", "age": 0.5, "cue": "pop"}]}]})",
+                               "marks.fx.json");
+        EXPECT_TRUE(document.ok());
+        const std::vector<TimeMark> marks = timeMarks(*document);
+        return !marks.empty() && marks.back().kind == MarkKind::Event ? marks.back().time : -1.0;
+    };
+    EXPECT_EQ(
+        eventAt(
+            R"("emission": {"start": 4, "bursts": [{"time": 3, "count": 1}, {"time": 2, "count": 1}]}, )"),
+        2.5);
+    EXPECT_EQ(eventAt(R"("emission": {"rate": 5, "start": 1, "bursts": [{"time": 2, "count": 1}]}, )"), 1.5);
+    EXPECT_EQ(eventAt(R"("emission": {"rate": 5, "start": 3, "bursts": [{"time": 2, "count": 1}]}, )"), 2.5);
+    EXPECT_EQ(eventAt(""), -1.0); // born of events of other emitters
+    EXPECT_EQ(eventAt(R"("emission": {"rate": 0, "start": 1}, )"), -1.0);
 }
 
 TEST(TimeMarks, listStartsBurstsAndEventsAndMoveThem)

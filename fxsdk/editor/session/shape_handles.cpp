@@ -17,6 +17,7 @@ namespace {
 constexpr int kCorners = 48; // of a circle
 constexpr double kThousandths = 1000.0;
 constexpr double kArrow = 0.6; // [m] shortest length of an axis
+constexpr double kGap = 0.2;   // [m] from the center to the handle of a length of 0
 
 double numberOf(const Json& value, double otherwise)
 {
@@ -81,21 +82,31 @@ public:
             return {};
         const bool isGas = element_.starts_with("/gas"), isFragments = element_.starts_with("/fragments");
         const glm::dvec3 center = vectorOf(element, "position", glm::dvec3(0.0));
-        if (element_.starts_with("/emitters/"))
+        const bool isEmitter = element_.starts_with("/emitters/");
+        const bool isInstance = document_.kind() == DocumentKind::Scene;
+        if (isInstance ? !isMoved(element)
+                       : isGas || isEmitter || isFragments || element.contains("position"))
+            position(element_ + "/position", center, glm::dvec3(0.0)); // first: others win at the same place
+        if (isEmitter)
             spawnShape(element, center);
         else
             cross(center, 0.25);
         if (isFragments)
             ball(element_ + "/originRadius", HandleKind::Length, center,
                  memberOf(element, "originRadius", 0.2));
-        if (isGas || element_.starts_with("/emitters/") || element.contains("position") || isFragments)
-            position(element_ + "/position", center, glm::dvec3(0.0));
         if (const auto forces = element.find("forces"); forces != element.end() && forces->is_object())
             fields(*forces);
         return std::move(wires_);
     }
 
 private:
+    /// Keys of an instance replace its position.
+    static bool isMoved(const Json& instance)
+    {
+        const auto keys = instance.find("keys");
+        return keys != instance.end() && keys->is_array() && !keys->empty() && keys->front().is_object() &&
+               keys->front().contains("position");
+    }
     void line(const glm::dvec3& a, const glm::dvec3& b) { wires_.lines.emplace_back(a, b); }
     void cross(const glm::dvec3& center, double size)
     {
@@ -122,7 +133,9 @@ private:
     void length(const std::string& pointer, HandleKind kind, const glm::dvec3& center,
                 const glm::dvec3& along, double value, int component = 0)
     {
-        wires_.handles.push_back({pointer, kind, center + value * along, center, along, component});
+        // A length of 0 is dragged beside the center, where the position is dragged.
+        const glm::dvec3 from = value > 0.0 ? center : center + kGap * along;
+        wires_.handles.push_back({pointer, kind, from + value * along, from, along, component});
     }
     void axis(const std::string& pointer, const glm::dvec3& center, const Axes& axes, double reach)
     {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fx::editor {
 
@@ -32,22 +33,38 @@ void add(const Json& object, const char* member, const std::string& pointer, Mar
         io.push_back({pointer + "/" + member, kind, begin + found->get<double>(), begin});
 }
 
+/// Local time [s] of the first birth that needs no event of another emitter; empty: there is none.
+std::optional<double> firstBirth(const Json& emission)
+{
+    const auto numberOf = [](const Json& object, const char* name) {
+        const auto found = object.find(name);
+        return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
+    };
+    std::optional<double> first;
+    if (numberOf(emission, "rate") > 0.0)
+        first = numberOf(emission, "start");
+    forEachIn(emission, "bursts", "", [&](const Json& burst, const std::string&) {
+        const double time = numberOf(burst, "time");
+        first = std::min(first.value_or(time), time);
+    });
+    return first;
+}
+
 void addElement(const Json& element, const std::string& pointer, std::vector<TimeMark>& io)
 {
     add(element, "start", pointer, MarkKind::Start, 0.0, io);
-    double first = 0.0; // birth
-    if (const auto emission = element.find("emission"); emission != element.end() && emission->is_object()) {
-        const std::string at = pointer + "/emission";
-        add(*emission, "start", at, MarkKind::Start, 0.0, io);
-        const Json start = emission->value("start", Json(0.0));
-        first = start.is_number() ? start.get<double>() : 0.0;
-        forEachIn(*emission, "bursts", at, [&](const Json& burst, const std::string& where) {
-            add(burst, "time", where, MarkKind::Burst, 0.0, io);
-        });
-    }
-    forEachIn(element, "events", pointer, [&](const Json& event, const std::string& where) {
-        add(event, "age", where, MarkKind::Event, first, io);
+    const auto emission = element.find("emission");
+    if (emission == element.end() || !emission->is_object())
+        return;
+    const std::string at = pointer + "/emission";
+    add(*emission, "start", at, MarkKind::Start, 0.0, io);
+    forEachIn(*emission, "bursts", at, [&](const Json& burst, const std::string& where) {
+        add(burst, "time", where, MarkKind::Burst, 0.0, io);
     });
+    if (const std::optional<double> first = firstBirth(*emission))
+        forEachIn(element, "events", pointer, [&](const Json& event, const std::string& where) {
+            add(event, "age", where, MarkKind::Event, *first, io);
+        });
 }
 
 } // namespace

@@ -13,7 +13,9 @@ enum class MarkKind
 {
     Start,
     Burst,
-    Event ///< at an age of the first particle that the emitter gives birth to
+    /// At an age of the first particle of a rate or burst. Emitters whose particles are born of events alone
+    /// have no such mark.
+    Event
 };
 
 struct TimeMark
