@@ -57,6 +57,10 @@ int main(int argc, char** argv)
         ImGui_ImplOpenGL3_NewFrame();
         ImGui::NewFrame();
         ImGui::GetBackgroundDrawList()->AddText({8.0f, 8.0f}, IM_COL32_WHITE, "the game");
+        ImGui::SetNextWindowPos({0.0f, 0.0f}); // a window of the game with the name of a panel
+        ImGui::SetNextWindowSize({70.0f, 50.0f});
+        ImGui::Begin("Inspector");
+        ImGui::End();
         editor->draw(1.0 / 60.0, 80.0f, 60.0f, 1200.0f, 740.0f); // the game shows in the rest
         ImGui::Render();
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -67,17 +71,19 @@ int main(int argc, char** argv)
     std::vector<unsigned char> pixels(size_t(kWidth) * kHeight * 4);
     glGetTextureImage(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(pixels.size()), pixels.data());
     // Rows begin at the bottom. The margin of the game stays black; bright fire is in the picture of the
-    // editor.
-    size_t margin = 0, bright = 0;
+    // editor, whose inspector is in its right third.
+    size_t margin = 0, bright = 0, inspector = 0;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const unsigned char* p = &pixels[(size_t(y) * kWidth + size_t(x)) * 4];
             margin += x < 80 && y < kHeight - 60 && p[0] + p[1] + p[2] > 0 ? 1 : 0;
+            inspector += x > 1000 && x < 1270 && y > 20 && y < 600 && p[0] + p[1] + p[2] > 0 ? 1 : 0;
             bright += p[0] > 240 && p[1] > 170 && p[2] < 170 ? 1 : 0;
         }
-    std::printf("%u particles, %zu bright pixels, %zu pixels of the margin, error %u\n", editor->particles(),
-                bright, margin, glGetError());
-    const bool isDrawn = editor->particles() > 50 && bright > 200 && margin == 0;
+    std::printf(
+        "%u particles, %zu bright pixels, %zu pixels of the margin, %zu pixels of the inspector, error %u\n",
+        editor->particles(), bright, margin, inspector, glGetError());
+    const bool isDrawn = editor->particles() > 50 && bright > 200 && margin == 0 && inspector > 100000;
     editor->close();
     return isDrawn && !editor->isDirty() && !editor->text().empty() ? 0 : 6;
 }

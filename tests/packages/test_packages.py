@@ -148,6 +148,9 @@ class Editor(unittest.TestCase):
 
     def test_a_game_opens_the_editor_inside_of_itself(self):
         if not (BUILD / "lib/libfx_editor.a").exists():
+            cache = (BUILD / "CMakeCache.txt").read_text()
+            isWanted = all(re.search(line, cache, re.M) for line in (r"^FXSDK_IMGUI_LIBRARY:\w+=/", r"^FXSDK_EDITOR:BOOL=ON"))
+            self.assertFalse(isWanted, "the build has found Dear ImGui, but there is no lib/libfx_editor.a: build fx_editor")
             self.skipTest("this build has no panels: Dear ImGui was missing")
         folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, folder)
@@ -157,11 +160,14 @@ class Editor(unittest.TestCase):
         game.mkdir()
         shutil.copy(HERE / "consumer_editor.cpp", game)
         shutil.copy(HERE / "CMakeLists.editor.txt.in", game / "CMakeLists.txt")
-        run("cmake", "-G", "Ninja", "-S", game, "-B", game / "build", f"-DCMAKE_PREFIX_PATH={folder / 'sdk'}", "-DCMAKE_UNITY_BUILD=ON")
+        configure = ("cmake", "-G", "Ninja", "-S", game, f"-DCMAKE_PREFIX_PATH={folder / 'sdk'}", "-DCMAKE_UNITY_BUILD=ON")
+        with self.assertRaisesRegex(AssertionError, r"fxsdk_add_editor:\s+<glm/glm.hpp>\s+is\s+missing;\s+install\s+libglm-dev"):
+            run(*configure, "-B", folder / "without", "-DCMAKE_IGNORE_PATH=/usr/include")
+        run(*configure, "-B", game / "build")
         run("cmake", "--build", game / "build")
         preset = shutil.copy(ROOT / "fxsdk/presets/library/campfire.fx.json", game)
         out = run(game / "build/game", preset, folder / "recovery", cwd=folder)
-        self.assertRegex(out, r"^\d+ particles, \d+ bright pixels, 0 pixels of the margin, error 0")
+        self.assertRegex(out, r"^\d+ particles, \d+ bright pixels, 0 pixels of the margin, \d+ pixels of the inspector, error 0")
         self.assertFalse(list(folder.glob("sdk/share/fxsdk/editor/fxsdk/editor/program")))  # windows stay outside
 
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
+#include <string>
 
 namespace fx::editor {
 
@@ -14,13 +16,21 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_N
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+/// Names of windows are global in ImGui: those of a game and of another editor must differ.
+std::string windowName(const PanelState& state, const char* title)
+{
+    char id[64];
+    std::snprintf(id, sizeof id, "###fxsdk %p ", static_cast<const void*>(&state));
+    return std::string(title) + id + title;
+}
+
 template <class Contents>
-void panelWindow(const char* title, float x, float y, float width, float height, ImGuiWindowFlags flags,
+void panelWindow(const std::string& name, float x, float y, float width, float height, ImGuiWindowFlags flags,
                  Contents&& contents)
 {
     ImGui::SetNextWindowPos({x, y});
     ImGui::SetNextWindowSize({std::max(width, 32.0f), std::max(height, 32.0f)});
-    if (ImGui::Begin(title, nullptr, kFixed | flags))
+    if (ImGui::Begin(name.c_str(), nullptr, kFixed | flags))
         contents();
     ImGui::End();
 }
@@ -106,7 +116,7 @@ void drawEditor(PanelState& state, ImVec2 low, ImVec2 size)
     const float lower = std::max(size.y * 0.26f, line * 11.0f);
     const auto window = [&](const char* title, float x, float y, float w, float h, ImGuiWindowFlags flags,
                             auto&& contents) {
-        panelWindow(title, low.x + x, low.y + y, w, h, flags, contents);
+        panelWindow(windowName(state, title), low.x + x, low.y + y, w, h, flags, contents);
     };
     window("Commands", 0, 0, size.x, top, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar,
            [&] { topBar(state); });
@@ -120,7 +130,7 @@ void drawEditor(PanelState& state, ImVec2 low, ImVec2 size)
            [&] { lowerTabs(state); });
     if (state.session.recovery() || state.session.conflict()) {
         ImGui::SetNextWindowPos({low.x + left + 24.0f, low.y + top + 48.0f});
-        if (ImGui::Begin("Question", nullptr,
+        if (ImGui::Begin(windowName(state, "Question").c_str(), nullptr,
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                              ImGuiWindowFlags_NoCollapse))
             questionPanel(state);
