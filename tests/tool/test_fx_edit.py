@@ -249,6 +249,37 @@ shot {folder}/hidden.png
         self.assertNotEqual(self.view("error.png", outcome.out), plain)
         self.assertEqual(self.view("hidden.png", outcome.out).rows[30:], plain.rows[30:])
 
+    def test_the_error_of_a_playing_effect_is_that_of_the_moment_of_the_click(self):
+        stated = r"error of ([\d.]+) s, .*"
+        playing = re.search(stated, self.small("time 0.5\nkey space\nframes 20\nclick error\ncompared\n").out)
+        self.assertGreater(float(playing[1]), 0.8)
+        still = re.search(stated, self.small(f"time {playing[1]}\nclick error\ncompared\n").out)
+        self.assertEqual(playing[0], still[0])
+        self.assertNotIn("before", still[0])
+
+    def test_an_error_does_not_hide_later_edits(self):
+        edit = "click /emitters/0/radius/0\ntype 0.6\nkey enter\n"
+        outcome = self.small("time 1\nplaces\nclick select/emitters/0\nclick error\ncompared\n"
+                             f"{edit}compared\nshot {{folder}}/after.png\nclick error/shown\nshot {{folder}}/error.png\n")
+        self.assertRegex(outcome.out, "(?m)^error of 1.00 s.*, before the last change of the picture$")
+        self.small(f"time 1\nclick select/emitters/0\n{edit}shot {{folder}}/plain.png\n")
+        after, error, plain = (self.view(f"{name}.png", outcome.out) for name in ("after", "error", "plain"))
+        self.assertEqual(after.rows[30:], plain.rows[30:])
+        self.assertNotEqual(error.rows[30:], plain.rows[30:])
+
+    def test_a_size_of_zero_is_dragged_beside_the_position(self):
+        preset = self.write("zero.fx.json", SMALL.replace('"size": 0.4', '"size": 0'))
+        events = self.write("events.txt", f"click select/emitters/0\ndrag handle/emitters/0/size 40 0\n"
+                                          f"text {self.folder}/dragged.fx.json\n")
+        outcome = fx("edit", preset, "--headless", "--width", 960, "--height", 640, "--script", events,
+                     "--recovery", self.folder / "recovery")
+        if "has no editor" in outcome.err:
+            self.skipTest(outcome.err)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        emitter = json.loads(self.read("dragged.fx.json"))["emitters"][0]
+        self.assertGreater(emitter["size"], 0.1)
+        self.assertEqual(emitter["position"], [0, 1, 0])
+
     def test_a_comparison_with_the_reference_can_be_cancelled(self):
         outcome = self.small("time 1\nclick error\nclick error/cancel\ncompared\n")
         self.assertIn("cancelled", outcome.out)

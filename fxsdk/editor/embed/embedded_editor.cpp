@@ -6,6 +6,7 @@
 #include "fxsdk/editor/preview/why_invisible.h"
 #include "fxsdk/scene_file/stages.h"
 #include "rendering/gl/gl_read_texture.h"
+#include "rendering/gl/gl_unpack_scope.h"
 #include "rendering/image/image.h"
 
 #include <imgui.h>
@@ -22,6 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kErrorWidth = 160; // [pixel] of the comparison with the reference renderer
+constexpr const char* kOldError = ", before the last change of the picture";
 
 PreviewFrame frameOf(const Session& session, ImVec2 size)
 {
@@ -106,6 +108,25 @@ EmbeddedEditor::PictureKey EmbeddedEditor::keyOf(const PreviewFrame& frame) cons
             frame.height,      frame.exposureEv100,       session_->overlays};
 }
 
+/// Of the present picture without its overlays.
+EmbeddedEditor::PictureKey EmbeddedEditor::keyOfMoment() const
+{
+    PictureKey key = keyOf(frameOf(*session_, state_->pictureSize));
+    key.overlays = {};
+    return key;
+}
+
+/// An error belongs to one moment, camera and state of the document.
+void EmbeddedEditor::hideOldError()
+{
+    if (!errorKey_ || *errorKey_ == keyOfMoment())
+        return;
+    errorKey_.reset();
+    state_->error.isShown = false;
+    if (!reference_)
+        state_->error.text += kOldError;
+}
+
 /// Takes over the document and draws the picture, where something has changed. The answer to an edit is in
 /// the frame after it.
 void EmbeddedEditor::updatePicture()
@@ -115,6 +136,7 @@ void EmbeddedEditor::updatePicture()
         showDocument(revision);
     const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
     const PictureKey key = keyOf(frame);
+    hideOldError();
     if (key == pictureKey_ || !preview_->hasScene())
         return;
     pictureKey_ = key;
@@ -142,7 +164,7 @@ void EmbeddedEditor::updateBefore()
     if (!before_) {
         auto before = Preview::create(loader_);
         if (!before) {
-            picture.beforeFailure = before.status().message();
+            session_->message = "There is no picture of before. " + before.status().message();
             session_->comparison.isShown = false;
             return;
         }
@@ -172,21 +194,29 @@ void EmbeddedEditor::updateBefore()
     picture.beforeTexture = before_->texture();
 }
 
-/// Draws the present moment small and as light, and begins the reference of it.
+/// Draws the present moment small and as light, and begins the reference of it. Stops playing, so that the
+/// picture stays at this moment.
 base::Status EmbeddedEditor::startError()
 {
+    session_->playback.isPlaying = false;
+    if (const uint64_t revision = session_->shownRevision(); revision != shownRevision_)
+        showDocument(revision);
+    errorTime_ = session_->playback.time();
+    errorKey_ = keyOfMoment();
+    pictureKey_.reset(); // the next frame draws the picture again
+    if (base::Status status = preview_->seek(errorTime_); !status)
+        return status;
     PreviewFrame frame = frameOf(*session_, state_->pictureSize);
     frame.height = std::max(frame.height * kErrorWidth / std::max(frame.width, 1), 8);
     frame.width = kErrorWidth;
     frame.isLinear = true;
-    pictureKey_.reset(); // the next frame draws the picture again
     if (base::Status status = preview_->render(frame); !status)
         return status;
     cli::Picture small = cli::fromBottomUp(
         frame.width, frame.height, 3,
         render::readTexture(preview_->device(), preview_->texture(), frame.width, frame.height, 3));
-    reference_ = std::make_unique<ReferenceRun>(preview_->scene(), session_->playback.time(), frame,
-                                                std::move(small.pixels));
+    reference_ =
+        std::make_unique<ReferenceRun>(preview_->scene(), errorTime_, frame, std::move(small.pixels));
     return {};
 }
 
@@ -200,15 +230,20 @@ void EmbeddedEditor::showError(const ErrorPicture& error)
     gl.TextureParameteri(errorTexture_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl.TextureParameteri(errorTexture_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     const std::vector<uint8_t> colors = errorColors(error);
+    const render::GlUnpackScope unpack(gl);
     gl.TextureSubImage2D(errorTexture_, 0, 0, 0, error.width, error.height, GL_RGBA, GL_UNSIGNED_BYTE,
                          colors.data());
     ErrorState& state = state_->error;
     state.texture = errorTexture_;
-    state.isShown = true;
+    state.isShown = errorKey_.has_value();
     char text[160];
     std::snprintf(text, sizeof text, "error of %.2f s, %dx%d: mean %.4f, p99 %.4f, largest %.4f of white",
-                  session_->playback.time(), error.width, error.height, error.mean, error.p99, error.largest);
+                  errorTime_, error.width, error.height, error.mean, error.p99, error.largest);
     state.text = text;
+    if (error.notFinite > 0)
+        state.text += ", " + std::to_string(error.notFinite) + " pixels are no numbers";
+    if (!state.isShown)
+        state.text += kOldError;
 }
 
 void EmbeddedEditor::updateError()
@@ -216,7 +251,9 @@ void EmbeddedEditor::updateError()
     ErrorState& state = state_->error;
     if (std::exchange(state.isAsked, false) && !reference_ && preview_->hasScene()) {
         const base::Status status = startError();
-        state.text = status.ok() ? std::string() : status.message();
+        state.text = status.message();
+        if (!status.ok())
+            errorKey_.reset();
     }
     if (std::exchange(state.isStopped, false) && reference_)
         reference_->stop();
@@ -226,10 +263,12 @@ void EmbeddedEditor::updateError()
     state.progress = reference_->progress();
     if (!reference_->isDone())
         return;
-    if (const auto& result = reference_->result(); result)
+    if (const auto& result = reference_->result(); result) {
         showError(*result);
-    else
+    } else {
         state.text = result.status().message();
+        errorKey_.reset();
+    }
     reference_.reset();
     state.isRunning = false;
 }

@@ -73,6 +73,8 @@ private:
     void showDocument(uint64_t revision);
     void takeCamera();
     PictureKey keyOf(const PreviewFrame& frame) const;
+    PictureKey keyOfMoment() const;
+    void hideOldError();
     void updatePicture();
     void updateBefore();
     void updateError();
@@ -97,6 +99,8 @@ private:
     std::optional<PictureKey> beforeKey_;
 
     std::unique_ptr<ReferenceRun> reference_; ///< while it runs
+    double errorTime_ = 0.0;                  ///< [s] of the timeline that it compares
+    std::optional<PictureKey> errorKey_; ///< of the moment that it compares; empty: the picture has changed
     uint32_t errorTexture_ = 0;
     render::GlLoader loader_;
 };
