@@ -16,22 +16,19 @@ namespace {
 constexpr int kDirections = 8;
 constexpr size_t kMostRays = 256, kLeastRays = 8; ///< of a direction
 constexpr size_t kEnoughRays = 64;                ///< that meet medium
+constexpr size_t kFewRays = 32;                   ///< that meet medium, below which rays are aimed at balls
 constexpr size_t kRayBalls = size_t(1) << 19;     ///< rays of a direction times balls, about
-constexpr float kCovered = 0.01f;                 ///< [1] opacity from which on a ray counts
-constexpr float kTurn = 0.005f;                   ///< [rad] by which the slope of opacity is measured
-constexpr int kTileCells = 16;                    ///< across a block, of the colors of a tile
-constexpr int kCells = 48;                        ///< likewise, of which the truth is computed
-constexpr float kDensityStep = 1.1892071f;        ///< 2^0.25: a tile may be of a density as much off
-constexpr uint64_t kBallsOfFrame = 1 << 14;       ///< that are predicted in a frame, about
-constexpr size_t kMostEntries = 4096;
-constexpr uint64_t kUnusedFrames = 240;
-
-/// [1] Errors are predicted from few rays.
-constexpr float kSafety = 1.2f;
-/// [1] Standard deviations of the mean square of as many rays as a block has pixels.
-constexpr float kDeviations = 4.0f;
-/// [rad] about the largest difference of directions in the finest cell
-constexpr float kFinestAngle = 4.2f / float(kMaxDirectionCells);
+/// Rays of all directions below which an error is not known.
+constexpr double kLeastCovered = 16.0;
+constexpr float kCovered = 0.01f;          ///< [1] opacity from which on a ray counts
+constexpr float kTurn = 0.005f;            ///< [rad] by which the slope of opacity is measured
+constexpr int kTileCells = 16;             ///< across a block, of the colors of a tile
+constexpr int kCells = 48;                 ///< likewise, of which the truth is computed
+constexpr float kDensityStep = 1.1892071f; ///< 2^0.25: a tile may be of a density as much off
+/// Times of the work on a ray that meets medium, and on each of the balls that it meets, over that of the
+/// comparison with a ball.
+constexpr uint64_t kWorkOfRay = 500, kWorkOfBall = 100, kWorkOfColoredRay = 8000, kWorkOfColoredBall = 600;
+constexpr uint64_t kWorkOfDirection = 1 << 20; ///< beyond it, kLeastRays are enough
 
 /// A ball in the axes of a direction.
 struct SeenBall
@@ -76,10 +73,10 @@ struct PowerSums
 {
     double squares = 0.0, fourths = 0.0;
 
-    void add(double square)
+    void add(double square, double weight)
     {
-        squares += square;
-        fourths += square * square;
+        squares += weight * square;
+        fourths += weight * square * square;
     }
 };
 
@@ -88,14 +85,30 @@ struct Squares
 {
     std::array<PowerSums, kTileSizes> texels{};
     PowerSums shift, albedo, light;
-    uint32_t rays = 0;  ///< that are covered
-    uint32_t tried = 0; ///< all
+    double weight = 0.0; ///< sum of the weights of rays that are covered
+    double rays = 0.0;   ///< number of these
+    double area = 0.0;   ///< share of the cross section of the block that they stand for
 };
-using SquaresOfDensities = std::array<Squares, std::tuple_size_v<TileErrors>>;
+using SquaresOfDensities = std::array<Squares, 2 * kDensityPower + 1>;
 
-float densityOf(size_t power)
+size_t raysOf(size_t balls)
 {
-    return std::exp2(float(int(power) - kDensityPower));
+    return std::clamp(kRayBalls / std::max<size_t>(balls, 1), kLeastRays, kMostRays);
+}
+
+/// Power of 2 of the first density, so that the mean depth of content at the middle one is about 1.
+int lowestPower(std::span<const BlockBall> balls, float radius)
+{
+    double section = 0.0, depth = 0.0;
+    for (const BlockBall& ball : balls) {
+        section += double(ball.medium.w);
+        depth += double(ball.medium.w) * double(ball.medium.w) /
+                 std::max(double(ball.place.w * ball.place.w), 1e-30);
+    }
+    const double ofBlock = section / (std::numbers::pi * std::max(double(radius * radius), 1e-30));
+    const double ofBalls = depth / std::max(section * std::numbers::pi, 1e-30);
+    const double typical = std::clamp(std::max(ofBlock, ofBalls), 1e-9, 1e9);
+    return -int(std::lround(std::log2(typical))) - kDensityPower;
 }
 
 /// What a ray meets, cell by cell across the block.
@@ -161,10 +174,13 @@ double meanSquare(const glm::vec3& v)
 class DirectionRays
 {
 public:
-    DirectionRays(std::span<const BlockBall> balls, float radius, bool isColored)
-        : balls_(balls), radius_(radius), isColored_(isColored)
+    DirectionRays(std::span<const BlockBall> balls, float radius, bool isColored, int lowest)
+        : balls_(balls), radius_(radius), lowest_(lowest), isColored_(isColored)
     {
         seen_.reserve(balls.size());
+        areas_.reserve(balls.size());
+        for (const BlockBall& ball : balls)
+            areas_.push_back((areas_.empty() ? 0.0 : areas_.back()) + double(ball.place.w * ball.place.w));
     }
 
     SquaresOfDensities run(int number, size_t rays)
@@ -180,22 +196,21 @@ public:
                  1.11408460164327f * balls_[i].medium.w,
                  i});
         }
-        squares_ = {};
-        size_t met = 0, ray = 0;
-        for (; ray < rays && met < kEnoughRays; ++ray) {
-            // Evenly over the disk, however many there are: additive recurrence by powers of the plastic
-            // number.
-            const float away = radius_ * std::sqrt(glm::fract(0.5f + 0.7548777f * float(ray)));
-            const float turn = 2.0f * std::numbers::pi_v<float> *
-                               glm::fract(0.5698403f * float(ray) + 0.13f * float(number));
-            met += add(away * glm::vec2(std::cos(turn), std::sin(turn)), 7.0f * turn) ? 1 : 0;
-        }
-        for (Squares& squares : squares_)
-            squares.tried = uint32_t(ray);
+        const uint64_t before = work_;
+        const size_t met = runOverDisk(number, rays);
+        if (met < std::min(kFewRays, rays / 2) && !isEnough(met, before))
+            runAtBalls(number, std::min(rays, kEnoughRays));
         return squares_;
     }
 
+    uint64_t work() const { return work_; } ///< of all directions
+
 private:
+    bool isEnough(size_t met, uint64_t before) const
+    {
+        return met >= kEnoughRays || (met >= kLeastRays && work_ - before > kWorkOfDirection);
+    }
+
     glm::vec3 middleOfBalls() const
     {
         glm::vec3 sum(0.0f);
@@ -207,8 +222,49 @@ private:
         return sum / std::max(section, 1e-20f);
     }
 
+    /// @return number of rays that meet medium
+    size_t runOverDisk(int number, size_t rays)
+    {
+        squares_ = {};
+        size_t met = 0, ray = 0;
+        for (const uint64_t before = work_; ray < rays && !isEnough(met, before); ++ray) {
+            // Evenly over the disk, however many there are: additive recurrence by powers of the plastic
+            // number.
+            const float away = radius_ * std::sqrt(glm::fract(0.5f + 0.7548777f * float(ray)));
+            const float turn = 2.0f * std::numbers::pi_v<float> *
+                               glm::fract(0.5698403f * float(ray) + 0.13f * float(number));
+            met += add(away * glm::vec2(std::cos(turn), std::sin(turn)), 7.0f * turn, false) ? 1 : 0;
+        }
+        for (Squares& squares : squares_)
+            squares.area = squares.weight / double(std::max<size_t>(ray, 1));
+        return met;
+    }
+
+    /// Rays through any places of any balls. A place in as many balls is met as often, so that it weighs one
+    /// over their number: the means are those over the area.
+    void runAtBalls(int number, size_t rays)
+    {
+        squares_ = {};
+        size_t ray = 0;
+        for (const uint64_t before = work_; ray < rays && !isEnough(ray, before); ++ray) {
+            // The same in three dimensions.
+            const double at =
+                glm::fract(0.5 + 0.8191725 * double(ray) + 0.37 * double(number)) * areas_.back();
+            const auto place = std::upper_bound(areas_.begin(), areas_.end() - 1, at) - areas_.begin();
+            const SeenBall& ball = seen_[size_t(place)];
+            const float away = ball.radius * std::sqrt(glm::fract(0.5f + 0.6710436f * float(ray)));
+            const float turn = 2.0f * std::numbers::pi_v<float> *
+                               glm::fract(0.5497005f * float(ray) + 0.13f * float(number));
+            add(glm::vec2(ball.center) + away * glm::vec2(std::cos(turn), std::sin(turn)), 7.0f * turn, true);
+        }
+        for (Squares& squares : squares_)
+            squares.area =
+                std::min(squares.weight / double(ray) * areas_.back() / double(radius_ * radius_), 1.0);
+    }
+
+    /// @param isAimed whether the ray weighs one over the number of balls that it meets
     /// @return whether the ray meets medium
-    bool add(const glm::vec2& p, float turn)
+    bool add(const glm::vec2& p, float turn, bool isAimed)
     {
         const float coarsest = 2.0f * radius_ / float(kMinTile - 1);
         met_.clear();
@@ -217,9 +273,13 @@ private:
             if (std::abs(ball.center.x - p.x) < reach && std::abs(ball.center.y - p.y) < reach)
                 met_.push_back(ball);
         }
-        const float depth = along(p, glm::vec2(0.0f), 0.0f).depth;
+        work_ += seen_.size() + met_.size() * (isColored_ ? kWorkOfColoredBall : kWorkOfBall) +
+                 (isColored_ ? kWorkOfColoredRay : kWorkOfRay);
+        const Passed passed = along(p, glm::vec2(0.0f), 0.0f);
+        const float depth = passed.depth;
         if (!(depth > 0.0f))
             return false;
+        const double weight = isAimed ? 1.0 / double(passed.balls) : 1.0;
         std::array<float, kTileSizes> ofTiles{};
         for (size_t size = 0; size < kTileSizes; ++size)
             ofTiles[size] = interpolated(p, kMinTile << size);
@@ -228,36 +288,39 @@ private:
         const float ofTurned = along(p, turned, along(p, turned, middle_).middle).depth;
         const RayCells cells = isColored_ ? cellsOf(p) : RayCells();
         for (size_t power = 0; power < squares_.size(); ++power)
-            addSquares(densityOf(power), depth, ofTiles, ofTurned, cells, squares_[power]);
+            addSquares(std::exp2(float(lowest_ + int(power))), depth, weight, ofTiles, ofTurned, cells,
+                       squares_[power]);
         return true;
     }
 
-    void addSquares(float density, float depth, const std::array<float, kTileSizes>& ofTiles, float ofTurned,
-                    const RayCells& cells, Squares& io) const
+    void addSquares(float density, float depth, double weight, const std::array<float, kTileSizes>& ofTiles,
+                    float ofTurned, const RayCells& cells, Squares& io) const
     {
         const float clear = std::exp(-density * depth);
         if (1.0f - clear < kCovered)
             return;
-        ++io.rays;
+        io.rays += 1.0;
+        io.weight += weight;
         const auto square = [&](float other) {
             const double difference = double(std::exp(-density * std::max(other, 0.0f)) - clear);
             return difference * difference;
         };
         for (size_t size = 0; size < kTileSizes; ++size)
-            io.texels[size].add(square(ofTiles[size]));
-        io.shift.add(square(ofTurned) / double(kTurn * kTurn));
+            io.texels[size].add(square(ofTiles[size]), weight);
+        io.shift.add(square(ofTurned) / double(kTurn * kTurn), weight);
         if (!isColored_)
             return;
         const SeenColor truth = seenThrough(cells, density);
         const SeenColor tile = seenOfTile(cells, density, 1.0f - clear);
-        io.albedo.add(meanSquare(tile.albedo - truth.albedo));
-        io.light.add(meanSquare(tile.light - truth.light));
+        io.albedo.add(meanSquare(tile.albedo - truth.albedo), weight);
+        io.light.add(meanSquare(tile.light - truth.light), weight);
     }
 
     struct Passed
     {
         float depth = 0.0f;  ///< [1]
         float middle = 0.0f; ///< [m] of the medium, before or behind the center of the block
+        uint32_t balls = 0;  ///< that it meets
     };
     /// Along a ray of another direction that crosses this one at a depth [m].
     Passed along(const glm::vec2& p, const glm::vec2& turned, float crossing) const
@@ -267,6 +330,7 @@ private:
             const float of =
                 depthAt(ball, glm::vec2(ball.center) - p - (ball.center.z - crossing) * turned, 0.0f);
             passed.depth += of;
+            passed.balls += of > 0.0f ? 1 : 0;
             passed.middle += of * ball.center.z;
         }
         passed.middle = passed.depth > 0.0f ? passed.middle / passed.depth : middle_;
@@ -319,7 +383,10 @@ private:
     std::span<const BlockBall> balls_;
     float radius_;
     float middle_ = 0.0f; ///< [m] depth of the middle of the content
+    int lowest_;          ///< power of 2 of the first density
     bool isColored_;
+    uint64_t work_ = 0;
+    std::vector<double> areas_; ///< [m2] sums of the squares of the radii up to each ball
     std::vector<SeenBall> seen_, met_;
     SquaresOfDensities squares_{};
 };
@@ -328,14 +395,14 @@ private:
 class OverDirections
 {
 public:
-    void add(const PowerSums& sums, uint32_t rays)
+    void add(const PowerSums& sums, double weight)
     {
-        if (rays == 0)
+        if (!(weight > 0.0))
             return;
-        const double mean = sums.squares / double(rays);
+        const double mean = sums.squares / weight;
         sum_ += mean;
         squares_ += mean * mean;
-        fourths_ += sums.fourths / double(rays);
+        fourths_ += sums.fourths / weight;
         ++count_;
     }
     ErrorPart part() const
@@ -349,152 +416,51 @@ private:
     double sum_ = 0.0, squares_ = 0.0, fourths_ = 0.0, count_ = 0.0;
 };
 
-ErrorPart mixed(const ErrorPart& a, const ErrorPart& b, float t)
-{
-    return {glm::mix(a.rms, b.rms, t), glm::mix(a.tail, b.tail, t)};
-}
-
-TileError mixed(const TileError& a, const TileError& b, float t)
-{
-    TileError out;
-    for (size_t i = 0; i < kTileSizes; ++i)
-        out.texels[i] = mixed(a.texels[i], b.texels[i], t);
-    out.shift = mixed(a.shift, b.shift, t);
-    out.albedo = mixed(a.albedo, b.albedo, t);
-    out.light = mixed(a.light, b.light, t);
-    out.covered = glm::mix(a.covered, b.covered, t);
-    return out;
-}
-
-float squareOf(float x)
-{
-    return x * x;
-}
-
 } // namespace
 
 TileErrors predictTileErrors(std::span<const BlockBall> balls, float radius, bool isColored)
 {
-    const size_t rays = std::clamp(kRayBalls / std::max<size_t>(balls.size(), 1), kLeastRays, kMostRays);
-    std::array<SquaresOfDensities, kDirections> all;
-    DirectionRays direction(balls, radius, isColored);
-    for (int i = 0; i < kDirections; ++i)
-        all[size_t(i)] = direction.run(i, rays);
     TileErrors errors;
-    for (size_t power = 0; power < errors.size(); ++power) {
+    if (balls.empty())
+        return errors;
+    errors.lowest = lowestPower(balls, radius);
+    std::array<SquaresOfDensities, kDirections> all;
+    DirectionRays direction(balls, radius, isColored, errors.lowest);
+    for (int i = 0; i < kDirections; ++i)
+        all[size_t(i)] = direction.run(i, raysOf(balls.size()));
+    errors.work = direction.work();
+    for (size_t power = errors.ofPowers.size(); power-- > 0;) {
+        TileError& error = errors.ofPowers[power];
+        double rays = 0.0, area = 0.0;
+        for (const SquaresOfDensities& of : all) {
+            rays += of[power].rays;
+            area += of[power].area;
+        }
+        error.covered = float(area / double(kDirections));
+        if (rays < kLeastCovered) {
+            // Denser content of as many rays errs by no less.
+            const float covered = error.covered;
+            if (power + 1 < errors.ofPowers.size())
+                error = errors.ofPowers[power + 1];
+            else
+                error.texels.fill({1.0f, 1.0f});
+            error.covered = covered;
+            continue;
+        }
+        error.rays = float(rays);
         const auto partOf = [&](auto sumsOf) {
             OverDirections over;
             for (const SquaresOfDensities& of : all)
-                over.add(sumsOf(of[power]), of[power].rays);
+                over.add(sumsOf(of[power]), of[power].weight);
             return over.part();
         };
         for (size_t size = 0; size < kTileSizes; ++size)
-            errors[power].texels[size] = partOf([size](const Squares& s) { return s.texels[size]; });
-        errors[power].shift = partOf([](const Squares& s) { return s.shift; });
-        errors[power].albedo = partOf([](const Squares& s) { return s.albedo; });
-        errors[power].light = partOf([](const Squares& s) { return s.light; });
-        double met = 0.0, tried = 0.0;
-        for (const SquaresOfDensities& of : all) {
-            met += double(of[power].rays);
-            tried += double(of[power].tried);
-        }
-        errors[power].covered = float(met / std::max(tried, 1.0));
+            error.texels[size] = partOf([size](const Squares& s) { return s.texels[size]; });
+        error.shift = partOf([](const Squares& s) { return s.shift; });
+        error.albedo = partOf([](const Squares& s) { return s.albedo; });
+        error.light = partOf([](const Squares& s) { return s.light; });
     }
     return errors;
-}
-
-TileError errorAt(const TileErrors& errors, float density)
-{
-    const float power = std::log2(std::max(density, 1e-20f)) + float(kDensityPower);
-    if (power <= 0.0f) {
-        TileError none;
-        none.covered = errors.front().covered;
-        return mixed(none, errors.front(), std::exp2(power));
-    }
-    const float place = std::min(power, float(errors.size() - 1));
-    const auto below = std::min(size_t(place), errors.size() - 2);
-    return mixed(errors[below], errors[below + 1], place - float(below));
-}
-
-TileSource sourceOf(const BlockContent& content, float exposure)
-{
-    // How media will be lit is not known: they count as white where they scatter everything.
-    const glm::vec3 value = exposure * content.light + content.albedo;
-    return {exposure, float(std::sqrt(meanSquare(value)))};
-}
-
-TileChoice chooseTile(const TileError& error, const TileSource& source, const TileView& view, float limit)
-{
-    const float pixels =
-        std::max(0.25f * std::numbers::pi_v<float> * squareOf(view.pixels) * error.covered, 1.0f);
-    const float ofTail = kDeviations / std::sqrt(pixels);
-    const auto of = [&](const ErrorPart& part) {
-        return std::sqrt(squareOf(part.rms) + ofTail * squareOf(part.tail));
-    };
-    // Tiles of near blocks are wider, and errors of interpolation proportional to the square of a texel.
-    const float wider = 1.0f / (1.0f - squareOf(std::min(view.nearness, kMaxNearness)));
-    const float color = source.exposure * of(error.light) + of(error.albedo);
-    const float shift = source.value * of(error.shift);
-    const float most = squareOf(limit / kSafety);
-    const auto ofTexels = [&](size_t size) {
-        return squareOf(color) + squareOf(source.value * wider * of(error.texels[size]));
-    };
-    TileChoice choice;
-    choice.least = kSafety * std::sqrt(ofTexels(kTileSizes - 1) + squareOf(shift * kFinestAngle));
-    size_t size = 0;
-    while (size + 1 < kTileSizes && ofTexels(size) > 0.5f * most)
-        ++size;
-    choice.texels = kMinTile << size;
-    const float rest = std::sqrt(std::max(most - ofTexels(size), 0.0f));
-    choice.angle = std::max(rest / std::max(shift, 1e-6f), kFinestAngle);
-    return choice;
-}
-
-void BlockErrors::begin(bool isSpread)
-{
-    isSpread_ = isSpread;
-    ++frame_;
-    work_ = 0;
-    deferred_ = 0;
-    if (entries_.size() > kMostEntries)
-        std::erase_if(entries_,
-                      [&](const auto& entry) { return entry.second.frame + kUnusedFrames < frame_; });
-}
-
-const TileErrors* BlockErrors::find(uint32_t variant, const BlockContents& contents, double seconds)
-{
-    const BlockContent& content = contents.of(variant);
-    const auto known = entries_.find(content.identity);
-    const bool isKnown = known != entries_.end();
-    const double passed = isKnown && content.isAnimated ? std::abs(seconds - known->second.seconds) : 0.0;
-    if (!isKnown || passed > kSeconds) {
-        if (isSpread_ && work_ > kBallsOfFrame) {
-            ++deferred_;
-            return isKnown ? &known->second.shown : nullptr;
-        }
-        Entry& entry = entries_[content.identity];
-        predict(variant, contents, entry.to);
-        entry.from = isKnown && passed <= 4.0 * kSeconds ? entry.shown : entry.to; // after a jump, at once
-        entry.shown = entry.from;
-        entry.seconds = seconds;
-        entry.frame = frame_;
-        return &entry.shown;
-    }
-    Entry& entry = known->second;
-    entry.frame = frame_;
-    if (content.isAnimated)
-        for (size_t i = 0; i < entry.shown.size(); ++i)
-            entry.shown[i] = mixed(entry.from[i], entry.to[i], float(passed / kSeconds));
-    return &entry.shown;
-}
-
-void BlockErrors::predict(uint32_t variant, const BlockContents& contents, TileErrors& out)
-{
-    const BlockContent& content = contents.of(variant);
-    balls_.clear();
-    contents.balls(variant, balls_);
-    work_ += balls_.size();
-    out = predictTileErrors(balls_, content.radius, content.isColored);
 }
 
 } // namespace fx::render

@@ -30,17 +30,26 @@ struct TileError
     ErrorPart albedo; ///< [1] of the mean albedo that is seen along a ray, times opacity
     ErrorPart light;  ///< [cd/m2] likewise of the emitted light
     float covered = 1.0f; ///< [1] share of the cross section of the block with an opacity above 0.01
+    float rays = 1e9f;    ///< [1] number of rays that these errors are of
 };
 
-/// Errors by the factor of density, in powers of 2 from 2^-kDensityPower to 2^kDensityPower.
+/// Errors by the factor of density, in powers of 2 about the one at which the mean depth is about 1.
 constexpr int kDensityPower = 4;
-using TileErrors = std::array<TileError, 2 * kDensityPower + 1>;
+struct TileErrors
+{
+    std::array<TileError, 2 * kDensityPower + 1> ofPowers{};
+    int lowest = -kDensityPower; ///< power of 2 of the first
+    uint64_t work = 0;           ///< of the prediction, in comparisons of a ray with a ball
+};
 
-/// Predicts the errors by rays through the balls. Cost: a bounded number of rays, and for each of them one
-/// comparison with each ball.
+/// Predicts the errors by rays through the balls. Rays are aimed at balls where few others meet any. Cost: a
+/// bounded number of rays, and for each of them one comparison with each ball.
 TileErrors predictTileErrors(std::span<const BlockBall> balls, float radius, bool isColored);
-/// Between the powers of 2; thinner than the least, errors are proportional to the density.
+/// Between the powers of 2; beyond them errors are proportional to the density, which is what they are in
+/// thin content and never less than they are in dense content.
 TileError errorAt(const TileErrors& errors, float density);
+/// @param t 0: `a`, 1: `b`
+TileErrors errorsBetween(const TileErrors& a, const TileErrors& b, float t);
 
 /// What a picture shows of a content.
 struct TileSource
@@ -70,14 +79,18 @@ TileChoice chooseTile(const TileError& error, const TileSource& source, const Ti
 class BlockErrors
 {
 public:
-    explicit BlockErrors(std::pmr::memory_resource* memory) : balls_(memory) {}
+    explicit BlockErrors(std::pmr::memory_resource* memory) : entries_(memory), balls_(memory) {}
 
     /// @param isSpread false: all contents are predicted when they are needed
     void begin(bool isSpread);
-    /// The errors of a content; null if it is predicted in a later frame.
+    /// The errors of a content; null if it is predicted in a later frame. Content that is not predicted yet
+    /// is predicted before animated content that is due, and of this the one first that has waited longest.
     /// @param seconds local time of animated content, which is predicted anew every kSeconds
     const TileErrors* find(uint32_t variant, const BlockContents& contents, double seconds);
     uint32_t deferred() const { return deferred_; } ///< contents that find() has left to later frames
+    /// [frame] age of the oldest prediction that is due and left to later frames
+    uint32_t longestWait() const { return uint32_t(oldestLeft_); }
+    void forget(); ///< discards all predictions
 
     static constexpr double kSeconds = 0.25; ///< [s] in which a prediction changes to the next one
 
@@ -87,16 +100,20 @@ private:
         TileErrors from, to, shown; ///< `shown` lies between the others
         double seconds = 0.0;       ///< local time of `to`
         uint64_t frame = 0;         ///< in which it was last used
+        uint64_t made = 0;          ///< frame in which `to` was predicted
     };
 
+    bool canPredict(const Entry* known);
     void predict(uint32_t variant, const BlockContents& contents, TileErrors& out);
 
-    std::unordered_map<uint64_t, Entry> entries_; ///< by the identity of the content
+    std::pmr::unordered_map<uint64_t, Entry> entries_; ///< by the identity of the content
     std::pmr::vector<BlockBall> balls_;
     uint64_t frame_ = 0;
-    uint64_t work_ = 0; ///< balls that were predicted in this frame
+    uint64_t work_ = 0; ///< of the predictions of this frame
     bool isSpread_ = true;
     uint32_t deferred_ = 0;
+    bool isNewLeft_ = false, wasNewLeft_ = false;    ///< new content waits since this frame, the last one
+    uint64_t oldestLeft_ = 0, oldestLeftBefore_ = 0; ///< [frame] age of what this frame, the last one left
 };
 
 } // namespace fx::render

@@ -12,10 +12,12 @@ namespace {
 
 constexpr uint32_t kSlotsOfPage = (kMaxTile / kMinTile) * (kMaxTile / kMinTile); ///< of the smallest size
 constexpr uint32_t kMaxPages = kTilePageColumns * kMaxTilePageRows;
-/// Balls times 8 x 8 texels that the jobs of a frame may have beyond the tiles that nothing can replace.
+/// Balls times 8 x 8 texels that the jobs of a frame may have beyond the tiles that neither others nor balls
+/// can replace.
 constexpr uint64_t kWorkOfFrame = uint64_t(1) << 20;
 
-constexpr int kMaxNearnessSteps = 4096;
+/// At least 4: kMaxNearness is one of them, and a tile of an eye in the block has no size.
+constexpr int kMinNearnessSteps = 4, kMaxNearnessSteps = 4096;
 constexpr double kMaxTileSeconds = 0.1; ///< [s] of animated content: sizes, opacities and colors change too
 constexpr double kMostDeferred = 4.0;   ///< [1] factor of the limits of a tile that is replaced later
 
@@ -23,7 +25,7 @@ constexpr double kMostDeferred = 4.0;   ///< [1] factor of the limits of a tile 
 int nearnessSteps(float angle)
 {
     const float steps = 0.5f / std::max(angle, 0.5f / float(kMaxNearnessSteps));
-    return std::min(int(std::bit_ceil(uint32_t(std::ceil(steps)))), kMaxNearnessSteps);
+    return std::clamp(int(std::bit_ceil(uint32_t(std::ceil(steps)))), kMinNearnessSteps, kMaxNearnessSteps);
 }
 
 int16_t densityClass(float density)
@@ -73,7 +75,7 @@ int BlockTiles::pageRows() const
 std::optional<Tile> BlockTiles::find(const TileRequest& request)
 {
     const BlockContent& content = *request.content;
-    if (content.balls == 0 || content.balls > kMaxTileBalls)
+    if (!hasTiles(content))
         return std::nullopt;
     const float pixels = std::clamp(request.pixels, 1.0f, 4.0f * float(kMaxTile));
     const float radius = 0.5f * pixels;
@@ -94,13 +96,17 @@ std::optional<Tile> BlockTiles::find(const TileRequest& request)
     const auto same = found_.find(key);
     if (same != found_.end() && isFresh(slots_[same->second], request))
         return use(same->second);
-    if (settings_.isSpread && work_ > kWorkOfFrame)
-        if (const auto other = same != found_.end() ? same->second : neighbor(request, key, cell);
-            other && canWait(slots_[*other], request))
-        {
+    if (settings_.isSpread && work_ > kWorkOfFrame) {
+        const auto other = same != found_.end() ? std::optional(same->second) : neighbor(request, key, cell);
+        if (other && canWait(slots_[*other], request)) {
             ++deferred_;
             return use(*other);
         }
+        if (request.isOptional) {
+            ++deferred_;
+            return std::nullopt;
+        }
+    }
     const auto slot = same != found_.end() ? std::optional(same->second) : slotFor(key);
     if (!slot)
         return std::nullopt;

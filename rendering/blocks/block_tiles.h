@@ -22,8 +22,13 @@ constexpr size_t kTileSizes = 4;
 constexpr float kMaxNearness = 0.75f; ///< [1] radius over distance; impostors are not nearer than 1.5 radii
 constexpr int kTilePageColumns = 16;  ///< pages of kMaxTile^2 texels side by side in the atlas
 constexpr int kMaxTilePageRows = 8;   ///< 2048 x 1024 texels
-constexpr uint32_t kMaxTileBalls =
-    61440; ///< content with more balls gets no tiles; software renderers end loops after 65,535 turns
+/// Content with more balls gets no tiles: software renderers end loops after 65,535 turns. Content of several
+/// colors is passed through twice.
+constexpr uint32_t kMaxTileBalls = 61440;
+constexpr bool hasTiles(const BlockContent& content)
+{
+    return content.balls > 0 && content.balls <= (content.isColored ? kMaxTileBalls / 2 : kMaxTileBalls);
+}
 
 /// A tile that is to be drawn in this frame.
 struct TileJob
@@ -52,13 +57,14 @@ struct TileRequest
 {
     uint32_t variant = 0;
     const BlockContent* content = nullptr;
-    glm::vec3 along{0.0f}; ///< unit vector from the eye to the block, in the space of the block
-    float pixels = 0.0f;   ///< [pixel] diameter of the block on the picture
-    double seconds = 0.0;  ///< local time of animated content
-    float nearness = 0.0f; ///< [1] radius of the block over its distance; 0: orthographic
-    float density = 1.0f;  ///< [1] factor of its optical depth
-    float angle = 1e9f;    ///< [rad] largest difference of directions, if smaller than that of the settings
-    int texels = 0;        ///< least side of the tile
+    glm::vec3 along{0.0f};   ///< unit vector from the eye to the block, in the space of the block
+    float pixels = 0.0f;     ///< [pixel] diameter of the block on the picture
+    double seconds = 0.0;    ///< local time of animated content
+    float nearness = 0.0f;   ///< [1] radius of the block over its distance; 0: orthographic
+    float density = 1.0f;    ///< [1] factor of its optical depth
+    float angle = 1e9f;      ///< [rad] largest difference of directions, if smaller than that of the settings
+    int texels = 0;          ///< least side of the tile
+    bool isOptional = false; ///< true: the content can be drawn instead
 };
 
 /// Limits of the error of a tile.
@@ -80,13 +86,17 @@ public:
     void begin(const TileSettings& settings);
     /// The tile that shows the content best. Tiles that do not exist yet are made in this frame, see jobs();
     /// if a tile of a neighboring direction exists and many tiles are to be made, that one is given instead.
-    /// @return no value if there is no room, or the content has too many balls
+    /// @return no value if there is no room, the content has too many balls, or many tiles are to be made and
+    /// this one is optional
     std::optional<Tile> find(const TileRequest& request);
 
     std::span<const TileJob> jobs() const { return jobs_; }
-    uint32_t deferred() const { return deferred_; } ///< tiles that are replaced by others in this frame
-    int pageRows() const;                           ///< rows of pages that tiles need, a power of 2; 0: none
-    void forget();                                  ///< discards all tiles
+    uint32_t deferred() const
+    {
+        return deferred_;
+    }                     ///< tiles that are replaced by others, or left out, in this frame
+    int pageRows() const; ///< rows of pages that tiles need, a power of 2; 0: none
+    void forget();        ///< discards all tiles
 
 private:
     struct Key

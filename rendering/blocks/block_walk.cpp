@@ -96,15 +96,27 @@ void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& conten
     for (uint32_t i = 0; i < root.count(); ++i)
         all += contents.of(base::BlockGroups::variantIn(root, i)).balls;
     castsBalls_ = all <= settings.maxCasters;
-    RootReader reader(root, older, t, stepSeconds);
-    for (uint32_t i = 0; i < root.count(); ++i) {
-        BlockFrame frame;
-        if (!reader.read(i, outer, frame))
-            continue;
-        const uint32_t variant = base::BlockGroups::variantIn(root, i);
-        addCasters(frame, variant);
-        visit(frame, variant, 1.0f);
+    errorBalls_ = all <= settings.maxBalls ? settings.maxBalls : settings.maxBalls / 2;
+    // Blocks around the eye have no impostors: they are the first to get balls.
+    for (const bool isForNear : {true, false}) {
+        RootReader reader(root, older, t, stepSeconds);
+        for (uint32_t i = 0; i < root.count(); ++i) {
+            BlockFrame frame;
+            if (!reader.read(i, outer, frame))
+                continue;
+            const uint32_t variant = base::BlockGroups::variantIn(root, i);
+            if (isForNear != isNear(frame, frame.scale * contents.of(variant).radius))
+                continue;
+            addCasters(frame, variant);
+            visit(frame, variant, 1.0f);
+        }
     }
+}
+
+/// Whether the eye is so near that a block is its content, at least in part.
+bool BlockWalk::isNear(const BlockFrame& frame, float radius) const
+{
+    return !camera_.orthographic && glm::length(frame.position) < kFar * radius;
 }
 
 /// Share of a block that is drawn as an impostor; the rest is drawn as its content.
@@ -124,17 +136,17 @@ float BlockWalk::impostorShare(const BlockFrame& frame, float radius, float& out
 float BlockWalk::shareByError(const BlockFrame& frame, TileRequest& io) const
 {
     const BlockContent& content = *io.content;
-    if (!settings_->errors || !(settings_->error > 0.0f) || content.balls > kMaxTileBalls)
+    if (!settings_->errors || !(settings_->error > 0.0f) || !hasTiles(content))
         return 1.0f;
     const TileErrors* const errors = settings_->errors->find(io.variant, *contents_, seconds_);
     if (!errors)
-        return 1.0f;
+        return io.isOptional ? 0.0f : 1.0f;
     const TileChoice choice =
         chooseTile(errorAt(*errors, frame.density), sourceOf(content, settings_->exposure),
                    {io.pixels, io.nearness}, settings_->error);
     io.texels = choice.texels;
     io.angle = choice.angle;
-    return 1.0f - glm::smoothstep(kFadeError, 1.0f, choice.least / settings_->error);
+    return io.isOptional ? 1.0f - glm::smoothstep(kFadeError, 1.0f, choice.least / settings_->error) : 1.0f;
 }
 
 /// Blocks have at most kMaxBlockLevels levels, which bounds the recursion.
@@ -158,10 +170,14 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
     float pixels = 0.0f;
     float share = impostorShare(frame, radius, pixels);
     const bool isBalls = !groups_->isBlocks(*content.group);
-    const bool isFull = isBalls && effectBalls_ + content.balls > settings_->maxBalls;
+    const bool isFull = isBalls && uint64_t(effectBalls_) + content.balls > settings_->maxBalls;
     if (isFull) {
-        if (!camera_.orthographic && glm::length(frame.position) < kNearest * radius)
-            return; // around the eye there is no impostor
+        if (!camera_.orthographic && glm::length(frame.position) < kNearest * radius) {
+            // Around the eye there is no impostor: as many balls as may be drawn are better than none.
+            addBalls(frame, *content.group, weight,
+                     settings_->maxBalls - std::min(effectBalls_, settings_->maxBalls));
+            return;
+        }
         share = 1.0f;
     }
     if (share > 0.0f && section > 0.0f) {
@@ -169,6 +185,9 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
         TileRequest request{variant, &content, glm::conjugate(frame.rotation) * towards, pixels, seconds_};
         request.nearness = camera_.orthographic ? 0.0f : radius / glm::length(frame.position);
         request.density = frame.density;
+        // What has a large error must not use up the balls of what is near or large. The blocks in a block
+        // are chosen one by one.
+        request.isOptional = !isBalls || uint64_t(effectBalls_) + content.balls <= errorBalls_;
         const float exact = shareByError(frame, request);
         share *= isFull ? 1.0f : exact;
         const auto tile = share > 0.0f ? tiles_.find(request) : std::nullopt;
@@ -181,7 +200,7 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
         return;
     const float rest = weight * (1.0f - share);
     if (isBalls) {
-        addBalls(frame, *content.group, rest);
+        addBalls(frame, *content.group, rest, UINT32_MAX);
         return;
     }
     for (uint32_t i = 0; i < content.group->count(); ++i)
@@ -223,11 +242,12 @@ float BlockWalk::leastRadius(const glm::vec3& center) const
     return kMinPixels * (camera_.orthographic ? 1.0f : glm::length(center)) / pixelsPerSlope_;
 }
 
-void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, float weight)
+void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, float weight, uint32_t most)
 {
     const glm::vec3 tint = base::tintOf(group.constants(), base::block_ball_constant::ShadeR);
     const float section = weight * frame.density * frame.scale * frame.scale;
-    for (uint32_t i = 0; i < group.count(); ++i) {
+    const uint64_t end = uint64_t(effectBalls_) + most;
+    for (uint32_t i = 0; i < group.count() && effectBalls_ < end; ++i) {
         GatheredBlob ball = like_;
         ball.center = frame.position + frame.turned(vectorAt(group, blob::PositionX, i) -
                                                     back_ * vectorAt(group, blob::VelocityX, i));

@@ -36,7 +36,9 @@ struct BlockWalkSettings
     /// From 0.8 of it on its content fades in. 0: not limited.
     float error = 0.0f;
     BlockErrors* errors = nullptr; ///< predictions; null: not limited
-    uint32_t maxBalls = 0; ///< of an effect: beyond, blocks are drawn as impostors however large they are
+    /// Of an effect: beyond, blocks are drawn as impostors however large they are. An effect with more balls
+    /// draws half of them at most because of the error of impostors.
+    uint32_t maxBalls = 0;
     uint32_t maxCasters = 65536; ///< of an effect: beyond, blocks instead of balls cast shadows
 };
 
@@ -78,7 +80,9 @@ private:
     void visit(const base::BlockFrame& frame, uint32_t variant, float weight);
     void addImpostor(const base::BlockFrame& frame, const BlockContent& content, const Tile& tile,
                      float weight);
-    void addBalls(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight);
+    void addBalls(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight,
+                  uint32_t most);
+    bool isNear(const base::BlockFrame& frame, float radius) const;
     void addCasters(const base::BlockFrame& frame, uint32_t variant);
     float leastRadius(const glm::vec3& center) const;
     float impostorShare(const base::BlockFrame& frame, float radius, float& outPixels) const;
@@ -101,7 +105,8 @@ private:
     uint64_t instance_ = 0;
     double seconds_ = 0.0;
     uint32_t effectBalls_ = 0;
-    float back_ = 0.0f; ///< [s] from the moment of the frame to the newer snapshot
+    uint32_t errorBalls_ = 0; ///< up to which blocks become their content because of their error
+    float back_ = 0.0f;       ///< [s] from the moment of the frame to the newer snapshot
     bool castsBalls_ = true;
 };
 

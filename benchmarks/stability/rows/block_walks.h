@@ -39,7 +39,7 @@ struct WalkedBlocks
         for (const render::GatheredBlob& b : balls)
             add(b.center.x, b.center.y, b.center.z, b.radius, b.crossSection, b.albedo.x, b.emission.x);
         for (const render::BlockRecord& r : records)
-            add(r.right.x, r.right.y, r.right.z, r.up.x, r.up.y, r.up.z, r.up.w, r.tile.w);
+            add(r.right.x, r.right.y, r.right.z, r.right.w, r.up.x, r.up.y, r.up.z, r.up.w, r.tile.w);
         for (const render::MediumCaster& c : casters)
             add(c.center.x, c.center.y, c.center.z, c.radius, c.crossSection);
         return count;

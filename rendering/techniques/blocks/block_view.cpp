@@ -233,6 +233,7 @@ void BlockView::rest()
 void BlockView::release()
 {
     tiles_.forget();
+    errors_.forget();
     atlas_ = {};
     recordBuffer_ = {};
     rows_ = 0;

@@ -2,13 +2,14 @@
 #include "foundation/random/philox.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/block_kind.h"
-#include "rendering/blocks/block_error.h"
+#include "rendering/blocks/block_walk.h"
 #include "simulation/blocks/blocks_def.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -27,9 +28,10 @@ std::vector<render::BlockBall> heapOfBalls(uint32_t count, float radius, bool is
         const float z = 2.0f * u[0] - 1.0f, turn = 2.0f * std::numbers::pi_v<float> * u[1];
         const float flat = std::sqrt(std::max(1.0f - z * z, 0.0f)), away = (1.0f - radius) * std::cbrt(u[2]);
         const glm::vec3 color = isColored ? glm::vec3(u[3], 1.0f - u[3], 0.5f) : glm::vec3(1.0f, 0.7f, 0.4f);
-        balls.push_back({{away * flat * std::cos(turn), away * flat * std::sin(turn), away * z, radius},
-                         {0.0f, 0.0f, 0.0f, 2.0f * std::numbers::pi_v<float> / float(count)},
-                         {color, 0.0f}});
+        balls.push_back(
+            {{away * flat * std::cos(turn), away * flat * std::sin(turn), away * z, radius},
+             {isColored ? 1.0f - color : glm::vec3(0.9f), 2.0f * std::numbers::pi_v<float> / float(count)},
+             {color, 0.0f}});
     }
     return balls;
 }
@@ -44,7 +46,10 @@ render::TileError errorOf(std::span<const render::BlockBall> balls, float densit
 class PublishedBlocks
 {
 public:
-    PublishedBlocks(size_t types, uint32_t balls) : snapshot_(&schema_, std::pmr::get_default_resource())
+    /// @param radius [m] of the balls  @param places [m] of blocks of the first type, beyond one of each
+    PublishedBlocks(size_t types, uint32_t balls, float radius = 0.3f,
+                    const std::vector<glm::vec3>& places = {})
+        : snapshot_(&schema_, std::pmr::get_default_resource())
     {
         for (const base::KindDesc* kind : {&base::kBlobKind, &base::kBlockKind, &base::kBlockBallKind})
             schema_.add(*kind);
@@ -52,7 +57,7 @@ public:
         for (size_t type = 0; type < types; ++type) {
             sim::BlockType heap;
             heap.name = "heap";
-            for (const render::BlockBall& ball : heapOfBalls(balls + uint32_t(type), 0.3f))
+            for (const render::BlockBall& ball : heapOfBalls(balls + uint32_t(type), radius))
                 heap.balls.push_back({.center = glm::vec3(ball.place),
                                       .radius = ball.place.w,
                                       .crossSection = ball.medium.w,
@@ -61,6 +66,10 @@ public:
             def.blocks.emplace_back();
             def.blocks.back().type = uint32_t(type);
         }
+        for (const glm::vec3& place : places) {
+            def.blocks.emplace_back();
+            def.blocks.back().position = place;
+        }
         EXPECT_TRUE(sim::completeTypes(def.types).ok());
         snapshot_.begin(0, 1);
         def.create(schema_, {}, std::pmr::get_default_resource())->publish({}, snapshot_);
@@ -68,10 +77,47 @@ public:
         contents.build(*groups_);
     }
 
+    /// Makes the content such as may change with time.
+    void animate()
+    {
+        for (size_t i = 0; i < snapshot_.addedCount(); ++i)
+            if (snapshot_.added(i).info().kind == schema_.find(base::kBlockBallKind.name))
+                std::ranges::fill(snapshot_.editGroup(i).editColumn(base::blob_column::Age), 1.0f);
+        contents.build(*groups_);
+    }
+
+    /// What an eye at the origin draws that looks along -z. @param place [m] of the effect
+    std::pmr::vector<render::GatheredBlob> walk(const glm::dvec3& place, uint32_t maxBalls,
+                                                bool isSpread = false)
+    {
+        render::CameraGeometry camera{};
+        camera.right = {1, 0, 0};
+        camera.up = {0, 1, 0};
+        camera.forward = {0, 0, -1};
+        camera.nearDistance = 1e-3f;
+        camera.clipScale = glm::vec2(2.4f);
+        std::pmr::vector<render::GatheredBlob> balls;
+        std::pmr::vector<render::MediumCaster> casters;
+        std::pmr::vector<render::BlockRecord> records;
+        tiles_.begin({});
+        errors_.begin(isSpread);
+        render::BlockWalk walk(camera, 1080, tiles_, balls, casters, records);
+        render::BlockWalkSettings settings;
+        settings.error = 1.0f / 255.0f;
+        settings.errors = &errors_;
+        settings.maxBalls = maxBalls;
+        base::Placement placement;
+        placement.position = place;
+        walk.run(*groups_, contents, nullptr, 1.0f, 0.0f, 0.0, placement, {}, settings);
+        return balls;
+    }
+
 private:
     base::SnapshotSchema schema_;
     base::FrameSnapshot snapshot_;
     std::optional<base::BlockGroups> groups_;
+    render::BlockTiles tiles_{std::pmr::get_default_resource()};
+    render::BlockErrors errors_{std::pmr::get_default_resource()};
 
 public:
     render::BlockContents contents{std::pmr::get_default_resource()};
@@ -107,12 +153,54 @@ TEST(TileErrorPrediction, ofOneBallInTheMiddleIsNotOneOfDirections)
 
 TEST(TileErrorPrediction, ofColorsIsThatOfBallsThatDiffer)
 {
-    EXPECT_EQ(errorOf(heapOfBalls(30, 0.3f)).light.rms, 0.0f);
+    const render::TileError ofOneColor = errorOf(heapOfBalls(30, 0.3f), 1.0f, true);
     const std::vector<render::BlockBall> colored = heapOfBalls(30, 0.3f, true);
     const float dense = errorOf(colored, 16.0f, true).light.rms,
                 thin = errorOf(colored, 0.1f, true).light.rms;
     EXPECT_GT(dense, 2.0f * thin); // in thin content the order of colors is not seen
-    EXPECT_EQ(errorOf(colored, 1.0f, true).albedo.rms, 0.0f);
+    const render::TileError error = errorOf(colored, 1.0f, true);
+    EXPECT_GT(error.light.rms, 1e-3f);
+    EXPECT_GT(error.albedo.rms, 1e-3f);
+    EXPECT_LE(ofOneColor.light.rms, 1e-4f);
+    EXPECT_LE(ofOneColor.albedo.rms, 1e-4f);
+}
+
+TEST(TileErrorPrediction, meetsBallsThatCoverLittle)
+{
+    // 20 clumps that cover 3 % of the block, of many balls and of few. Rays over the whole block miss them.
+    for (const uint32_t each : {3000u, 3u}) {
+        std::vector<render::BlockBall> balls;
+        const std::vector<render::BlockBall> places = heapOfBalls(20, 0.04f), clump = heapOfBalls(each, 0.3f);
+        for (const render::BlockBall& place : places)
+            for (render::BlockBall ball : clump) {
+                ball.place = glm::vec4(glm::vec3(place.place) + 0.04f * glm::vec3(ball.place), 0.04f * 0.3f);
+                ball.medium.w *= 0.04f * 0.04f;
+                balls.push_back(ball);
+            }
+        const render::TileError error = errorOf(balls);
+        EXPECT_GE(error.rays, 32.0f) << each;
+        EXPECT_LE(error.covered, 0.06f) << each;
+        EXPECT_GE(error.covered, 0.002f) << each;
+        EXPECT_GE(error.texels[0].rms, 0.1f) << each; // a clump is smaller than a texel
+        EXPECT_GT(render::chooseTile(error, {1.0f, 1.0f}, {}, 1.0f / 255.0f).least, 1.0f / 255.0f) << each;
+    }
+}
+
+TEST(TileErrorPrediction, isThatOfThinAndOfDenseContent)
+{
+    // Depth and density are one factor, however large either is.
+    const std::vector<render::BlockBall> balls = heapOfBalls(30, 0.3f);
+    std::vector<render::BlockBall> thin = balls;
+    for (render::BlockBall& ball : thin)
+        ball.medium.w /= 4096.0f;
+    for (const float density : {0.01f, 0.5f, 3.0f, 16.0f}) {
+        const render::TileError of = errorOf(balls, density), ofThin = errorOf(thin, 4096.0f * density);
+        EXPECT_NEAR(ofThin.shift.rms, of.shift.rms, 1e-3f * of.shift.rms) << density;
+        EXPECT_NEAR(ofThin.texels[0].rms, of.texels[0].rms, 1e-3f * of.texels[0].rms) << density;
+    }
+    // The larger the density, the larger the error at the rim of what is opaque.
+    EXPECT_GE(errorOf(balls, 1e6f).texels[0].rms, errorOf(balls, 100.0f).texels[0].rms);
+    EXPECT_GE(errorOf(balls, 100.0f).texels[0].rms, errorOf(balls, 1.0f).texels[0].rms);
 }
 
 TEST(TileErrorPrediction, isContinuousInTheDensity)
@@ -170,6 +258,50 @@ TEST(TileChoices, areTheCoarsestWithinTheLimit)
     EXPECT_GE(render::chooseTile(error, {2.0f, 1.0f}, {}, 0.1f).least, 0.02f);
 }
 
+TEST(BlockErrorCache, takesTheWorkOnRaysForWork)
+{
+    const std::vector<render::BlockBall> few = heapOfBalls(10, 0.3f);
+    EXPECT_GE(render::predictTileErrors(few, 1.0f, true).work,
+              4 * render::predictTileErrors(few, 1.0f, false).work);
+    const PublishedBlocks blocks(64, 10);
+    render::BlockErrors errors(std::pmr::get_default_resource());
+    errors.begin(true);
+    size_t known = 0;
+    for (uint32_t type = 0; type < 64; ++type)
+        known += errors.find(base::variantOf(type, 0), blocks.contents, 0.0) ? 1 : 0;
+    EXPECT_GE(known, 1u);
+    EXPECT_LE(known, 8u);
+    errors.forget();
+    errors.begin(true);
+    EXPECT_EQ(errors.find(base::variantOf(63, 0), blocks.contents, 0.0) ? 1 : 0, 1);
+}
+
+TEST(BlockErrorCache, newContentComesBeforeAnimatedContentThatIsDue)
+{
+    PublishedBlocks blocks(8, 6000);
+    blocks.animate();
+    ASSERT_TRUE(blocks.contents.of(base::variantOf(7, 0)).isAnimated);
+    render::BlockErrors errors(std::pmr::get_default_resource());
+    size_t known = 0;
+    for (int frame = 0; frame < 8; ++frame) {
+        errors.begin(true);
+        known = 0;
+        for (uint32_t type = 0; type < 8; ++type) // all that are known are due in each frame
+            known += errors.find(base::variantOf(type, 0), blocks.contents, 0.3 * double(frame)) ? 1 : 0;
+        EXPECT_GE(known, std::min<size_t>(size_t(frame) + 1, 8));
+    }
+    EXPECT_EQ(known, 8u);
+    // The one that has waited longest is next, wherever it is in the order: all get their turn.
+    uint32_t most = 0;
+    for (int frame = 8; frame < 40; ++frame) {
+        errors.begin(true);
+        for (uint32_t type = 0; type < 8; ++type)
+            errors.find(base::variantOf(type, 0), blocks.contents, 0.3 * double(frame));
+        most = std::max(most, errors.longestWait());
+    }
+    EXPECT_LE(most, 16u);
+}
+
 TEST(BlockErrorCache, predictsOnceAndLeavesMuchWorkToLaterFrames)
 {
     const PublishedBlocks blocks(8, 6000);
@@ -182,6 +314,7 @@ TEST(BlockErrorCache, predictsOnceAndLeavesMuchWorkToLaterFrames)
             known += errors.find(base::variantOf(type, 0), blocks.contents, 0.0) ? 1 : 0;
         EXPECT_EQ(errors.deferred(), 8 - known);
         EXPECT_LE(known, 3 * (frames + 1));
+        EXPECT_GE(known, frames + 1);
     }
     EXPECT_EQ(known, 8u);
     EXPECT_GE(frames, 2u);
@@ -193,4 +326,55 @@ TEST(BlockErrorCache, predictsOnceAndLeavesMuchWorkToLaterFrames)
     atOnce.begin(false);
     for (uint32_t type = 0; type < 8; ++type)
         EXPECT_TRUE(atOnce.find(base::variantOf(type, 0), blocks.contents, 0.0));
+}
+
+namespace {
+
+struct Drawn
+{
+    uint32_t impostors = 0, near = 0, far = 0; ///< balls nearer than 10 m and farther away
+    explicit Drawn(const std::pmr::vector<render::GatheredBlob>& balls)
+    {
+        for (const render::GatheredBlob& ball : balls)
+            ++(ball.tile > 0 ? impostors : glm::length(ball.center) < 10.0f ? near : far);
+    }
+};
+
+} // namespace
+
+TEST(BlockWalks, nearBlocksGetBallsBeforeFarOnesOfALargeError)
+{
+    // Impostors of balls that are as small err by too much. The block around the eye is the last one.
+    std::vector<glm::vec3> places;
+    for (int i = 0; i < 30; ++i)
+        places.emplace_back(0.0f, 0.0f, -0.1f * float(i));
+    places.emplace_back(0.0f, 0.0f, 119.0f);
+    PublishedBlocks blocks(1, 200, 0.05f, places);
+    const Drawn all(blocks.walk({0.0, 0.0, -120.0}, 32 * 200)); // none is too many
+    EXPECT_EQ(all.impostors, 0u);
+    EXPECT_EQ(all.far, 31 * 200u);
+    EXPECT_GE(all.near, 50u);
+    const Drawn some(blocks.walk({0.0, 0.0, -120.0}, 1200));
+    EXPECT_EQ(some.near, all.near);
+    EXPECT_GE(some.far, 200u);
+    EXPECT_LE(some.near + some.far, 600u); // the rest is for what is near or large
+    EXPECT_EQ(some.impostors, 31 - some.far / 200);
+    const Drawn few(blocks.walk({0.0, 0.0, -120.0}, 30));
+    EXPECT_EQ(few.near, 30u);
+    EXPECT_EQ(few.far, 0u);
+    EXPECT_EQ(few.impostors, 31u);
+}
+
+TEST(BlockWalks, contentIsDrawnUntilItsErrorIsKnown)
+{
+    PublishedBlocks blocks(8, 6000);
+    const Drawn first(blocks.walk({0.0, 0.0, -60.0}, 100'000, true));
+    EXPECT_GE(first.impostors, 1u);
+    EXPECT_GE(first.far, 6000u);
+    EXPECT_LE(first.impostors, 4u);
+    for (int frame = 0; frame < 7; ++frame)
+        (void)blocks.walk({0.0, 0.0, -60.0}, 100'000, true);
+    const Drawn last(blocks.walk({0.0, 0.0, -60.0}, 100'000, true));
+    EXPECT_EQ(last.impostors, 8u);
+    EXPECT_EQ(last.far, 0u);
 }

@@ -221,4 +221,50 @@ TEST_F(TileCache, contentWithoutBallsOrWithTooManyHasNoTile)
     EXPECT_FALSE(find(contentOf(1, 0), {0, 0, -1}));
     EXPECT_FALSE(find(contentOf(2, render::kMaxTileBalls + 1), {0, 0, -1}));
     EXPECT_TRUE(find(contentOf(3, render::kMaxTileBalls), {0, 0, -1}));
+    // Each ball of colored content takes two turns of the loops of the shader.
+    render::BlockContent colored = contentOf(4, render::kMaxTileBalls / 2 + 1);
+    colored.isColored = true;
+    EXPECT_FALSE(find(colored, {0, 0, -1}));
+    colored = contentOf(5, render::kMaxTileBalls / 2);
+    colored.isColored = true;
+    EXPECT_TRUE(find(colored, {0, 0, -1}));
+}
+
+TEST_F(TileCache, theEyeOfATileIsNeverInTheBlock)
+{
+    settings_.parallax = 16.0f; // of any distance
+    tiles_.begin(settings_);
+    const render::BlockContent content = contentOf(1);
+    for (const float pixels : {1.0f, 8.0f, 64.0f, 400.0f})
+        for (float nearness = 0.0f; nearness <= 1.0f; nearness += 0.05f) {
+            render::TileRequest request{0, &content, {0, 0, -1}, pixels, 0.0};
+            request.nearness = nearness;
+            const auto tile = tiles_.find(request);
+            ASSERT_TRUE(tile);
+            EXPECT_LE(tile->nearness, render::kMaxNearness) << pixels << ' ' << nearness;
+            EXPECT_NEAR(tile->nearness, std::min(nearness, render::kMaxNearness), 0.13f);
+        }
+}
+
+TEST_F(TileCache, whatTheContentCanReplaceIsLeftOutWhereManyTilesAreDue)
+{
+    tiles_.begin(settings_);
+    for (uint64_t i = 0; i < 400; ++i)
+        ASSERT_TRUE(find(contentOf(1, 50'000), randomDirection(i), 64.0f));
+    const render::BlockContent other = contentOf(2);
+    render::TileRequest request{0, &other, {0, 0, -1}, 24.0f, 0.0};
+    request.isOptional = true;
+    const uint32_t deferred = tiles_.deferred();
+    EXPECT_FALSE(tiles_.find(request));
+    EXPECT_EQ(tiles_.deferred(), deferred + 1);
+    const size_t jobs = tiles_.jobs().size();
+    request.isOptional = false;
+    EXPECT_TRUE(tiles_.find(request));
+    EXPECT_EQ(tiles_.jobs().size(), jobs + 1);
+    request.isOptional = true;
+    EXPECT_TRUE(tiles_.find(request)); // it is there
+    tiles_.begin(settings_);
+    const render::BlockContent third = contentOf(3);
+    request.content = &third;
+    EXPECT_TRUE(tiles_.find(request)); // there is time
 }
