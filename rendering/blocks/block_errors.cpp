@@ -18,7 +18,7 @@ constexpr uint64_t kUnusedFrames = 240;
 /// [1] Errors are predicted from few rays.
 constexpr float kSafety = 1.2f;
 /// [1] Standard deviations of the mean square of as many rays as a block has pixels, or fewer.
-constexpr float kDeviations = 4.0f;
+constexpr float kDeviations = 6.0f;
 /// [rad] about the largest difference of directions in the finest cell
 constexpr float kFinestAngle = 4.2f / float(kMaxDirectionCells);
 

@@ -23,7 +23,7 @@ constexpr uint32_t kUsualCases = 100;
 constexpr double kLimit = 1.0 / 255.0; ///< [1] root mean square error that an impostor should not exceed
 constexpr double kCovered = 0.01;      ///< [1] opacity from which on a pixel counts
 constexpr int kNearViews = 3;
-constexpr uint64_t kFirstCase = 100'000; ///< predictions were tuned by the cases from 0 to 999
+constexpr uint64_t kFirstCase = 200'000; ///< others than those that predictions were tuned by
 
 struct ImpostorSetting
 {

@@ -223,6 +223,16 @@ double chosenError(double distance, double number, float limit)
     return white * std::sqrt(squares / double(std::max<size_t>(covered, 1)));
 }
 
+/// Share of cases from `first` on that a view draws as balls: impostors are not exact by being refused.
+double refusedShare(double distance, double first)
+{
+    constexpr int kCases = 20;
+    double refused = 0.0;
+    for (int i = 0; i < kCases; ++i)
+        refused += chosenError(distance, first + double(i), 1.0f / 255.0f) > 0.0 ? 0.0 : 1.0;
+    return refused / double(kCases);
+}
+
 std::vector<StabilitySweep> refresh(bool isQuick)
 {
     const StabilitySweep large{
@@ -246,7 +256,13 @@ std::vector<StabilitySweep> refresh(bool isQuick)
         1.0 / 255.0,
         false,
         [](double distance, double number) { return chosenError(distance, number, 1.0f / 255.0f); }};
-    return {large, small, chosen,
+    const StabilitySweep refused{"share of blocks that a view draws as balls",
+                                 chosen.x,
+                                 values("first case", {0, 20, 40}),
+                                 0.5,
+                                 false,
+                                 refusedShare};
+    return {large, small, chosen, refused,
             controlOf(large, "tiles kept up to 8 pixels",
                       [](double pixels, double number) { return refreshError(pixels, number, 8.0); }),
             controlOf(chosen, "error not limited",

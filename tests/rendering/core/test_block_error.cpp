@@ -368,13 +368,13 @@ TEST(BlockWalks, nearBlocksGetBallsBeforeFarOnesOfALargeError)
 TEST(BlockWalks, contentIsDrawnUntilItsErrorIsKnown)
 {
     PublishedBlocks blocks(8, 6000);
-    const Drawn first(blocks.walk({0.0, 0.0, -60.0}, 100'000, true));
+    const Drawn first(blocks.walk({0.0, 0.0, -300.0}, 100'000, true));
     EXPECT_GE(first.impostors, 1u);
     EXPECT_GE(first.far, 6000u);
     EXPECT_LE(first.impostors, 4u);
     for (int frame = 0; frame < 7; ++frame)
-        (void)blocks.walk({0.0, 0.0, -60.0}, 100'000, true);
-    const Drawn last(blocks.walk({0.0, 0.0, -60.0}, 100'000, true));
+        (void)blocks.walk({0.0, 0.0, -300.0}, 100'000, true);
+    const Drawn last(blocks.walk({0.0, 0.0, -300.0}, 100'000, true));
     EXPECT_EQ(last.impostors, 8u);
     EXPECT_EQ(last.far, 0u);
 }

@@ -215,15 +215,24 @@ TEST_F(BlockImpostors, becomeTheirBallsWithoutAJumpAsTheErrorGetsSmaller)
     view_->settings().exposureEv100 = std::log2(1.0f / 1.2f);
     const base::FrameSnapshot blocks = published(threeBlocks(true));
     const glm::dvec3 eye(0.0, 1.5, 6.0);
-    Picture last = drawWithin(0.01f, blocks, eye);
+    Picture last = drawWithin(0.0015f, blocks, eye);
     EXPECT_EQ(view_->statistics().blockImpostors, 3u);
+    const Picture balls = drawBalls(blocks, eye);
     bool isPart = false;
-    for (float limit = 0.01f; limit >= 0.0005f; limit *= 0.9f) {
+    double largest = 0.0, ofImpostors = 0.0; // step while the balls fade in, and what they differ by
+    for (float limit = 0.0015f; limit >= 0.0005f; limit *= 0.98f) {
         const Picture next = drawWithin(limit, blocks, eye);
-        EXPECT_LE(rmsDifference(next, last), 1.5 * double(limit)) << limit;
-        isPart = isPart || view_->statistics().blobs > kBallsOfThree; // impostors and balls
+        const double step = rmsDifference(next, last);
+        if (isPart || view_->statistics().blobs > kBallsOfThree) // impostors and balls
+            largest = std::max(largest, step);
+        else
+            ofImpostors = rmsDifference(next, balls);
+        isPart = isPart || view_->statistics().blobs > kBallsOfThree;
+        EXPECT_LE(step, 0.3 * double(limit)) << limit; // to a finer tile
         last = next;
     }
+    EXPECT_LE(largest, 0.3 * ofImpostors); // a block that is either one or the other changes by all of it
+    EXPECT_GT(largest, 0.0);
     EXPECT_TRUE(isPart);
     EXPECT_EQ(view_->statistics().blockImpostors, 0u);
 }
