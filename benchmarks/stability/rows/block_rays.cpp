@@ -262,7 +262,10 @@ std::vector<StabilitySweep> refresh(bool isQuick)
                                  0.5,
                                  false,
                                  refusedShare};
-    return {large, small, chosen, refused,
+    return {large,
+            small,
+            chosen,
+            refused,
             controlOf(large, "tiles kept up to 8 pixels",
                       [](double pixels, double number) { return refreshError(pixels, number, 8.0); }),
             controlOf(chosen, "error not limited",
