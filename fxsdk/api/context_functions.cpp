@@ -115,12 +115,30 @@ void destroy(FxContext* context)
     memory.deallocate(context, sizeof(FxContext), alignof(FxContext));
 }
 
+/// Whether no load of the context runs, or waits for another one.
+Status checkLoads(FxContext& context)
+{
+    const fx::api::SharedCaller::Scope tables(context.tables);
+    if (!tables.status())
+        return tables.status();
+    for (FxPresetLoad* load : context.loads) {
+        const std::scoped_lock lock(load->mutex);
+        if (load->state == FX_PRESET_LOAD_RUNNING)
+            return {Code::ReEntrant,
+                    "fxPresetLoad_Run is in progress: call fxPresetLoad_Cancel, and wait until the "
+                    "thread of the load has returned from it"};
+    }
+    return {};
+}
+
 /// Shuts a context for good, with all that is in it, so that no callback of its destruction gets into it.
 /// After a failure it is as open as before.
 Status close(FxContext& context)
 {
     if (context.device && !context.gl.thread.isCaller())
         return {Code::WrongThread, fx::api::kGlThreadRule};
+    if (Status status = checkLoads(context); !status) // it would go on in a context that is freed
+        return status;
     fx::api::SharedCaller::Scope loading(context.loading);
     if (!loading.status())
         return loading.status();

@@ -59,7 +59,14 @@ Status run(FxPresetLoad& load)
     }
     FxPresetId preset{};
     Status status = outcomeOf(load, preset);
-    const std::scoped_lock lock(load.mutex);
+    const std::scoped_lock lock(load.mutex); // after it is unlocked, another thread may destroy the load
+    if (status.code() == Code::ReEntrant) {
+        if (!load.monitor.isCanceled()) {
+            load.state = FX_PRESET_LOAD_WAITING; // the caller may try again from elsewhere
+            return status;
+        }
+        status = canceled(load);
+    }
     load.state = status.ok()                          ? FX_PRESET_LOAD_READY
                  : status.code() == Code::Interrupted ? FX_PRESET_LOAD_CANCELED
                                                       : FX_PRESET_LOAD_FAILED;
@@ -101,12 +108,6 @@ FxResult fxBeginPresetLoad(FxContext* context, const char* path, const char* tex
     return fx::api::guarded("fxBeginPresetLoad", fx::api::logOf(context), [&]() -> Status {
         if (Status status = checkBegin(context, path, text, length, outLoad); !status)
             return status;
-        const fx::api::SharedCaller::Scope tables(context->tables);
-        if (!tables.status())
-            return tables.status();
-        const size_t count = context->loads.size() + 1;
-        if (context->loads.capacity() < count)
-            context->loads.reserve(std::max(count, 2 * context->loads.capacity()));
         const auto free = [](FxPresetLoad* load) { fx::api::freePresetLoad(load); };
         std::unique_ptr<FxPresetLoad, decltype(free)> load(
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxPresetLoad>(context), free);
@@ -114,6 +115,9 @@ FxResult fxBeginPresetLoad(FxContext* context, const char* path, const char* tex
         load->hasText = text != nullptr;
         if (text)
             load->text.assign(text, length);
+        const fx::api::SharedCaller::Scope tables(context->tables); // not while a long text is copied
+        if (!tables.status())
+            return tables.status();
         context->loads.push_back(load.get());
         *outLoad = load.release();
         return {};
@@ -150,8 +154,8 @@ FxResult fxPresetLoad_Cancel(FxPresetLoad* load)
     return fx::api::guarded("fxPresetLoad_Cancel", logOf(load), [&]() -> Status {
         if (!load)
             return fx::api::invalid("load is null");
+        load->monitor.cancel(); // first: the message needs memory, which may have run out
         Status outcome = canceled(*load);
-        load->monitor.cancel();
         const std::scoped_lock lock(load->mutex);
         if (load->state == FX_PRESET_LOAD_WAITING) {
             load->state = FX_PRESET_LOAD_CANCELED;

@@ -169,10 +169,12 @@ FX_API void* fxGetGlProcAddress(void* user, const char* name);
 FX_API FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext);
 
 /// Destroys a context with all objects in it. Pointers and ids of these objects are invalid afterwards. Null
-/// is allowed and does nothing. No other call on an object of the context may be in progress. Callbacks
-/// during the call, such as FxAllocator::release, must not use objects of the context; the context refuses
-/// such calls. [GL thread when it has GL, else any]
-/// @return FX_OK, FX_ERROR_WRONG_THREAD or FX_ERROR_RE_ENTRANT (nothing was destroyed)
+/// is allowed and does nothing. No other call on an object of the context may be in progress: wait until the
+/// threads of all loads have returned from fxPresetLoad_Run(), and let none begin. Callbacks during the call,
+/// such as FxAllocator::release, must not use objects of the context; the context refuses such calls.
+/// [GL thread when it has GL, else any]
+/// @return FX_OK, FX_ERROR_WRONG_THREAD or FX_ERROR_RE_ENTRANT (in a callback, or a load runs or waits for
+///         another one; nothing was destroyed)
 FX_API FxResult fxDestroyContext(FxContext* context);
 
 /// Compiles all GPU programs of all views, so that no frame compiles programs. Further calls cost nothing.

@@ -57,7 +57,8 @@ typedef struct FxPresetLoadProgress
 ///                fxLoadPresetTextAt() with this path
 /// @param length  [byte] length of the text, 1 byte to 4 MiB; 0 without a text
 /// @param outLoad receives the load; untouched on failure
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_TOO_LARGE (length), FX_ERROR_OUT_OF_MEMORY
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_TOO_LARGE (length), FX_ERROR_OUT_OF_MEMORY,
+///         FX_ERROR_RE_ENTRANT (in a callback of a call that changes the context)
 FX_API FxResult fxBeginPresetLoad(FxContext* context, const char* path, const char* text, size_t length,
                                   FxPresetLoad** outLoad);
 
@@ -66,7 +67,8 @@ FX_API FxResult fxBeginPresetLoad(FxContext* context, const char* path, const ch
 /// load at once, such as fxLoadPresetFile(), wait meanwhile. The asset hook, the allocator and the log are
 /// called on this thread. When the load has ended, the function does nothing and returns the same result.
 /// [any]
-/// @return FX_OK, FX_ERROR_INTERRUPTED (canceled), FX_ERROR_RE_ENTRANT (another thread runs this load), and
+/// @return FX_OK, FX_ERROR_INTERRUPTED (canceled), FX_ERROR_RE_ENTRANT (another thread runs this load, or the
+///         call is in a callback of another load; the state is as before, and the load can run later), and
 ///         the codes of fxLoadPresetFile(). A load that fails or is canceled leaves nothing in the context.
 FX_API FxResult fxPresetLoad_Run(FxPresetLoad* load);
 
@@ -75,8 +77,8 @@ FX_API FxResult fxPresetLoad_Run(FxPresetLoad* load);
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize)
 FX_API FxResult fxPresetLoad_GetProgress(FxPresetLoad* load, FxPresetLoadProgress* ioProgress);
 
-/// Ends a load before its next file or its next element of the preset. Has no effect on a load that has
-/// ended. [any, also from the asset hook]
+/// Ends a load before its next file or its next element of the preset; a load that waits for another one ends
+/// after that one. Has no effect on a load that has ended. [any, also from the asset hook]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT
 FX_API FxResult fxPresetLoad_Cancel(FxPresetLoad* load);
 
@@ -89,9 +91,10 @@ FX_API FxResult fxPresetLoad_Cancel(FxPresetLoad* load);
 FX_API FxResult fxPresetLoad_Finish(FxPresetLoad* load, FxPresetId* outPreset);
 
 /// Destroys a load. A preset that is ready and whose id was never returned is unloaded, as by
-/// fxUnloadPreset(). Null is allowed and does nothing. [any; no other call on this load may be in progress]
+/// fxUnloadPreset(). Null is allowed and does nothing. [any; no other call on this load may be in progress or
+/// begin later, such as fxPresetLoad_Run() in a job that still waits for a thread]
 /// @return FX_OK, FX_ERROR_RE_ENTRANT (fxPresetLoad_Run() is in progress: cancel it and wait until it has
-///         returned; nothing was destroyed)
+///         returned; or the call is in a callback of a call that changes the context; nothing was destroyed)
 FX_API FxResult fxDestroyPresetLoad(FxPresetLoad* load);
 
 #ifdef __cplusplus
