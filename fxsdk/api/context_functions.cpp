@@ -72,12 +72,9 @@ Status restoreGl(FxContext& context, const FxGlLoader& gl)
         return device.status();
     std::pmr::vector<fx::render::ViewRenderer> renderers(&context.memory);
     renderers.reserve(context.views.size());
-    for (FxView* view : context.views) {
-        view->prepared.reset(); // gives the settings of the host back
+    for (size_t i = 0; i < context.views.size(); ++i)
         renderers.push_back(FxView::makeRenderer(context, **device));
-        renderers.back().settings() = view->renderer.settings();
-    }
-    context.device->reportLoss(); // its objects are forgotten
+    context.device->reportLoss(); // its objects are forgotten, also those of frames that end below
     for (size_t i = 0; i < renderers.size(); ++i)
         context.views[i]->setRenderer(std::move(renderers[i]));
     renderers.clear();

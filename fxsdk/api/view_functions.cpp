@@ -120,6 +120,13 @@ bool sleepsThrough(const FxView& view, const FxFrameDef* frame)
            std::memcmp(frame, &view.sleptFrame, sizeof view.sleptFrame) == 0;
 }
 
+/// GlLost if the context is lost. GL is asked once in a frame, also in one that draws nothing.
+Status checkGl(const FxView& view)
+{
+    fx::render::GlDevice& device = *view.context->device;
+    return view.prepared && !device.isLost() ? Status() : device.pollLoss();
+}
+
 void showMoment(const FxView& view, const fx::scene::Presentation& shown, fx::render::FrameRequest& io)
 {
     io.interpolation = shown.interpolation;
@@ -342,8 +349,8 @@ FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
 {
     return fx::api::insideView("fxView_Render", view, [&]() -> Status {
-        if (view->context->device->isLost())
-            return view->context->device->orLost({});
+        if (Status status = checkGl(*view); !status)
+            return status;
         Status status = sleepsThrough(*view, frame) ? Status() : renderFrame(*view, frame);
         noteComputing(*view);
         return view->context->device->orLost(std::move(status));
@@ -353,8 +360,8 @@ FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
 FxResult fxView_RenderStereo(FxView* view, const FxFrameDef* first, const FxFrameDef* second)
 {
     return fx::api::insideView("fxView_RenderStereo", view, [&]() -> Status {
-        if (view->context->device->isLost())
-            return view->context->device->orLost({});
+        if (Status status = checkGl(*view); !status)
+            return status;
         Status status = renderEyes(*view, first, second);
         noteComputing(*view);
         return view->context->device->orLost(std::move(status));

@@ -171,7 +171,8 @@ FxResult fxView_PrepareLights(FxView* view, const FxFrameDef* frame)
 {
     return fx::api::insideView("fxView_PrepareLights", view, [&]() -> Status {
         fx::render::GlDevice& device = *view->context->device;
-        return device.isLost() ? device.orLost({}) : device.orLost(prepareLights(*view, frame));
+        const Status status = device.pollLoss();
+        return status ? device.orLost(prepareLights(*view, frame)) : status;
     });
 }
 

@@ -13,6 +13,7 @@
 #include <memory_resource>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,8 +71,9 @@ struct FxView
     void setScene(FxScene* shown)
     {
         fx::render::ViewRenderer empty = makeRenderer(*context);
+        prepared.reset(); // gives the settings of the host back
+        rangeEnd.reset();
         empty.settings() = renderer.settings();
-        prepared.reset();
         if (renderer.settings().overlay) {
             shown->scene.wantMarks(true);
             scene->scene.wantMarks(false);
@@ -82,18 +84,22 @@ struct FxView
         scene = shown;
         masked.forget();
         lowerLayers.clear();
+        lowerStatistics = {};
         sortLayers.forget();
         sleeps = false;
     }
 
-    /// Continues with a renderer of another GL context, which has the settings of this view. The renderer of
-    /// the last context is destroyed.
+    /// Continues with a renderer of another GL context, which gets the settings of this view. The renderer of
+    /// the last context is destroyed; its device must be marked as lost.
     void setRenderer(fx::render::ViewRenderer&& restored) noexcept
     {
-        prepared.reset();
+        prepared.reset(); // gives the settings of the host back
         rangeEnd.reset();
+        static_assert(std::is_nothrow_copy_assignable_v<fx::render::ViewSettings>);
+        restored.settings() = renderer.settings();
         renderer = std::move(restored);
         lowerLayers.clear();
+        lowerStatistics = {};
         sleeps = false;
         allocations = 0;
     }
@@ -170,7 +176,12 @@ inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
     ShownFrame& frameToShow = view.prepared.emplace(
         view.scene->scene, view.quality, view.renderer, view.masked, frame,
         frame.holdQuality != 0 || frame.rangePart != FX_RANGE_ONLY || view.scene->catchingUp.load());
-    view.sortLayers.divide(frameToShow.shown().snapshots, view.scene->scene.displayRules());
+    try {
+        view.sortLayers.divide(frameToShow.shown().snapshots, view.scene->scene.displayRules());
+    } catch (...) { // a frame that is not divided must not be drawn by a later call
+        view.prepared.reset();
+        throw;
+    }
     return frameToShow;
 }
 

@@ -89,24 +89,36 @@ bool GlPassTimer::isAvailable(const Frame& frame)
     return available != 0;
 }
 
+/// Reads the times of the stamps.
+/// @return false if GL has none: queries of a lost context are available at once, with the result 0
+bool GlPassTimer::read(const Frame& frame, std::array<double, kStamps>& out)
+{
+    out = frame.host;
+    for (size_t i = 0; frame.clock == TimingClock::Gpu && i < frame.stamps; ++i) {
+        GLuint64 nanoseconds = 0;
+        device_.gl.GetQueryObjectui64v(frame.queries[i], GL_QUERY_RESULT, &nanoseconds);
+        if (nanoseconds == 0)
+            return false;
+        out[i] = double(nanoseconds) * 1e-6;
+    }
+    return true;
+}
+
 bool GlPassTimer::take(GroupTimes& out)
 {
-    if (waiting_ == 0 || !isAvailable(frames_[first_]))
-        return false;
-    const Frame& frame = frames_[first_];
-    std::array<double, kStamps> at = frame.host;
-    if (frame.clock == TimingClock::Gpu)
-        for (size_t i = 0; i < frame.stamps; ++i) {
-            GLuint64 nanoseconds = 0;
-            device_.gl.GetQueryObjectui64v(frame.queries[i], GL_QUERY_RESULT, &nanoseconds);
-            at[i] = double(nanoseconds) * 1e-6;
-        }
-    out = {frame.tag, {}};
-    for (size_t i = 0; i + 1 < frame.stamps; ++i)
-        out.milliseconds[frame.groups[i]] += at[i + 1] - at[i];
-    first_ = (first_ + 1) % kFrames;
-    --waiting_;
-    return true;
+    while (waiting_ > 0 && isAvailable(frames_[first_])) {
+        const Frame& frame = frames_[first_];
+        first_ = (first_ + 1) % kFrames;
+        --waiting_;
+        std::array<double, kStamps> at{};
+        if (!read(frame, at))
+            continue;
+        out = {frame.tag, {}};
+        for (size_t i = 0; i + 1 < frame.stamps; ++i)
+            out.milliseconds[frame.groups[i]] += at[i + 1] - at[i];
+        return true;
+    }
+    return false;
 }
 
 } // namespace fx::render

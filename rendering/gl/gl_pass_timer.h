@@ -81,6 +81,7 @@ private:
     };
     void stamp(size_t next);
     bool isAvailable(const Frame& frame);
+    bool read(const Frame& frame, std::array<double, kStamps>& out);
 
     GlDevice& device_;
     PassGroups groups_;

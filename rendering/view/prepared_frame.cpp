@@ -82,8 +82,6 @@ base::Status ViewRenderer::prepareLights(const base::SnapshotPair& snapshots, co
         return {};
     }
     const uint64_t callsBefore = s.device->callCount();
-    if (base::Status status = s.device->pollLoss(); !status)
-        return status;
     const uint32_t compiledBefore = s.device->programsCompiled();
     FrameRequest contextOnly;
     contextOnly.camera = asked.camera;

@@ -339,9 +339,6 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         return {};
     }
     const uint64_t callsBefore = s.device->callCount();
-    const bool begins = !s.stereo.isSecond && !asked.range.isContinued && !s.prepared;
-    if (base::Status status = begins ? s.device->pollLoss() : base::Status(); !status)
-        return status;
     if (base::Status status = s.checkTargets(asked); !status)
         return status;
     s.copies.begin(asked.targets, s.targetFacts);

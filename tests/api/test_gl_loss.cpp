@@ -271,7 +271,7 @@ TEST_F(LosingHost, simulatesTheSameWhetherOrNotItsContextIsLost)
 
 TEST_F(LosingHost, callsNothingAfterALossAtAnyCallOfAFrame)
 {
-    sweep(1, [&] { return draw(view_); });
+    sweep(3, [&] { return draw(view_); });
     ASSERT_EQ(draw(view_), FX_OK) << fxGetLastErrorMessage();
     const std::vector<float> restored = picture();
     EXPECT_EQ(restored, freshPicture());
@@ -327,6 +327,75 @@ TEST_F(LosingHost, asksOnceAFrameWhetherAContextThatReportsResetsIsLost)
     EXPECT_EQ(loss_->lostIn(), "glGetGraphicsResetStatus");
     EXPECT_EQ(loss_->calls(), 1u);
     EXPECT_NE(std::string(fxGetLastErrorMessage()).find("fxContext_RestoreGl"), std::string::npos);
+}
+
+TEST_F(LosingHost, noticesALossInAViewWithNothingToDraw)
+{
+    FxViewSettings all = settings();
+    all.dazzle = 0; // or the glare would change the picture of the host
+    ASSERT_EQ(fxView_SetSettings(view_, &all), FX_OK);
+    loss_->setReportsReset(true);
+    ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK);
+    ASSERT_EQ(fxScene_DestroyAllInstances(scene_), FX_OK);
+    const FxFrameDef def = frame();
+    for (int i = 0; i < 100; ++i) { // until textures of the last effects are gone
+        update(1);
+        ASSERT_EQ(fxView_Render(view_, &def), FX_OK);
+    }
+    loss_->loseAt(0);
+    ASSERT_EQ(fxView_Render(view_, &def), FX_OK);
+    EXPECT_EQ(loss_->calls(), 1u); // of glGetGraphicsResetStatus
+    loss_->loseAt(1);
+    EXPECT_EQ(fxView_Render(view_, &def), FX_ERROR_GL_LOST);
+    for (int function = 0; function < 2; ++function) {
+        loss_->loseAt(0);
+        ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK);
+        loss_->loseAt(1);
+        EXPECT_EQ(function == 0 ? fxView_PrepareLights(view_, &def) : fxView_RenderStereo(view_, &def, &def),
+                  FX_ERROR_GL_LOST);
+    }
+}
+
+TEST_F(LosingHost, callsNothingOfAPreparedFrameWhenItIsRestored)
+{
+    FxViewSettings all = settings();
+    all.budgetMilliseconds = 8.0f; // the frame is measured
+    ASSERT_EQ(fxView_SetSettings(view_, &all), FX_OK);
+    const FxFrameDef def = frame();
+    for (int i = 0; i < 3; ++i)
+        ASSERT_EQ(draw(view_), FX_OK) << fxGetLastErrorMessage();
+    ASSERT_EQ(fxView_PrepareLights(view_, &def), FX_OK) << fxGetLastErrorMessage();
+    loss_->loseAt(0);
+    ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK);
+    const uint64_t calls = loss_->calls();
+    loss_->loseAt(0);
+    ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK); // without a prepared frame
+    EXPECT_EQ(calls, loss_->calls());
+    EXPECT_EQ(draw(view_), FX_OK) << fxGetLastErrorMessage();
+}
+
+TEST_F(LosingHost, keepsItsFramesWhenRestoringRunsOutOfMemory)
+{
+    FxFrameDef first = frame();
+    first.rangePart = FX_RANGE_FIRST;
+    first.rangeNear = 3.0f;
+    FxFrameDef last = frame();
+    last.rangePart = FX_RANGE_LAST;
+    last.rangeFar = 3.0f;
+    FxResult result = FX_ERROR_OUT_OF_MEMORY;
+    uint64_t n = 1;
+    for (; result == FX_ERROR_OUT_OF_MEMORY && n < 1000; ++n) {
+        ASSERT_EQ(fxView_Render(view_, &first), FX_OK) << fxGetLastErrorMessage();
+        memory_.failFrom(n);
+        result = fxContext_RestoreGl(context_, nullptr);
+        memory_.failFrom(0);
+        if (result == FX_ERROR_OUT_OF_MEMORY) {
+            ASSERT_EQ(fxView_Render(view_, &last), FX_OK) << n << " " << fxGetLastErrorMessage();
+        }
+    }
+    EXPECT_EQ(result, FX_OK) << fxGetLastErrorMessage();
+    EXPECT_GT(n, 2u);
+    EXPECT_EQ(fxView_Render(view_, &last), FX_ERROR_INVALID_ARGUMENT); // the frame has ended
 }
 
 TEST_F(LosingHost, keepsItsViewsWhenRestoringFails)

@@ -1,5 +1,6 @@
 // What a device needs from the host, and how it compiles programs.
 #include "gl_test.h"
+#include "rendering/gl/gl_pass_timer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -14,6 +15,7 @@ struct DoctoredLoader
     GlLoader inner;
     const char* hidden = "";
     bool old = false;
+    bool lostQueries = false; ///< true: queries are available at once with the result 0, as in a lost context
 
     GlLoader loader()
     {
@@ -23,11 +25,17 @@ struct DoctoredLoader
                         return nullptr;
                     if (self.old && std::strcmp(name, "glGetIntegerv") == 0)
                         return reinterpret_cast<void*>(&answerThreePointThree);
+                    if (self.lostQueries && std::strcmp(name, "glGetQueryObjectuiv") == 0)
+                        return reinterpret_cast<void*>(&answerAvailable);
+                    if (self.lostQueries && std::strcmp(name, "glGetQueryObjectui64v") == 0)
+                        return reinterpret_cast<void*>(&answerZero);
                     return self.inner.getProcAddress(self.inner.user, name);
                 }};
     }
 
     static void APIENTRY answerThreePointThree(GLenum, GLint* value) { *value = 3; }
+    static void APIENTRY answerAvailable(GLuint, GLenum, GLuint* value) { *value = GL_TRUE; }
+    static void APIENTRY answerZero(GLuint, GLenum, GLuint64* value) { *value = 0; }
 };
 
 bool contains(const std::string& text, const char* word)
@@ -253,6 +261,24 @@ TEST_F(GlDeviceTest, impossibleSizesAreRefusedWithoutAnyCall)
     }
     EXPECT_EQ(GlBuffer::create(*device, 0, "empty").status().code(), base::Code::InvalidArgument);
     EXPECT_EQ(device->callCount(), before);
+}
+
+TEST_F(GlDeviceTest, queriesOfALostContextAreNoTimes)
+{
+    DoctoredLoader lost{context->loader()};
+    lost.lostQueries = true;
+    auto made = GlDevice::create(lost.loader(), std::pmr::get_default_resource());
+    ASSERT_TRUE(made.ok()) << made.status().message();
+    const auto measure = [](GlPassTimer& timer, TimingClock clock) {
+        timer.beginFrame(clock, 7);
+        timer.beginPasses();
+        timer.endFrame(true);
+        GroupTimes times;
+        return timer.take(times);
+    };
+    GlPassTimer timer(**made, {});
+    EXPECT_FALSE(measure(timer, TimingClock::Gpu));
+    EXPECT_TRUE(measure(timer, TimingClock::Host)); // is not held up by the frame before
 }
 
 } // namespace fx::render
