@@ -3,6 +3,7 @@
 #include "fxsdk/api/view_object.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace fx::api {
@@ -19,6 +20,10 @@ void addStatistics(const render::FrameStatistics& more, render::FrameStatistics&
     io.blobsNonFinite += more.blobsNonFinite;
     io.blobsThinned += more.blobsThinned;
     io.particlesThinned += more.particlesThinned;
+    io.impostors += more.impostors;
+    io.impostorsTaken += more.impostorsTaken;
+    for (size_t i = 0; i < std::size(io.lodGroups); ++i)
+        io.lodGroups[i] += more.lodGroups[i];
     io.sprites += more.sprites;
     io.meshes += more.meshes;
     io.ribbonPieces += more.ribbonPieces;
@@ -31,6 +36,21 @@ void addStatistics(const render::FrameStatistics& more, render::FrameStatistics&
     io.uploadedBytes += more.uploadedBytes;
     io.sortedElements += more.sortedElements;
     io.estimatedFragments += more.estimatedFragments;
+    io.keptRowBytes += more.keptRowBytes;
+    io.sharedRowBytes += more.sharedRowBytes;
+    io.unsharedBytes += more.unsharedBytes;
+    io.sharedBytes += more.sharedBytes;
+    io.coveredPixels += more.coveredPixels;
+    io.shadedFragments += more.shadedFragments;
+    io.listedBalls += more.listedBalls;
+    io.spilledBalls += more.spilledBalls;
+    io.spilledCards += more.spilledCards;
+    io.blocks += more.blocks;
+    io.blockInstances += more.blockInstances;
+    io.blockParticles += more.blockParticles;
+    io.blockParticlesRefused += more.blockParticlesRefused;
+    io.blockImpostors += more.blockImpostors;
+    io.blockTilesDrawn += more.blockTilesDrawn;
 }
 
 LayerRenderer& lowerLayer(FxView& view, int32_t number)

@@ -69,8 +69,35 @@ void DisplayRules::reserveOne()
         rules_.reserve(2 * rules_.size() + 1);
 }
 
+void DisplayRules::retire(LocalId instance, uint32_t most)
+{
+    const std::lock_guard lock(mutex_);
+    const auto at = find(instance);
+    if (at == rules_.end() || at->instance != instance)
+        return;
+    if (retired_ < most) {
+        rules_[size_t(at - rules_.begin())].publicationsLeft = kKeptPublications;
+        ++retired_;
+        return;
+    }
+    rules_.erase(at);
+    ++revision_;
+}
+
+void DisplayRules::countPublication()
+{
+    if (retired_ == 0)
+        return;
+    const std::lock_guard lock(mutex_);
+    const size_t ended = std::erase_if(
+        rules_, [](InstanceRule& one) { return one.publicationsLeft > 0 && --one.publicationsLeft == 0; });
+    retired_ -= uint32_t(ended);
+    revision_ += ended > 0 ? 1 : 0;
+}
+
 void DisplayRules::replace(std::pmr::vector<InstanceRule>& rules)
 {
+    retired_ = 0;
     const std::lock_guard lock(mutex_);
     rules_.swap(rules);
     ++revision_;

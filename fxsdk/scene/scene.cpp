@@ -83,7 +83,7 @@ void Scene::remove(LocalId id)
     else
         countHints(instance, -1);
     instances_.remove(id);
-    rules_.remove(id);
+    rules_.retire(id, options_.maxInstances);
 }
 
 uint32_t Scene::particles(LocalId id)
@@ -186,7 +186,7 @@ void Scene::finish(uint32_t index)
         events_->add(event, instance.serial);
     }
     if (instances_.at(index).setup.destroyWhenFinished) {
-        rules_.remove(instances_.idAt(index));
+        rules_.retire(instances_.idAt(index), options_.maxInstances);
         instances_.remove(instances_.idAt(index));
         return;
     }
@@ -210,6 +210,7 @@ void Scene::beginPublication(base::Ticks tick, double interpolation)
         published_ = tick;
         emptyPublications_ = kMaxEmptyPublications + 1;
         showsNothing_.store(true, std::memory_order_release);
+        rules_.countPublication();
         return show(tick, interpolation);
     }
     shownWork_ = 0;
@@ -229,6 +230,7 @@ bool Scene::proceedPublication(base::Ticks tick, double interpolation)
     showsNothing_.store(false, std::memory_order_release);
     std::lock_guard lock(presentation_);
     ring_.publish();
+    rules_.countPublication();
     if (std::exchange(replaced_, false))
         ring_.forgetOlder();
     show(tick, interpolation);

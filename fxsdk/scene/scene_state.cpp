@@ -193,6 +193,7 @@ void Scene::saveDisplayRules(sim::StateWriter& writer) const
     std::pmr::vector<InstanceRule> rules(memory_);
     uint64_t revision = 0;
     rules_.copy(rules, revision);
+    std::erase_if(rules, [](const InstanceRule& one) { return one.publicationsLeft > 0; });
     writer.value(uint32_t(rules.size()));
     for (const InstanceRule& one : rules) {
         writer.value(one.instance);

@@ -273,9 +273,11 @@ base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSet
         return status;
     }
     timer.beginPasses();
-    // tone mapping and display encodings write codes themselves
+    // tone mapping and display encodings write codes themselves; only the last part of a picture is
+    // tone-mapped
+    const bool isToneMapped = settings.toneMap && completes && request.range.isLast;
     const bool isDisplayReferred =
-        request.targets.isDisplay() || (settings.toneMap && request.targets.color != 0);
+        request.targets.isDisplay() || (isToneMapped && request.targets.color != 0);
     if (backend.beginFrame(graph, isDisplayReferred ? SrgbTargets::Codes : SrgbTargets::Light,
                            request.targets.keepScissor))
         graph.execute(backend);

@@ -278,6 +278,90 @@ TEST_F(ViewSortLayers, areToneMappedOnce)
     EXPECT_EQ(fxDestroyView(view), FX_OK);
 }
 
+TEST_F(ViewSortLayers, areToneMappedOnceInATextureOfSrgb)
+{
+    const FxInstanceId shown = add(dust(kRed), 0.0, 0);
+    (void)add(dust(kBlue), 1e4, 0); // behind the camera
+    step(3);
+    auto target = fx::render::GlTexture::create(*host_, kSize, kSize, GL_SRGB8_ALPHA8, "codes");
+    ASSERT_TRUE(target.ok());
+    FxViewSettings settings = settingsOf(FX_COMPOSITION_SORTED);
+    settings.toneMap = 1;
+    FxView* const view = makeView(settings);
+    const auto drawnCodes = [&] {
+        const float gray[4] = {kBackground, kBackground, kBackground, 1.0f};
+        host_->gl.ClearTexImage(target->name(), 0, GL_RGBA, GL_FLOAT, gray);
+        FxFrameDef def = frame();
+        def.colorTexture = target->name();
+        EXPECT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
+        return fx::render::readTexture(*host_, target->name(), kSize, kSize, 4);
+    };
+    const std::vector<float> plain = drawnCodes();
+    ASSERT_EQ(fxScene_SetLayer(stage_, shown, -1, 0), FX_OK);
+    const std::vector<float> layered = drawnCodes();
+    EXPECT_LE(fx::test::largestShownDifference(layered, plain), 3.0f / 255.0f); // rounded once more
+    EXPECT_EQ(fxDestroyView(view), FX_OK);
+}
+
+TEST_F(ViewSortLayers, destroyedInstancesKeepTheirLayerWhileTheyAreShown)
+{
+    const FxInstanceId dying = add(dust(kRed), 0.0, 3);
+    (void)add(dust(kBlue), -2.0, 3);
+    step(3);
+    FxViewSettings settings = settingsOf(FX_COMPOSITION_SORTED);
+    settings.outputs = FX_OUTPUT_INSTANCE_ID; // refused in several layers
+    FxView* const view = makeView(settings);
+    EXPECT_GT(redness(drawn(view)), 0.1f);
+    ASSERT_EQ(fxScene_DestroyInstance(stage_, dying), FX_OK);
+    size_t size = 0;
+    ASSERT_EQ(fxScene_SaveState(stage_, nullptr, 0, &size), FX_OK);
+    std::vector<std::byte> state(size);
+    ASSERT_EQ(fxScene_SaveState(stage_, state.data(), state.size(), &size), FX_OK);
+    for (int i = 0; i < 6; ++i) {
+        SCOPED_TRACE(i);
+        (void)drawn(view);
+        step(1);
+    }
+    EXPECT_LT(redness(drawn(view)), -0.1f);
+    EXPECT_EQ(fxScene_RestoreState(stage_, state.data(), state.size()), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(fxDestroyView(view), FX_OK);
+}
+
+TEST_F(ViewSortLayers, hiddenInstancesStayHiddenWhenTheyAreDestroyed)
+{
+    const FxInstanceId hidden = add(dust(kRed), 0.0, 0);
+    ASSERT_EQ(fxScene_SetVisibilityMask(stage_, hidden, 0), FX_OK);
+    step(3);
+    FxView* const view = makeView(settingsOf(FX_COMPOSITION_SORTED));
+    const std::vector<float> before = drawn(view);
+    ASSERT_EQ(fxScene_DestroyInstance(stage_, hidden), FX_OK);
+    for (int i = 0; i < 6; ++i) {
+        EXPECT_EQ(drawn(view), before) << i;
+        step(1);
+    }
+    EXPECT_EQ(fxDestroyView(view), FX_OK);
+}
+
+TEST_F(ViewSortLayers, areAllDrawnAfterAPreparationThatRanOutOfMemory)
+{
+    (void)add(dust(kRed), 0.0, 0);
+    (void)add(dust(kBlue), -2.0, 1);
+    step(3);
+    const FxFrameDef def = frame();
+    FxResult result = FX_ERROR_OUT_OF_MEMORY;
+    uint64_t n = 1;
+    for (; result == FX_ERROR_OUT_OF_MEMORY && n < 300 && !HasFailure(); ++n) {
+        FxView* const view = makeView(settingsOf(FX_COMPOSITION_SORTED));
+        memory_.failFrom(n);
+        result = fxView_PrepareLights(view, &def);
+        memory_.failFrom(0);
+        EXPECT_LT(redness(drawn(view)), -0.1f) << n;
+        EXPECT_EQ(fxDestroyView(view), FX_OK);
+    }
+    EXPECT_EQ(result, FX_OK) << fxGetLastErrorMessage();
+    EXPECT_GT(n, 5u);
+}
+
 TEST_F(ViewSortLayers, showTheSameToBothEyes)
 {
     (void)add(dust(kRed), 0.0, 0);
@@ -317,12 +401,21 @@ TEST_F(ViewSortLayers, repeatWithoutAllocationsAndEndWhenTheyAreUnused)
     const FxViewStatistics two = statisticsOf();
     EXPECT_EQ(two.allocations, 0u);
     EXPECT_EQ(two.blobs, 80u); // of both layers
+    uint32_t groups = 0;
+    for (const uint32_t count : two.lodGroups)
+        groups += count;
+    EXPECT_EQ(groups, 2u);
     const int64_t blocks = memory_.blocks();
     ASSERT_EQ(fxScene_SetLayer(stage_, lower, 1, 0), FX_OK);
     for (int i = 0; i < 150; ++i)
         (void)drawn(view);
     EXPECT_EQ(statisticsOf().blobs, 80u);
     EXPECT_LT(memory_.blocks(), blocks); // the renderer of the lower layer is gone
+    EXPECT_GT(two.sharedBytes, statisticsOf().sharedBytes);
+    ASSERT_EQ(fxScene_SetLayer(stage_, lower, 0, 0), FX_OK);
+    (void)drawn(view);
+    ASSERT_EQ(fxView_SetScene(view, scene_), FX_OK);
+    EXPECT_EQ(statisticsOf().blobs, 0u); // of a renderer that has drawn nothing
     EXPECT_EQ(fxDestroyView(view), FX_OK);
 }
 
