@@ -364,6 +364,7 @@ TEST_F(LosingHost, callsNothingOfAPreparedFrameWhenItIsRestored)
     const FxFrameDef def = frame();
     for (int i = 0; i < 3; ++i)
         ASSERT_EQ(draw(view_), FX_OK) << fxGetLastErrorMessage();
+    update(3); // lights are filled anew, and their time is asked for when the frame ends
     ASSERT_EQ(fxView_PrepareLights(view_, &def), FX_OK) << fxGetLastErrorMessage();
     loss_->loseAt(0);
     ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK);
