@@ -120,11 +120,17 @@ bool sleepsThrough(const FxView& view, const FxFrameDef* frame)
            std::memcmp(frame, &view.sleptFrame, sizeof view.sleptFrame) == 0;
 }
 
+/// Whether checkGl() has something to find out. Every frame of a scene at rest comes here.
+inline bool mayBeLost(const FxView& view)
+{
+    const fx::render::GlDevice& device = *view.context->device;
+    return device.isLost() || (device.limits().reportsReset && !view.prepared);
+}
+
 /// GlLost if the context is lost. GL is asked once in a frame, also in one that draws nothing.
 Status checkGl(const FxView& view)
 {
-    fx::render::GlDevice& device = *view.context->device;
-    return view.prepared && !device.isLost() ? Status() : device.pollLoss();
+    return mayBeLost(view) ? view.context->device->pollLoss() : Status();
 }
 
 void showMoment(const FxView& view, const fx::scene::Presentation& shown, fx::render::FrameRequest& io)
@@ -349,8 +355,9 @@ FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
 {
     return fx::api::insideView("fxView_Render", view, [&]() -> Status {
-        if (Status status = checkGl(*view); !status)
-            return status;
+        if (mayBeLost(*view))
+            if (Status status = checkGl(*view); !status)
+                return status;
         Status status = sleepsThrough(*view, frame) ? Status() : renderFrame(*view, frame);
         noteComputing(*view);
         return view->context->device->orLost(std::move(status));
