@@ -227,7 +227,8 @@ void noteComputing(FxView& view)
         view.renderer.canComputeParticles() &&
         std::all_of(view.lowerLayers.begin(), view.lowerLayers.end(),
                     [](const fx::api::LayerRenderer& lower) { return lower.renderer.canComputeParticles(); });
-    view.scene->gpuSeen.store(canCompute ? FxScene::kRemembered : 0u, std::memory_order_relaxed);
+    view.gpuSeen = canCompute ? FxScene::kRemembered : 0u;
+    view.scene->gpuSeen.store(view.gpuSeen, std::memory_order_relaxed);
 }
 
 Status renderFrame(FxView& view, const FxFrameDef* frame)
@@ -358,7 +359,11 @@ FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
         if (mayBeLost(*view))
             if (Status status = checkGl(*view); !status)
                 return status;
-        Status status = sleepsThrough(*view, frame) ? Status() : renderFrame(*view, frame);
+        if (sleepsThrough(*view, frame)) {
+            view->scene->gpuSeen.store(view->gpuSeen, std::memory_order_relaxed);
+            return {};
+        }
+        Status status = renderFrame(*view, frame);
         noteComputing(*view);
         return view->context->device->orLost(std::move(status));
     });

@@ -132,6 +132,7 @@ struct FxView
     /// True when the last frame drew no element. As long as the scene is empty, the next frame draws no
     /// element either.
     bool sleeps = false;
+    uint32_t gpuSeen = 0; ///< FxScene::gpuSeen after the last frame that was not slept through
     /// frame of the sleeping view, already validated; meaningful only while `sleeps`
     FxFrameDef sleptFrame = fxDefaultFrameDef();
     glm::dvec3 origin{0.0}; ///< [m] FxFrameDef::origin of the frame that was prepared or rendered last
