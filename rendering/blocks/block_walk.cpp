@@ -187,7 +187,9 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
         request.density = frame.density;
         // What has a large error must not use up the balls of what is near or large. The blocks in a block
         // are chosen one by one.
-        request.isOptional = !isBalls || uint64_t(effectBalls_) + content.balls <= errorBalls_;
+        // Balls in the shadow of the ball that their block casts would be too dark.
+        request.isOptional =
+            castsBalls_ && (!isBalls || uint64_t(effectBalls_) + content.balls <= errorBalls_);
         const float exact = shareByError(frame, request);
         share *= isFull ? 1.0f : exact;
         const auto tile = share > 0.0f ? tiles_.find(request) : std::nullopt;
