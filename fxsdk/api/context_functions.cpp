@@ -64,6 +64,20 @@ Status connectGl(FxContext& context)
     return {};
 }
 
+/// Calls `body`, which returns a Status, on the GL thread of a context that has OpenGL.
+template <class Body>
+FxResult onGlThread(const char* function, FxContext* context, Body&& body)
+{
+    return fx::api::guarded(function, fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        if (!context->device)
+            return {Code::NoGl, "the context was created without getProcAddress"};
+        const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
+        return scope ? body() : scope.status();
+    });
+}
+
 /// Replaces the device and the renderers of all views. Strong guarantee.
 Status restoreGl(FxContext& context, const FxGlLoader& gl)
 {
@@ -212,14 +226,7 @@ FxResult fxDestroyContext(FxContext* context)
 
 FxResult fxContext_WarmUp(FxContext* context)
 {
-    return fx::api::guarded("fxContext_WarmUp", fx::api::logOf(context), [&]() -> Status {
-        if (!context)
-            return fx::api::invalid("context is null");
-        if (!context->device)
-            return {Code::NoGl, "the context was created without getProcAddress"};
-        const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
-        if (!scope.status())
-            return scope.status();
+    return onGlThread("fxContext_WarmUp", context, [&]() -> Status {
         if (context->device->isLost())
             return context->device->orLost({});
         fx::render::ViewRenderer renderer(context->device.get(), &context->schema, &context->memory,
@@ -236,14 +243,7 @@ FxResult fxContext_WarmUp(FxContext* context)
 
 FxResult fxContext_ReportGlLoss(FxContext* context)
 {
-    return fx::api::guarded("fxContext_ReportGlLoss", fx::api::logOf(context), [&]() -> Status {
-        if (!context)
-            return fx::api::invalid("context is null");
-        if (!context->device)
-            return {Code::NoGl, "the context was created without getProcAddress"};
-        const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
-        if (!scope.status())
-            return scope.status();
+    return onGlThread("fxContext_ReportGlLoss", context, [&]() -> Status {
         context->device->reportLoss();
         return {};
     });
@@ -251,15 +251,10 @@ FxResult fxContext_ReportGlLoss(FxContext* context)
 
 FxResult fxContext_RestoreGl(FxContext* context, const FxGlLoader* gl)
 {
-    return fx::api::guarded("fxContext_RestoreGl", fx::api::logOf(context), [&]() -> Status {
-        if (!context)
-            return fx::api::invalid("context is null");
-        if (!context->device)
-            return {Code::NoGl, "the context was created without getProcAddress"};
+    return onGlThread("fxContext_RestoreGl", context, [&]() -> Status {
         if (gl && !gl->getProcAddress)
             return fx::api::invalid("gl.getProcAddress is null: set it, or give null for gl");
-        const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
-        return scope ? restoreGl(*context, gl ? *gl : context->def.gl) : scope.status();
+        return restoreGl(*context, gl ? *gl : context->def.gl);
     });
 }
 

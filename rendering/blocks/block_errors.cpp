@@ -1,4 +1,4 @@
-#include "rendering/blocks/block_error.h"
+#include "rendering/blocks/block_errors.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 /// Decides which blocks are drawn as impostors and which ones as what they consist of.
 #pragma once
 
-#include "rendering/blocks/block_error.h"
+#include "rendering/blocks/block_errors.h"
 #include "rendering/frame/view_volume.h"
 #include "rendering/media/late_balls.h"
 

@@ -92,21 +92,7 @@ protected:
         }
         return all;
     }
-    FxFrameDef frame() const
-    {
-        FxFrameDef def = fxDefaultFrameDef();
-        def.origin[2] = 3.0;
-        const float nearPlane = 0.1f, farPlane = 100.0f;
-        def.projection[0] = def.projection[5] = 1.0f;
-        def.projection[10] = (farPlane + nearPlane) / (nearPlane - farPlane);
-        def.projection[11] = -1.0f;
-        def.projection[14] = 2.0f * farPlane * nearPlane / (nearPlane - farPlane);
-        def.projection[15] = 0.0f;
-        def.colorTexture = color_.name();
-        def.depthTexture = depth_.name();
-        def.width = def.height = kPictureSide;
-        return def;
-    }
+    FxFrameDef frame() const { return fx::test::frameBefore(color_.name(), depth_.name(), kPictureSide); }
     FxResult draw(FxView* view)
     {
         const float gray[4] = {0.25f, 0.25f, 0.25f, 1.0f};

@@ -102,16 +102,7 @@ public:
     /// The camera moves on from frame to frame, so that none can show what the last one kept.
     void draw(int frames)
     {
-        FxFrameDef def = fxDefaultFrameDef();
-        def.origin[2] = 3.0;
-        const float nearPlane = 0.1f, farPlane = 100.0f;
-        def.projection[0] = def.projection[5] = 1.0f;
-        def.projection[10] = (farPlane + nearPlane) / (nearPlane - farPlane);
-        def.projection[11] = -1.0f;
-        def.projection[14] = 2.0f * farPlane * nearPlane / (nearPlane - farPlane);
-        def.projection[15] = 0.0f;
-        def.colorTexture = color_.name();
-        def.width = def.height = kSize;
+        FxFrameDef def = fx::test::frameBefore(color_.name(), 0, kSize);
         for (int i = 0; i < frames; ++i) {
             def.origin[0] = 1e-4 * ++drawn_;
             EXPECT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();

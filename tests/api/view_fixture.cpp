@@ -65,7 +65,7 @@ ViewApiTest::~ViewApiTest()
     EXPECT_EQ(host_->gl.GetError(), GLenum(GL_NO_ERROR));
 }
 
-FxFrameDef ViewApiTest::frame() const
+FxFrameDef frameBefore(uint32_t color, uint32_t depth, int side)
 {
     FxFrameDef def = fxDefaultFrameDef();
     def.origin[2] = 3.0; // three metres before the flames
@@ -75,10 +75,15 @@ FxFrameDef ViewApiTest::frame() const
     def.projection[11] = -1.0f;
     def.projection[14] = 2.0f * farPlane * nearPlane / (nearPlane - farPlane);
     def.projection[15] = 0.0f;
-    def.colorTexture = color_.name();
-    def.depthTexture = depth_.name();
-    def.width = def.height = kSize;
+    def.colorTexture = color;
+    def.depthTexture = depth;
+    def.width = def.height = side;
     return def;
+}
+
+FxFrameDef ViewApiTest::frame() const
+{
+    return frameBefore(color_.name(), depth_.name(), kSize);
 }
 
 void ViewApiTest::fillPicture()

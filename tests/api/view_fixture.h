@@ -40,6 +40,9 @@ protected:
     FxView* view_ = nullptr;
 };
 
+/// A frame of 90 degrees, seen from 3 m along +z. @param depth 0: no depth  @param side [pixel]
+FxFrameDef frameBefore(uint32_t color, uint32_t depth, int side);
+
 /// Names of the passes of the last frame, in the order of execution.
 std::vector<std::string> passNamesOf(FxView* view);
 

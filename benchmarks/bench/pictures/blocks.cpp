@@ -93,6 +93,8 @@ public:
         while (statistics().blockTilesDeferred > 0 && ++frames < kMaxSettling);
         if (statistics().blockTilesDeferred > 0)
             fail("tiles are missing after " + std::to_string(frames) + " frames");
+        if (statistics().blockImpostors == 0)
+            fail("no block is drawn as an impostor: allow a larger error with --block-error");
     }
     void step(int number) { require(stage_->simulate(base::toTicks(1.0 + double(number) / 60.0))); }
 
@@ -232,7 +234,7 @@ void measure(Options options)
     if (isSingle) {
         size.isMoving = true;
         BlockPictures pictures(size, options.error);
-        pictures.draw(true);
+        pictures.settle();
         addTimes(line, "_animated",
                  timesOf(pictures, options.repeat, true,
                          [&](int i) {

@@ -1,4 +1,4 @@
-#include "rendering/blocks/block_error.h"
+#include "rendering/blocks/tile_error.h"
 
 #include "shaders/formulas/formula.h"
 
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace fx::render {
 
