@@ -85,7 +85,7 @@ void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& conten
     like_ = like;
     instance_ = groups.root().info().instance;
     seconds_ = seconds;
-    effectBalls_ = 0;
+    effectBalls_ = contentCasters_ = 0;
     back_ = older ? (1.0f - t) * stepSeconds : 0.0f;
     BlockFrame outer;
     outer.position = glm::vec3(place.position);
@@ -107,7 +107,8 @@ void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& conten
             const uint32_t variant = base::BlockGroups::variantIn(root, i);
             if (isForNear != isNear(frame, frame.scale * contents.of(variant).radius))
                 continue;
-            addCasters(frame, variant);
+            if (castsBalls_)
+                addBallCasters(frame, variant);
             visit(frame, variant, 1.0f);
         }
     }
@@ -165,6 +166,7 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
     }
     if (!volume_.touches(frame.position, radius)) {
         ++counts_.culled;
+        addBlockCasters(frame, variant, weight);
         return;
     }
     float pixels = 0.0f;
@@ -174,6 +176,7 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
     if (isFull) {
         if (!camera_.orthographic && glm::length(frame.position) < kNearest * radius) {
             // Around the eye there is no impostor: as many balls as may be drawn are better than none.
+            addBlockCasters(frame, variant, weight);
             addBalls(frame, *content.group, weight,
                      settings_->maxBalls - std::min(effectBalls_, settings_->maxBalls));
             return;
@@ -187,21 +190,30 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
         request.density = frame.density;
         // What has a large error must not use up the balls of what is near or large. The blocks in a block
         // are chosen one by one.
-        // Balls in the shadow of the ball that their block casts would be too dark.
         request.isOptional =
-            castsBalls_ && (!isBalls || uint64_t(effectBalls_) + content.balls <= errorBalls_);
+            !isBalls || (uint64_t(effectBalls_) + content.balls <= errorBalls_ && canCastBalls(content));
         const float exact = shareByError(frame, request);
         share *= isFull ? 1.0f : exact;
         const auto tile = share > 0.0f ? tiles_.find(request) : std::nullopt;
-        if (tile)
+        if (tile) {
             addImpostor(frame, content, *tile, weight * share);
-        else
+            addBlockCasters(frame, variant, weight * share);
+        } else {
             share = 0.0f;
+        }
     }
     if (share >= 1.0f)
         return;
     const float rest = weight * (1.0f - share);
     if (isBalls) {
+        if (castsBalls_) {
+            // They are casters already.
+        } else if (canCastBalls(content)) {
+            addContentCasters(frame, *content.group, rest);
+            contentCasters_ += content.balls;
+        } else {
+            addBlockCasters(frame, variant, rest);
+        }
         addBalls(frame, *content.group, rest, UINT32_MAX);
         return;
     }
@@ -284,29 +296,55 @@ void BlockWalk::addBalls(const BlockFrame& frame, const SnapshotGroup& group, fl
     }
 }
 
-/// Blocks cast shadows as balls of the kernel where an effect has very many balls.
-void BlockWalk::addCasters(const BlockFrame& frame, uint32_t variant)
+void BlockWalk::addCaster(const glm::vec3& center, float radius, float crossSection)
+{
+    if (isFinite(center, radius, crossSection) && radius > 0.0f && crossSection > 0.0f)
+        casters_.push_back({center, radius, crossSection});
+}
+
+bool BlockWalk::canCastBalls(const BlockContent& content) const
+{
+    return castsBalls_ || uint64_t(contentCasters_) + content.balls <= settings_->maxCasters;
+}
+
+void BlockWalk::addContentCasters(const BlockFrame& frame, const SnapshotGroup& group, float weight)
+{
+    const float section = weight * frame.density * frame.scale * frame.scale;
+    for (uint32_t i = 0; i < group.count(); ++i)
+        addCaster(frame.position + frame.turned(vectorAt(group, blob::PositionX, i) -
+                                                back_ * vectorAt(group, blob::VelocityX, i)),
+                  frame.scale * group.start(blob::Radius)[i], section * group.start(blob::CrossSection)[i]);
+}
+
+/// All balls in a block cast shadows.
+void BlockWalk::addBallCasters(const BlockFrame& frame, uint32_t variant)
 {
     const BlockContent& content = contents_->of(variant);
     if (!content.group || content.balls == 0)
         return;
-    const SnapshotGroup& group = *content.group;
-    const float section = frame.density * frame.scale * frame.scale;
-    const auto add = [&](const glm::vec3& center, float radius, float crossSection) {
-        if (isFinite(center, radius, crossSection) && radius > 0.0f && crossSection > 0.0f)
-            casters_.push_back({center, radius, crossSection});
-    };
-    if (groups_->isBlocks(group)) {
-        for (uint32_t i = 0; i < group.count(); ++i)
-            addCasters(frame.inside(group, i), base::BlockGroups::variantIn(group, i));
-    } else if (castsBalls_) {
-        for (uint32_t i = 0; i < group.count(); ++i)
-            add(frame.position + frame.turned(vectorAt(group, blob::PositionX, i) -
-                                              back_ * vectorAt(group, blob::VelocityX, i)),
-                frame.scale * group.start(blob::Radius)[i], section * group.start(blob::CrossSection)[i]);
-    } else {
-        add(frame.position, frame.scale * content.radius, section * content.crossSection);
+    if (!groups_->isBlocks(*content.group)) {
+        addContentCasters(frame, *content.group, 1.0f);
+        return;
     }
+    for (uint32_t i = 0; i < content.group->count(); ++i)
+        addBallCasters(frame.inside(*content.group, i), base::BlockGroups::variantIn(*content.group, i));
+}
+
+/// In an effect of very many balls each block of balls that is not drawn as these casts the shadow of one
+/// ball: balls would be too dark in the shadow of the ball that their own block casts.
+void BlockWalk::addBlockCasters(const BlockFrame& frame, uint32_t variant, float weight)
+{
+    const BlockContent& content = contents_->of(variant);
+    if (castsBalls_ || !content.group || content.balls == 0)
+        return;
+    if (!groups_->isBlocks(*content.group)) {
+        addCaster(frame.position, frame.scale * content.radius,
+                  weight * frame.density * frame.scale * frame.scale * content.crossSection);
+        return;
+    }
+    for (uint32_t i = 0; i < content.group->count(); ++i)
+        addBlockCasters(frame.inside(*content.group, i), base::BlockGroups::variantIn(*content.group, i),
+                        weight);
 }
 
 } // namespace fx::render

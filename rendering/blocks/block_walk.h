@@ -39,7 +39,8 @@ struct BlockWalkSettings
     /// Of an effect: beyond, blocks are drawn as impostors however large they are. An effect with more balls
     /// draws half of them at most because of the error of impostors.
     uint32_t maxBalls = 0;
-    uint32_t maxCasters = 65536; ///< of an effect: beyond, blocks instead of balls cast shadows
+    /// Of an effect: with more balls, blocks that are drawn as impostors cast shadows as single balls.
+    uint32_t maxCasters = 65536;
 };
 
 /// Counters of the walks of a frame.
@@ -83,7 +84,11 @@ private:
     void addBalls(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight,
                   uint32_t most);
     bool isNear(const base::BlockFrame& frame, float radius) const;
-    void addCasters(const base::BlockFrame& frame, uint32_t variant);
+    void addCaster(const glm::vec3& center, float radius, float crossSection);
+    bool canCastBalls(const BlockContent& content) const;
+    void addContentCasters(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight);
+    void addBallCasters(const base::BlockFrame& frame, uint32_t variant);
+    void addBlockCasters(const base::BlockFrame& frame, uint32_t variant, float weight);
     float leastRadius(const glm::vec3& center) const;
     float impostorShare(const base::BlockFrame& frame, float radius, float& outPixels) const;
     float shareByError(const base::BlockFrame& frame, TileRequest& io) const;
@@ -105,8 +110,9 @@ private:
     uint64_t instance_ = 0;
     double seconds_ = 0.0;
     uint32_t effectBalls_ = 0;
-    uint32_t errorBalls_ = 0; ///< up to which blocks become their content because of their error
-    float back_ = 0.0f;       ///< [s] from the moment of the frame to the newer snapshot
+    uint32_t contentCasters_ = 0; ///< balls of blocks that cast shadows because they are drawn
+    uint32_t errorBalls_ = 0;     ///< up to which blocks become their content because of their error
+    float back_ = 0.0f;           ///< [s] from the moment of the frame to the newer snapshot
     bool castsBalls_ = true;
 };
 

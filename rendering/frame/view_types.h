@@ -204,7 +204,7 @@ struct BlockSettings
     /// [pixel] Largest diameter on the picture of blocks that are drawn as impostors, up to kMaxPixels.
     float maxPixels = 96.0f;
     /// [1] Largest predicted root mean square error of an impostor, in units of white. 0: not limited.
-    float error = 1.0f / 255.0f;
+    float error = 4.0f / 255.0f;
     static constexpr float kMaxPixels = 128.0f;
     static constexpr float kMaxParallax = 16.0f;
 

@@ -39,8 +39,8 @@ constexpr render::BlockSettings kUsual;
 constexpr ImpostorSetting kSettings[] = {
     {"balls", "", 0.0f, kUsual.resolution, 0.0f, true, true},
     {"default", "default", kUsual.parallax, kUsual.resolution, kUsual.error, true, true},
+    {"error-1", "", kUsual.parallax, kUsual.resolution, 1.0f / 255.0f, true, true},
     {"error-2", "", kUsual.parallax, kUsual.resolution, 2.0f / 255.0f, false, true},
-    {"error-4", "", kUsual.parallax, kUsual.resolution, 4.0f / 255.0f, true, true},
     {"any-error", "", kUsual.parallax, kUsual.resolution, 0.0f, true, true},
     {"resolution-0.5", "", kUsual.parallax, 0.5f, 0.0f, false, true},
     {"resolution-2", "", kUsual.parallax, 2.0f, 0.0f, false, true},

@@ -254,7 +254,7 @@ void addOptions(CLI::App& command, int& outExitCode)
     command
         .add_option("--block-error", options->error,
                     "[1] Root mean square error, in units of white, up to which blocks are impostors; "
-                    "0: not limited; default 1/255")
+                    "0: not limited; default 4/255")
         ->check(CLI::Range(0.0f, 1.0f));
     addSizeOption(command, options->width, options->height);
     addRepeatOption(command, options->repeat);

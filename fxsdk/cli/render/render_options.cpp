@@ -290,7 +290,7 @@ void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
     command
         .add_option("--block-error", arguments.blockError,
                     "[1] Root mean square error, in units of white, up to which blocks are drawn as "
-                    "impostors; 0: not limited; default 1/255")
+                    "impostors; 0: not limited; default 4/255")
         ->check(CLI::Range(0.0f, 1.0f));
 }
 

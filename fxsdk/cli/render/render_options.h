@@ -52,7 +52,7 @@ struct RenderArguments
     float lodBias = 0.0f;
     float impostorPixels = 0.0f;      ///< [pixel] FxViewSettings::lodImpostorPixels
     float blockParallax = 0.5f;       ///< [pixel] FxViewSettings::blockParallax
-    float blockError = 1.0f / 255.0f; ///< [1] FxViewSettings::blockError
+    float blockError = 4.0f / 255.0f; ///< [1] FxViewSettings::blockError
     uint32_t fragmentBudget = 0;      ///< FxViewSettings::fragmentBudget; 0: no limit
     std::string outputs;              ///< list of outputs, such as "id,motion,depth"; empty: none
     /// "off", or the number of planes of the sun's light slices; empty: as in the settings

@@ -229,7 +229,7 @@ typedef struct FxViewSettings
     float blockParallax;
 
     /// [1] 0..1, in units of white: largest root mean square error, over the pixels that a block covers, that
-    /// an impostor of the block is predicted to have; default 1/255. Blocks that no impostor shows as exactly
+    /// an impostor of the block is predicted to have; default 4/255. Blocks that no impostor shows as exactly
     /// are drawn as their particles or smaller blocks. The prediction is that of the block alone, unlit media
     /// count as white. 0: not limited.
     float blockError;
@@ -268,7 +268,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.voxels = 96;
     settings.lightRefreshFrames = 1;
     settings.blockParallax = 0.5f;
-    settings.blockError = 1.0f / 255.0f;
+    settings.blockError = 4.0f / 255.0f;
     return settings;
 }
 

@@ -88,7 +88,7 @@ public:
 
     /// What an eye at the origin draws that looks along -z. @param place [m] of the effect
     std::pmr::vector<render::GatheredBlob> walk(const glm::dvec3& place, uint32_t maxBalls,
-                                                bool isSpread = false)
+                                                bool isSpread = false, uint32_t maxCasters = 65536)
     {
         render::CameraGeometry camera{};
         camera.right = {1, 0, 0};
@@ -97,8 +97,8 @@ public:
         camera.nearDistance = 1e-3f;
         camera.clipScale = glm::vec2(2.4f);
         std::pmr::vector<render::GatheredBlob> balls;
-        std::pmr::vector<render::MediumCaster> casters;
         std::pmr::vector<render::BlockRecord> records;
+        casters.clear();
         tiles_.begin({});
         errors_.begin(isSpread);
         render::BlockWalk walk(camera, 1080, tiles_, balls, casters, records);
@@ -106,6 +106,7 @@ public:
         settings.error = 1.0f / 255.0f;
         settings.errors = &errors_;
         settings.maxBalls = maxBalls;
+        settings.maxCasters = maxCasters;
         base::Placement placement;
         placement.position = place;
         walk.run(*groups_, contents, nullptr, 1.0f, 0.0f, 0.0, placement, {}, settings);
@@ -121,6 +122,7 @@ private:
 
 public:
     render::BlockContents contents{std::pmr::get_default_resource()};
+    std::pmr::vector<render::MediumCaster> casters; ///< of the last walk
 };
 
 } // namespace
@@ -363,6 +365,41 @@ TEST(BlockWalks, nearBlocksGetBallsBeforeFarOnesOfALargeError)
     EXPECT_EQ(few.near, 30u);
     EXPECT_EQ(few.far, 0u);
     EXPECT_EQ(few.impostors, 31u);
+}
+
+TEST(BlockWalks, castersOfManyBallsAreWhatIsDrawn)
+{
+    std::vector<glm::vec3> places;
+    for (int i = 0; i < 30; ++i)
+        places.emplace_back(0.0f, 0.0f, -0.1f * float(i));
+    places.emplace_back(0.0f, 0.0f, 119.0f); // around the eye
+    places.emplace_back(0.0f, 0.0f, 240.0f); // behind it
+    PublishedBlocks blocks(1, 200, 0.05f, places);
+    const auto section = [&] {
+        double sum = 0.0;
+        for (const render::MediumCaster& caster : blocks.casters)
+            sum += double(caster.crossSection);
+        return sum;
+    };
+    (void)blocks.walk({0.0, 0.0, -120.0}, 100'000);
+    const double ofAll = section();
+    EXPECT_EQ(blocks.casters.size(), 33 * 200u);
+    for (const uint32_t most : {0u, 500u, 1200u, 6000u}) {
+        const auto balls = blocks.walk({0.0, 0.0, -120.0}, 100'000, false, most);
+        EXPECT_NEAR(section(), ofAll, 1e-5 * ofAll) << most;
+        EXPECT_LE(blocks.casters.size(), most + 33u);
+        size_t same = 0, drawn = 0;
+        for (const render::GatheredBlob& ball : balls) {
+            if (ball.tile > 0)
+                continue;
+            ++drawn;
+            same += std::ranges::any_of(blocks.casters, [&](const render::MediumCaster& caster) {
+                return caster.center == ball.center; // small balls are widened on the picture
+            });
+        }
+        // The block around the eye is drawn as balls, whatever shadow it casts.
+        EXPECT_EQ(same, most == 0 ? 0u : drawn) << most;
+    }
 }
 
 TEST(BlockWalks, contentIsDrawnUntilItsErrorIsKnown)
