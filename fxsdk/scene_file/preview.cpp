@@ -6,12 +6,33 @@
 #include "rendering/stage/scale_figure.h"
 #include "rendering/stage/stage_props.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 namespace fx::scene_file {
 
 namespace {
 
 using preset::Findings;
 using preset::PresetValue;
+
+/// Gives the soil a mean albedo around the effect, and keeps its patches.
+void colorSoil(const glm::vec3& color, render::StageMesh& io)
+{
+    constexpr float kAround = 60.0f; // [m]
+    if (!io.isSoil)
+        return;
+    glm::vec3 sum(0.0f);
+    float count = 0.0f;
+    for (size_t i = 0; i < io.positions.size(); ++i)
+        if (glm::length(io.positions[i]) < kAround) {
+            sum += io.colors[i];
+            count += 1.0f;
+        }
+    const glm::vec3 ratio = color * count / glm::max(sum, glm::vec3(1e-6f));
+    for (glm::vec3& each : io.colors)
+        each = glm::min(each * ratio, glm::vec3(1.0f));
+}
 
 void readProps(const PresetValue& value, const asset::AssetResolver& resolver, Findings& findings,
                render::StageMesh& io)
@@ -42,6 +63,11 @@ Preview readParts(const PresetValue& value, const asset::AssetResolver& resolver
         scene.view.lighting = view.lighting;
     if (value.has("background"))
         readBackground(value.child("background"), resolver, findings, scene);
+    if (value.has("groundColor")) {
+        glm::vec3 color(0.0f);
+        value.read("groundColor", color);
+        colorSoil(color, scene.mesh);
+    }
     readSceneMesh(value.child("mesh"), resolver, findings, scene);
     if (value.has("props"))
         readProps(value.child("props"), resolver, findings, scene.mesh);

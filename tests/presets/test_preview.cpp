@@ -101,6 +101,25 @@ TEST(Preview, placesPropsWithWhichEffectsDoNotCollideEither)
         EXPECT_LT(glm::length(with.mesh.positions[i] - glm::vec3(3, 1, 2)), 1.0f);
 }
 
+TEST(Preview, givesTheGroundAMeanColor)
+{
+    SceneFile scene = stage();
+    scene.mesh = {};
+    scene.mesh.isSoil = true;
+    scene.mesh.positions = {{1, 0, 0}, {0, 0, 2}, {500, 0, 0}};
+    scene.mesh.colors = {{0.1f, 0.2f, 0.3f}, {0.3f, 0.2f, 0.1f}, {0.2f, 0.2f, 0.6f}};
+    ASSERT_TRUE(read(R"(, "preview": {"groundColor": [0.4, 0.3, 0.1]})", scene));
+    EXPECT_FLOAT_EQ(scene.mesh.colors[0].x, 0.2f); // half of the mean around the effect, as before
+    EXPECT_FLOAT_EQ(scene.mesh.colors[1].x, 0.6f);
+    EXPECT_FLOAT_EQ(scene.mesh.colors[1].y, 0.3f);
+    EXPECT_FLOAT_EQ(scene.mesh.colors[2].z, 0.3f);
+    scene.mesh.isSoil = false;
+    ASSERT_TRUE(read(R"(, "preview": {"groundColor": [0, 0, 0]})", scene));
+    EXPECT_FLOAT_EQ(scene.mesh.colors[0].x, 0.2f);
+    EXPECT_EQ(faults(R"(, "preview": {"groundColor": [2, 0, 0]})"),
+              std::vector<std::string>{"/preview/groundColor/0"});
+}
+
 TEST(Preview, leavesTheRestAsItWas)
 {
     for (const char* text : {"", R"(, "preview": {})"}) {
