@@ -1,10 +1,11 @@
-# What is installed, in five components, of which four are Debian packages too (cmake/FxPackages.cmake):
+# What is installed, in six components, each of which is a Debian package too (cmake/FxPackages.cmake):
 #   runtime  the shared library, and the license
 #   dev      headers, static library, packages of CMake and pkg-config, description of the API
 #   tools    the fx command, the JSON schemas by which editors complete presets and scenes, and the presets of the library
 #            with the files that they name
 #   editor   the effect editor for games: sources of the panels, which a game compiles with its own ImGui, the headers that they
-#            include, and the library of what knows nothing of ImGui. In no Debian package
+#            include, and the library of what knows nothing of ImGui
+#   doc      README, docs, and the examples with their scenes
 #   python   the Python package (fxsdk/python/CMakeLists.txt)
 # OPTIONAL: after building the library alone, what exists is installed.
 include(GNUInstallDirs)
@@ -58,6 +59,13 @@ if(TARGET fx_editor)
     endforeach()
 endif()
 
+foreach(page README.md CHANGELOG.md docs examples)
+    if(IS_DIRECTORY "${PROJECT_SOURCE_DIR}/${page}")
+        install(DIRECTORY "${PROJECT_SOURCE_DIR}/${page}" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT doc)
+    else()
+        install(FILES "${PROJECT_SOURCE_DIR}/${page}" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT doc)
+    endif()
+endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/fxsdk/presets/library/" "${PROJECT_BINARY_DIR}/fxsdk/presets/library/"
     DESTINATION "${FX_DATA_DIR}/presets" COMPONENT tools
     FILES_MATCHING PATTERN "*.fx.json" PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.png")

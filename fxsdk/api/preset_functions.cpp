@@ -8,6 +8,8 @@
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/fx_reload.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <string>
 
@@ -44,6 +46,8 @@ FxResult fxLoadPresetFile(FxContext* context, const char* path, FxPresetId* outP
     return fx::api::guarded("fxLoadPresetFile", fx::api::logOf(context), [&]() -> Status {
         if (Status status = checkLoad(context, path, "path", outPreset); !status)
             return status;
+        if (std::string_view(path).starts_with(fx::api::kLibraryPrefix))
+            return fx::api::loadLibraryPreset(*context, path, nullptr, *outPreset);
         return fx::api::loadPreset(*context, {path, {}, false}, nullptr, *outPreset);
     });
 }
@@ -125,6 +129,32 @@ FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* io
         info.cueCount = uint32_t((*effect)->cues.size());
         fx::api::copyText((*effect)->name, info.name, sizeof info.name);
         return fx::api::writeStruct(info, ioInfo, "ioInfo");
+    });
+}
+
+FxResult fxGetPresetPreview(FxContext* context, FxPresetId preset, FxPresetPreview* ioPreview)
+{
+    return fx::api::guarded("fxGetPresetPreview", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        const Result<std::shared_ptr<const fx::sim::EffectDef>> effect = context->findPreset(preset);
+        if (!effect)
+            return effect.status();
+        const fx::sim::PreviewDef& preview = (*effect)->preview;
+        FxPresetPreview out{};
+        out.exposureEv100 = preview.exposureEv100;
+        out.groundAlbedo = preview.groundAlbedo;
+        out.time = preview.seconds;
+        out.hasCamera = preview.hasCamera ? 1 : 0;
+        out.fovY = glm::radians(preview.fovYDegrees);
+        for (int k = 0; k < 3; ++k) {
+            out.sunDirection[k] = preview.sunDirection[k];
+            out.sunIlluminance[k] = preview.sunIlluminance[k];
+            out.skyLuminance[k] = preview.skyLuminance[k];
+            out.cameraPosition[k] = preview.cameraPosition[k];
+            out.cameraTarget[k] = preview.cameraTarget[k];
+        }
+        return fx::api::writeStruct(out, ioPreview, "ioPreview");
     });
 }
 

@@ -11,6 +11,8 @@
 #include "fxsdk/presets/schema_assembly.h"
 #include "fxsdk/presets/schema_validator.h"
 
+#include <glm/geometric.hpp>
+
 #include <array>
 #include <span>
 #include <utility>
@@ -70,6 +72,32 @@ void readHints(const PresetValue& root, sim::DrawingHints& hints)
     root.read("scattering",
               std::span<const std::pair<std::string_view, sim::PreferredScattering>>(kScatterings),
               hints.scattering);
+}
+
+/// Tools report the faults of a preview, and read all of its members.
+void readPreview(const PresetValue& root, sim::PreviewDef& preview)
+{
+    if (!root.has("preview"))
+        return;
+    const PresetValue value = root.child("preview");
+    value.read("time", preview.seconds);
+    value.read("exposureEv100", preview.exposureEv100);
+    if (value.has("lighting")) {
+        const PresetValue lighting = value.child("lighting");
+        glm::vec3 direction(0.3f, 0.8f, 0.5f);
+        lighting.read("sunDirection", direction);
+        if (glm::length(direction) >= 1e-6f)
+            preview.sunDirection = glm::normalize(direction);
+        preview.sunIlluminance = preview.skyLuminance = glm::vec3(0.0f);
+        lighting.read("sunIlluminance", preview.sunIlluminance);
+        lighting.read("skyLuminance", preview.skyLuminance);
+        lighting.read("groundAlbedo", preview.groundAlbedo);
+    }
+    const PresetValue camera = value.child("camera");
+    preview.hasCamera = camera.has("position") && camera.has("target");
+    camera.read("position", preview.cameraPosition);
+    camera.read("target", preview.cameraTarget);
+    camera.read("fovYDegrees", preview.fovYDegrees);
 }
 
 /// Warns of a way to scatter light that has no effect: sorted balls have no networks, and without a medium
@@ -143,6 +171,7 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     root.read("bound", effect->bound);
     readOffscreen(root, *effect);
     readHints(root, effect->hints);
+    readPreview(root, effect->preview);
     buildElements(root, techniques, findings, *effect);
     for (const Technique& technique : techniques)
         if (technique.link)

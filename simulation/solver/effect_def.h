@@ -4,6 +4,7 @@
 
 #include "foundation/time/ticks.h"
 #include "simulation/solver/drawing_hints.h"
+#include "simulation/solver/preview_def.h"
 #include "simulation/solver/solver.h"
 
 #include <algorithm>
@@ -46,6 +47,7 @@ struct EffectDef
     std::vector<std::string> cues;       ///< names that rules give to events for the host
     EffectCost cost;                     ///< cost estimated by the loader of presets
     DrawingHints hints;
+    PreviewDef preview;
 
     /// True if the effect depends on the host's geometry.
     bool collides() const

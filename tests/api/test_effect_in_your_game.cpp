@@ -18,6 +18,7 @@ int drawEffects(const Effects* effects, double seconds, const float view[16], co
 FxFrameDef windowTarget(int32_t width, int32_t height);
 FxFrameDef hdrTarget(uint32_t color, uint32_t depth, int32_t width, int32_t height);
 FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3]);
+FxViewSettings authorsLight(FxContext* context, FxPresetId preset);
 int drawEffectsAroundGlass(const Effects* effects, FxFrameDef target, float glassDepth,
                            void (*drawGlass)(void));
 int showInMainViewOnly(const Effects* effects, FxInstanceId instance);
@@ -83,6 +84,19 @@ TEST_F(EffectInYourGame, theCodeOfThePageHearsImpactsAndPlacesDecals)
     }
     EXPECT_GT(decals, 0);
     EXPECT_EQ(played, decals);
+    EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
+}
+
+TEST_F(EffectInYourGame, theCodeOfThePageTakesTheAuthorsLight)
+{
+    const float sky[3] = {0.3f, 0.4f, 0.6f};
+    FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky);
+    Effects effects{};
+    ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
+    settings = authorsLight(effects.context, effects.explosion);
+    EXPECT_EQ(settings.exposureEv100, 11.3f); // of library:explosion
+    EXPECT_GT(settings.sunIlluminance[0], 0.0f);
+    EXPECT_EQ(fxView_SetSettings(effects.view, &settings), FX_OK) << fxGetLastErrorMessage();
     EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
 }
 

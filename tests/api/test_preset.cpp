@@ -53,6 +53,40 @@ TEST_F(PresetApi, aLoadedPresetTellsWhatItIs)
     EXPECT_EQ(info.durationTicks, 0);
 }
 
+TEST_F(PresetApi, aPreviewIsThatOfTheAuthor)
+{
+    FxPresetPreview preview{};
+    preview.structSize = sizeof preview;
+    ASSERT_EQ(fxGetPresetPreview(context_, fountain_, &preview), FX_OK);
+    EXPECT_EQ(preview.exposureEv100, 13.0f); // it says nothing
+    EXPECT_EQ(preview.hasCamera, 0u);
+    const std::string text = R"({"version": 1, "emitters": [], "preview": {"time": 3, "exposureEv100": 9.5,
+        "camera": {"position": [1, 2, 3], "target": [0, 1, 0], "fovYDegrees": 90},
+        "lighting": {"sunDirection": [0, 3, 4], "sunIlluminance": [5, 6, 7], "groundAlbedo": 0.5}}})";
+    FxPresetId id{};
+    ASSERT_EQ(fxLoadPresetText(context_, text.data(), text.size(), nullptr, &id), FX_OK)
+        << fxGetLastErrorMessage();
+    ASSERT_EQ(fxGetPresetPreview(context_, id, &preview), FX_OK);
+    EXPECT_EQ(preview.time, 3.0);
+    EXPECT_EQ(preview.exposureEv100, 9.5f);
+    EXPECT_EQ(preview.hasCamera, 1u);
+    EXPECT_EQ(preview.cameraPosition[2], 3.0);
+    EXPECT_EQ(preview.cameraTarget[1], 1.0);
+    EXPECT_FLOAT_EQ(preview.fovY, 1.57079633f);
+    EXPECT_FLOAT_EQ(preview.sunDirection[1], 0.6f);
+    EXPECT_EQ(preview.sunIlluminance[1], 6.0f);
+    EXPECT_EQ(preview.skyLuminance[0], 0.0f);
+    EXPECT_EQ(preview.groundAlbedo, 0.5f);
+}
+
+TEST_F(PresetApi, pathsOfTheLibraryAreFiles)
+{
+    FxPresetId id{};
+    EXPECT_EQ(fxLoadPresetFile(context_, "library:sparks", &id), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(fxLoadPresetFile(context_, "library:spraks", &id), FX_ERROR_NOT_FOUND);
+    EXPECT_NE(std::strstr(fxGetLastErrorMessage(), "did you mean"), nullptr) << fxGetLastErrorMessage();
+}
+
 TEST_F(PresetApi, nullIsRefusedEverywhereAndTheOutputStays)
 {
     const std::string text = fountainPreset();
@@ -75,6 +109,11 @@ TEST_F(PresetApi, nullIsRefusedEverywhereAndTheOutputStays)
     EXPECT_EQ(fxGetPresetInfo(context_, fountain_, nullptr), FX_ERROR_INVALID_ARGUMENT);
     info.structSize = 3;
     EXPECT_EQ(fxGetPresetInfo(context_, fountain_, &info), FX_ERROR_VERSION);
+    FxPresetPreview preview{};
+    preview.structSize = sizeof preview;
+    EXPECT_EQ(fxGetPresetPreview(nullptr, fountain_, &preview), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxGetPresetPreview(context_, fountain_, nullptr), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxGetPresetPreview(context_, {}, &preview), FX_ERROR_STALE_ID);
     EXPECT_EQ(id.bits, 42u);
 }
 

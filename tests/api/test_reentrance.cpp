@@ -197,6 +197,9 @@ protected:
         host.note("fxDestroyContext", fxDestroyContext(context_));
         host.note("fxContext_GetMemoryStats", fxContext_GetMemoryStats(context_, &stats));
         host.note("fxGetPresetInfo", fxGetPresetInfo(context_, hail_, &info));
+        FxPresetPreview preview{};
+        preview.structSize = sizeof preview;
+        host.note("fxGetPresetPreview", fxGetPresetPreview(context_, hail_, &preview));
         host.note("fxLoadPresetText", fxLoadPresetText(context_, text.data(), text.size(), nullptr, &preset));
         host.note("fxCreateScene", fxCreateScene(context_, &def, &scene));
     }

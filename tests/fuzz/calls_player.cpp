@@ -221,6 +221,9 @@ void CallsPlayer::readContext()
     PlayedContext& played = anyContext();
     FxPresetInfo info = sized<FxPresetInfo>();
     checked(fxGetPresetInfo(played.context, anyPreset(played), &info));
+    FxPresetPreview preview{};
+    preview.structSize = sizeof preview;
+    checked(fxGetPresetPreview(played.context, anyPreset(played), &preview));
     FxMemoryStats stats = sized<FxMemoryStats>();
     checked(fxContext_GetMemoryStats(played.context, &stats));
     if (input_.one(4))

@@ -84,6 +84,12 @@ class Unpacked(unittest.TestCase):
         run(PYTHON, "-m", "fxsdk", "campfire", "--time", "0.5", "--size", "48x32", "-o", picture, env=environment)
         self.assertTrue(drawn(picture))
         run(PYTHON, ROOT / "tests/packages/test_python.py", env=environment)
+        blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/howto/install.md").read_text(), re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(blocks), 3)
+        program = "".join(blocks).replace("range(60)", "range(3)").replace("(320, 180)", "(32, 18)").replace("320", "32").replace("180", "18")
+        self.assertIn("look_at", program)
+        run(PYTHON, "-c", program, env=environment, cwd=self.folder)
+        self.assertTrue(drawn(self.folder / "campfire.png"))
 
     def test_the_command(self):
         picture = self.folder / "campfire.png"
@@ -115,11 +121,27 @@ class DebianPackages(Unpacked):
         for package in self.packages:
             fields = run("dpkg-deb", "--field", package, "Package", "Depends")
             depends[re.search(r"Package: (\S+)", fields)[1]] = fields
-        self.assertEqual(set(depends), {"libfxsdk0", "libfxsdk-dev", "fxsdk-tools", "python3-fxsdk"})
+        editor = {"libfxsdk-editor-dev"} if (BUILD / "lib/libfx_editor.a").exists() else set()
+        self.assertEqual(set(depends), {"libfxsdk0", "libfxsdk-dev", "fxsdk-tools", "python3-fxsdk", "libfxsdk-doc"} | editor)
         for library in ("libtbb12", "libhwy1", "libxxhash0", "libc6"):
             self.assertIn(library, depends["libfxsdk0"])
         self.assertIn("libfxsdk0 (= ", depends["libfxsdk-dev"])
         self.assertIn("python3-numpy", depends["python3-fxsdk"])
+
+    def test_files_that_headers_name_are_installed(self):
+        texts = [path.read_text() for path in self.prefix.glob("include/fxsdk/*")]
+        named = {name for text in texts for name in re.findall(r"\b(?:docs|examples)/[\w/.-]+\.\w+", text)}
+        self.assertIn("examples/00_hello/main.c", named)
+        for name in named:
+            self.assertTrue((self.prefix / "share/doc/fxsdk" / name).is_file(), name)
+
+    def test_missing_components_are_named(self):
+        (self.folder / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(game LANGUAGES C CXX)\nfind_package(fxsdk REQUIRED COMPONENTS ${WANTED})\n")
+        configure = ("cmake", "-S", self.folder, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-B")
+        run(*configure, self.folder / "a", "-DWANTED=static", env=self.environment)
+        with self.assertRaisesRegex(AssertionError, r"has\s+no\s+component\s+statics;\s+it\s+has\s+shared,\s+static"):
+            run(*configure, self.folder / "b", "-DWANTED=statics", env=self.environment)
 
 
 class Archive(Unpacked):

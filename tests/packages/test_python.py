@@ -94,6 +94,44 @@ class Simulation(unittest.TestCase):
         self.assertTrue(any(b"dtSeconds" in message for message in messages))
         scene._context.close()
 
+    def test_what_is_closed_says_so(self):
+        context = fxsdk.Context(workers=1)
+        scene = context.scene()
+        other = context.scene()
+        other.close()
+        with self.assertRaisesRegex(ValueError, "^the scene is closed"):
+            other.update(0.1)
+        context.close()
+        for call in (lambda: scene.update(0.1), lambda: context.load("sparks"), context.scene, context.memory):
+            with self.assertRaisesRegex(ValueError, "^the context is closed"):
+                call()
+
+    def test_failures_of_a_loader_of_gl_are_raised(self):
+        asked = []
+
+        def loader(name):
+            asked.append(name)
+            raise KeyError(name)
+
+        with self.assertRaises(KeyError) as raised:
+            fxsdk.Context(gl=loader)
+        self.assertEqual(raised.exception.args[0], asked[0])
+        with self.assertRaises(TypeError):
+            fxsdk.Context(gl=lambda: 0)
+        with self.assertRaisesRegex(fxsdk.Error, "does not find gl\\w+(, gl\\w+)* and \\d+ more functions; a current OpenGL"):
+            fxsdk.Context(gl=lambda name: None)
+
+    def test_previews_are_those_of_the_presets(self):
+        preview = self.context.preview("campfire")
+        self.assertAlmostEqual(preview.exposureEv100, 9.2, places=6)
+        self.assertEqual((preview.time, preview.hasCamera), (3.0, 1))
+        self.assertAlmostEqual(math.hypot(*preview.sunDirection), 1.0, places=6)
+
+    def test_pictures_of_no_size_are_refused(self):
+        for size in ((0, 5), (5, -1), (5,), (2.5, 5), (5, 20000)):
+            with self.assertRaisesRegex(ValueError, "size is"):
+                fxsdk.render("sparks", size=size)
+
     def test_structs_are_laid_out_as_by_the_compiler(self):
         headers = os.environ.get("FX_INCLUDE")
         if not headers:

@@ -1,6 +1,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "fxsdk/cli/scene/default_stage.h"
 #include "fxsdk/cli/scene/effect_scene.h"
+#include "fxsdk/presets/preset_loader.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,28 @@ uint64_t hashOf(EffectScene& effects)
     uint64_t hash = 0;
     EXPECT_EQ(fxScene_GetStateHash(effects.scene(), &hash), FX_OK);
     return hash;
+}
+
+TEST(EffectScene, showsPresetsOfTheLibraryInTheLightThatHostsAreTold)
+{
+    for (const base::EmbeddedText& file : preset::presetLibrary()) {
+        const std::string name = "library:" + std::string(file.name.substr(0, file.name.find(".fx.json")));
+        scene_file::Preview preview;
+        const auto scene = sceneOfPreset(name, &preview);
+        ASSERT_TRUE(scene.ok()) << scene.status().message();
+        const sim::PreviewDef& told = scene->presets[0].effect->preview;
+        EXPECT_EQ(scene->view.exposureEv100, told.exposureEv100) << name;
+        const render::Lighting& shown = scene->view.lighting;
+        EXPECT_EQ(shown.sunDirection, told.sunDirection) << name;
+        EXPECT_EQ(shown.sunIlluminance, told.sunIlluminance) << name;
+        EXPECT_EQ(shown.skyLuminance, told.skyLuminance) << name;
+        EXPECT_EQ(shown.groundAlbedo, told.groundAlbedo) << name;
+        if (!told.hasCamera)
+            continue;
+        EXPECT_EQ(scene->camera.position, told.cameraPosition) << name;
+        EXPECT_EQ(scene->camera.target, told.cameraTarget) << name;
+        EXPECT_EQ(scene->camera.fovYDegrees, told.fovYDegrees) << name;
+    }
 }
 
 TEST(EffectScene, aViewShowsExactlyTheMomentAskedForOnAndBetweenSteps)

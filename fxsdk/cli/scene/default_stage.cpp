@@ -7,8 +7,6 @@
 #include "fxsdk/presets/preset_loader.h"
 #include "fxsdk/scene_file/stages.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 
 namespace fx::cli {
@@ -23,10 +21,10 @@ void addDefaultStage(scene_file::SceneFile& scene)
     addPreviewGround(scene.mesh);
     scene.background.luminance = {1600.0f, 2600.0f, 4600.0f};
     scene.background.horizon = {5200.0f, 5700.0f, 6100.0f};
-    scene.view.lighting.sunDirection = glm::normalize(glm::vec3(0.55f, 0.5f, 0.45f));
-    scene.view.lighting.sunIlluminance = {40000.0f, 34500.0f, 27000.0f};
-    scene.view.lighting.skyLuminance = {2500.0f, 3150.0f, 4200.0f};
-    scene.view.exposureEv100 = 13.0f;
+    const sim::PreviewDef preview;
+    scene.view.lighting = {preview.sunDirection, preview.sunIlluminance, preview.skyLuminance,
+                           preview.groundAlbedo};
+    scene.view.exposureEv100 = preview.exposureEv100;
 }
 
 } // namespace

@@ -61,9 +61,48 @@ typedef struct FxPresetCue
     char name[64];
 } FxPresetCue;
 
+/// How the author of a preset shows it: the member "preview" of the preset, or open country late in the
+/// afternoon. With these members a view looks as in the documentation. Fill structSize with sizeof before the
+/// call.
+typedef struct FxPresetPreview
+{
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// [EV100] exposure, for FxViewSettings::exposureEv100.
+    float exposureEv100;
+
+    /// Unit vector towards the sun, for FxViewSettings::sunDirection.
+    float sunDirection[3];
+
+    /// [lx] for FxViewSettings::sunIlluminance.
+    float sunIlluminance[3];
+
+    /// [cd/m2] for FxViewSettings::skyLuminance.
+    float skyLuminance[3];
+
+    /// [1] for FxViewSettings::groundAlbedo.
+    float groundAlbedo;
+
+    /// [s] age of the effect at which a still is taken.
+    double time;
+
+    /// 1: the camera is given, 0: it is not.
+    uint32_t hasCamera;
+
+    /// [radian] vertical field of view.
+    float fovY;
+
+    /// [m] position of the camera, with the effect at the origin.
+    double cameraPosition[3];
+
+    /// [m] place at which the camera looks.
+    double cameraTarget[3];
+} FxPresetPreview;
+
 /// Loads a preset from a file of at most 4 MiB. Warnings go to the log. [any]
 /// @param path      UTF-8; a relative path without ".." is passed to the context's asset hook before the
-///                  file system is searched
+///                  file system is searched; "library:NAME" is a preset of the built-in library
 /// @param outPreset receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NOT_FOUND, FX_ERROR_IO, FX_ERROR_TOO_LARGE,
 ///         FX_ERROR_PARSE, FX_ERROR_SCHEMA, FX_ERROR_VERSION (messages name file, line and JSON pointer),
@@ -95,6 +134,11 @@ FX_API FxResult fxUnloadPreset(FxContext* context, FxPresetId preset);
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize),
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* ioInfo);
+
+/// Reads how the author of a preset shows it. [any]
+/// @param ioPreview structSize must be set; other members are overwritten on success, untouched on failure
+/// @return the codes of fxGetPresetInfo()
+FX_API FxResult fxGetPresetPreview(FxContext* context, FxPresetId preset, FxPresetPreview* ioPreview);
 
 /// Reads a cue of a preset. [any]
 /// @param cue   0..FxPresetInfo::cueCount - 1

@@ -153,6 +153,13 @@ public:
         return detail::filled<FxPresetInfo>([&](auto* out) { return fxGetPresetInfo(get(), preset, out); });
     }
 
+    /// How the author of the preset shows it.
+    FxPresetPreview preview(FxPresetId preset)
+    {
+        return detail::filled<FxPresetPreview>(
+            [&](auto* out) { return fxGetPresetPreview(get(), preset, out); });
+    }
+
     /// Handle of a parameter for Scene::set(), such as "tint".
     FxParameterId findParameter(FxPresetId preset, const std::string& name)
     {

@@ -25,12 +25,13 @@ import zlib
 import numpy
 
 from fxsdk._binding import API, Error, assign, constants, default, filled, fx, opaque, structs
+from fxsdk._offscreen import Offscreen
 
-__all__ = ["Context", "Error", "Group", "Scene", "View", "constants", "default", "fx", "render", "structs", "write_png"]
+__all__ = ["Context", "Error", "Group", "Offscreen", "Scene", "View", "constants", "default", "fx", "render", "structs", "write_png"]
 __version__ = API["version"]
 
 _STEP = 1.0 / 60.0  # [s]
-_BRIGHT_SKY = (0.30, 0.38, 0.50)  # exposed
+_NEAR = 0.05  # [m] distance of the near plane
 
 
 #: Definitions of contexts that exist in the library: their callbacks are called until the context is destroyed.
@@ -51,33 +52,57 @@ class _Owned(_Object):
     """A scene or a view, which keeps its context."""
     _destroy = None
 
-    def __init__(self, context):
+    def __init__(self, context, pointer):
         self._context = context
+        self._pointer = pointer
         context._owned.add(self)
 
+    @property
+    def pointer(self):
+        """To the object of the C API. Raises ValueError when it is destroyed."""
+        if not self._pointer:
+            what = "the context" if not self._context.pointer else f"the {type(self).__name__.lower()}"
+            raise ValueError(f"{what} is closed")
+        return self._pointer
+
     def close(self):
-        if self.pointer:
-            self._destroy(self.pointer)
-            self.pointer = None
+        if self._pointer:
+            self._destroy(self._pointer)
+            self._pointer = None
 
 
 class Context(_Object):
     """Loaded presets, and the hooks of the host.
 
-    @param gl a function that takes the name of a function of OpenGL as bytes and returns its address; the OpenGL 4.5 context is
-              current. Without it nothing can be drawn.
+    @param gl True where a context of OpenGL 4.5 of EGL, GLX or SDL is current, such as that of an Offscreen; or a function that
+              takes the name of a function of OpenGL as bytes and returns its address. Without it nothing can be drawn.
     @param members of FxContextDef, such as workers=1
     """
 
     def __init__(self, gl=None, **members):
         definition = assign(default("FxContextDef"), members)
-        if gl is not None:
+        failures = []
+        if gl is not None and gl is not False:
+            find = (lambda name: fx.fxGetGlProcAddress(None, name)) if gl is True else gl
+
+            def address(user, name):
+                try:
+                    return find(name) or 0
+                except Exception as failure:  # must not pass through the library
+                    failures.append(failure)
+                    return 0
+
             loader = definition.gl
-            loader.getProcAddress = dict(loader._fields_)["getProcAddress"](lambda user, name: gl(name))
+            loader.getProcAddress = dict(loader._fields_)["getProcAddress"](address)
         self._presets = {}
         self._owned = weakref.WeakSet()
         self.pointer = opaque("FxContext")
-        fx.fxCreateContext(ctypes.byref(definition), ctypes.byref(self.pointer))
+        try:
+            fx.fxCreateContext(ctypes.byref(definition), ctypes.byref(self.pointer))
+        except Error:
+            if failures:
+                raise failures[0]
+            raise
         _definitions[self._key()] = definition
 
     def _key(self):
@@ -88,9 +113,18 @@ class Context(_Object):
         if name not in self._presets:
             preset = structs.FxPresetId()
             load = fx.fxLoadPresetFile if name.endswith(".json") else fx.fxLoadPresetLibrary
-            load(self.pointer, name.encode(), ctypes.byref(preset))
+            load(self._open(), name.encode(), ctypes.byref(preset))
             self._presets[name] = preset
         return self._presets[name]
+
+    def preview(self, name):
+        """How the author of a preset shows it: FxPresetPreview. @param name as for load()"""
+        return filled("FxPresetPreview", fx.fxGetPresetPreview, self._open(), self.load(name))
+
+    def _open(self):
+        if not self.pointer:
+            raise ValueError("the context is closed")
+        return self.pointer
 
     def scene(self, **members):
         """A new Scene. @param members of FxSceneDef"""
@@ -102,7 +136,7 @@ class Context(_Object):
 
     def memory(self):
         """FxMemoryStats."""
-        return filled("FxMemoryStats", fx.fxContext_GetMemoryStats, self.pointer)
+        return filled("FxMemoryStats", fx.fxContext_GetMemoryStats, self._open())
 
     def close(self):
         """Destroys the context with its scenes and views."""
@@ -110,7 +144,7 @@ class Context(_Object):
             key = self._key()
             fx.fxDestroyContext(self.pointer)
             for owned in self._owned:
-                owned.pointer = None
+                owned._pointer = None
             self.pointer = None
             del _definitions[key]
 
@@ -143,9 +177,9 @@ class Scene(_Owned):
 
     def __init__(self, context, **members):
         definition = assign(default("FxSceneDef"), members)
-        self.pointer = opaque("FxScene")
-        fx.fxCreateScene(context.pointer, ctypes.byref(definition), ctypes.byref(self.pointer))
-        super().__init__(context)
+        pointer = opaque("FxScene")
+        fx.fxCreateScene(context._open(), ctypes.byref(definition), ctypes.byref(pointer))
+        super().__init__(context, pointer)
 
     def add(self, preset, **members):
         """An instance of a preset, named as for Context.load(). @param members of FxInstanceDef, such as
@@ -216,10 +250,10 @@ class View(_Owned):
 
     def __init__(self, context, scene, **settings):
         self._settings = assign(default("FxViewSettings"), settings)
-        self.pointer = opaque("FxView")
-        fx.fxCreateView(context.pointer, scene.pointer, ctypes.byref(self._settings), ctypes.byref(self.pointer))
+        pointer = opaque("FxView")
+        fx.fxCreateView(context._open(), scene.pointer, ctypes.byref(self._settings), ctypes.byref(pointer))
         self._scene = scene
-        super().__init__(context)
+        super().__init__(context, pointer)
 
     def set(self, **settings):
         """Changes members of FxViewSettings. A failed call changes nothing."""
@@ -243,7 +277,7 @@ def _copied(pointer, count):
     return numpy.ctypeslib.as_array(pointer, (count,)).copy()
 
 
-def perspective(width, height, fov_y=math.radians(50.0), near=0.05):
+def perspective(width, height, fov_y=math.radians(50.0), near=_NEAR):
     """A projection with the far plane at infinity, for FxFrameDef: 16 values, columns first."""
     focal = 1.0 / math.tan(0.5 * fov_y)
     matrix = [0.0] * 16
@@ -277,39 +311,64 @@ def _extent(groups):
     return 0.5 * (low + high), max(0.5 * float(numpy.linalg.norm(high - low)) + reach, 0.05)
 
 
-def render(preset, time=1.0, size=(640, 360), eye=None, target=None, exposure=13.0, **settings):
-    """A picture of an effect in daylight before a plain sky, without a window.
+def _open_country(width, height, fov_y, camera, light):
+    """Level ground under a sky, for a camera of look_at(): exposed colors as a display shows them, and depths of perspective()."""
+    slope = math.tan(0.5 * fov_y)
+    x = slope * width / height * ((numpy.arange(width) + 0.5) / width * 2.0 - 1.0)
+    y = slope * (1.0 - (numpy.arange(height) + 0.5) / height * 2.0)
+    axes = camera["view"].reshape(4, 4)[:3, :3]  # columns of the view are axes of the eye along the world's
+    rays = x[None, :, None] * axes[:, 0] + y[:, None, None] * axes[:, 1] - axes[:, 2]
+    falls = -rays[:, :, 1]
+    with numpy.errstate(divide="ignore"):
+        away = numpy.where(falls > 0.0, camera["origin"][1] / falls, numpy.inf)  # [m] along the view
+    is_ground = (away > _NEAR) & numpy.isfinite(away)
+    sun, sky = numpy.array(light["sunIlluminance"]), numpy.array(light["skyLuminance"])
+    soil = light["groundAlbedo"] * numpy.array((1.1, 1.0, 0.85)) * (sun * max(light["sunDirection"][1], 0.0) / math.pi + sky)
+    up = numpy.clip(rays[:, :, 1] / numpy.linalg.norm(rays, axis=2), 0.0, 1.0)[:, :, None]
+    luminance = numpy.where(is_ground[:, :, None], soil, sky * (1.2 - 0.7 * numpy.sqrt(up)))
+    exposed = luminance / (1.2 * 2.0 ** light["exposureEv100"])
+    shown = (exposed / (1.0 + exposed)) ** (1.0 / 2.2)
+    return shown, numpy.where(is_ground, 1.0 - _NEAR / numpy.maximum(away, _NEAR), 1.0)
+
+
+def render(preset, time=None, size=(640, 360), eye=None, target=None, exposure=None, **settings):
+    """A picture of an effect in open country, without a window, in the light for which its author made it.
 
     @param preset   as for Context.load()
-    @param time     [s] of the effect
+    @param time     [s] of the effect; None: that of its preview
     @param size     [pixel] width and height
-    @param eye      [m] position of the camera; None: where the effect fills the picture
-    @param target   [m] where the camera looks; None: the middle of the effect
-    @param exposure [EV100]
+    @param eye      [m] position of the camera; None: that of its preview, or where the effect fills the picture
+    @param target   [m] where the camera looks; None: as for the eye
+    @param exposure [EV100]; None: that of its preview
     @param settings members of FxViewSettings
     @return array of height x width x 3 bytes, rows from the top
     """
-    from fxsdk._offscreen import Offscreen, Picture
-    gl = Offscreen()
-    try:
-        with Context(lambda name: gl.address(None, name)) as context:
-            scene = context.scene()
-            scene.add(preset)
-            scene.update(time)
-            center, radius = _extent(scene.groups())
-            target = center if target is None else numpy.asarray(target, float)
-            eye = target + (0.0, 0.15 * radius, 2.6 * radius) if eye is None else eye
-            daylight = {"sunIlluminance": (60000.0,) * 3, "skyLuminance": (4000.0,) * 3, "toneMap": 1,
-                        "composition": constants.FX_COMPOSITION_AUTOMATIC, "exposureEv100": exposure}
-            view = context.view(scene, **{**daylight, **settings})
-            picture = Picture(gl, *size)
-            picture.clear(_BRIGHT_SKY)
-            view.render(colorTexture=picture.name, width=size[0], height=size[1],
-                        projection=perspective(*size), **look_at(eye, target))
-            pixels = picture.read()
-            picture.close()
-    finally:
-        gl.close()
+    if len(size) != 2 or not all(1 <= side <= 16384 and side == int(side) for side in size):
+        raise ValueError(f"size is {size}; allowed are two whole numbers of pixels from 1 to 16384")
+    with Offscreen() as gl, Context(gl.address) as context:
+        preview = context.preview(preset)
+        scene = context.scene()
+        scene.add(preset)
+        scene.update(preview.time if time is None else time)
+        fov_y = math.radians(50.0)
+        if eye is None and target is None and preview.hasCamera:
+            eye, target, fov_y = preview.cameraPosition, preview.cameraTarget, preview.fovY
+        center, radius = _extent(scene.groups()) if eye is None or target is None else (None, None)
+        target = numpy.asarray(center if target is None else target, float)
+        eye = target + (0.0, 0.15 * radius, 2.6 * radius) if eye is None else eye
+        shown = {name: tuple(getattr(preview, name)) for name in ("sunDirection", "sunIlluminance", "skyLuminance")}
+        shown |= {"groundAlbedo": preview.groundAlbedo, "exposureEv100": preview.exposureEv100 if exposure is None else exposure,
+                  "toneMap": 1, "composition": constants.FX_COMPOSITION_AUTOMATIC}
+        view = context.view(scene, **{**shown, **settings})
+        picture = gl.picture(*size)
+        camera = look_at(eye, target)
+        colors, depths = _open_country(*size, fov_y, camera, {**shown, **settings})
+        picture.fill(colors)
+        picture.fill_depth(depths)
+        view.render(colorTexture=picture.name, depthTexture=picture.depth, width=size[0], height=size[1],
+                    projection=perspective(*size, fov_y), **camera)
+        pixels = picture.read()
+        picture.close()
     return (255.0 * numpy.clip(numpy.nan_to_num(pixels), 0.0, 1.0) + 0.5).astype(numpy.uint8)
 
 

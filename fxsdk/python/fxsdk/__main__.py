@@ -13,7 +13,7 @@ def size_of(text):
 def main():
     parser = argparse.ArgumentParser(prog="python3 -m fxsdk", description="Draws an effect into a PNG file.")
     parser.add_argument("preset", nargs="?", default="explosion", help="of the library, or a *.fx.json file (default: %(default)s)")
-    parser.add_argument("--time", type=float, default=0.6, help="[s] of the effect (default: %(default)s)")
+    parser.add_argument("--time", type=float, help="[s] of the effect (default: that of its preview)")
     parser.add_argument("--size", type=size_of, default=(640, 360), help="[pixel] such as 640x360, the default")
     parser.add_argument("-o", "--output", default="effect.png", help="file (default: %(default)s)")
     options = parser.parse_args()
@@ -23,7 +23,7 @@ def main():
         sys.exit(f"python3 -m fxsdk: {error}")
     print(f"""{options.output} was drawn by
     import fxsdk
-    pixels = fxsdk.render({options.preset!r}, time={options.time}, size={options.size})
+    pixels = fxsdk.render({options.preset!r}{"" if options.time is None else f", time={options.time}"}, size={options.size})
     fxsdk.write_png({options.output!r}, pixels)""")
 
 
