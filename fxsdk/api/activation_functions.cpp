@@ -13,6 +13,7 @@
 namespace {
 
 using fx::activation::Frustum;
+using fx::api::HostWorld;
 using fx::base::Status;
 
 static_assert(int(FX_REASON_OUTSIDE) == int(fx::scene::Reason::Outside));
@@ -24,33 +25,33 @@ constexpr uint32_t kMaxFoci = 64;
 constexpr float kMaxPixels = 65'536;
 constexpr double kFarthest = 1e9; // [m]
 
-Status checkFocus(const FxFocus& focus)
+Status checkFocus(const HostWorld& world, const FxFocus& focus)
 {
+    const double farthest = world.fromMeters(kFarthest);
     fx::api::Checks check;
     check.range(focus.height, 1.0f, kMaxPixels, "foci.height");
-    check.range3(focus.origin, -kFarthest, kFarthest, "foci.origin");
-    check.noFault(fx::api::viewFault(focus.view), "foci.view");
+    check.range3(focus.origin, -farthest, farthest, "foci.origin");
+    check.noFault(fx::api::viewFault(glm::value_ptr(world.view(focus.view))), "foci.view");
     check.noFault(fx::api::projectionFault(focus.projection), "foci.projection");
-    check.range(focus.maxDistance, 0.0, kFarthest, "foci.maxDistance");
-    check.range(focus.margin, 0.0f, 1e6f, "foci.margin");
+    check.range(focus.maxDistance, 0.0, farthest, "foci.maxDistance");
+    check.range(focus.margin, 0.0f, world.fromMeters(1e6f), "foci.margin");
     check.range(focus.minPixels, 0.0f, kMaxPixels, "foci.minPixels");
     return check.status();
 }
 
-Frustum toFrustum(const FxFocus& focus)
+Frustum toFrustum(const HostWorld& world, const FxFocus& focus)
 {
     Frustum::Limits limits;
     if (focus.maxDistance > 0)
-        limits.maxDistance = focus.maxDistance;
-    limits.margin = double(focus.margin);
+        limits.maxDistance = world.toMeters(focus.maxDistance);
+    limits.margin = world.toMeters(double(focus.margin));
     limits.minPixels = double(focus.minPixels);
     limits.height = double(focus.height);
-    return {glm::make_vec3(focus.origin), glm::make_mat4(focus.view), glm::make_mat4(focus.projection),
-            limits};
+    return {world.position(focus.origin), world.view(focus.view), world.projection(focus.projection), limits};
 }
 
 /// Cameras of any version of FxFocus: they lie structSize apart.
-Status readFoci(const FxFocus* foci, uint32_t count, std::pmr::vector<Frustum>& out)
+Status readFoci(const HostWorld& world, const FxFocus* foci, uint32_t count, std::pmr::vector<Frustum>& out)
 {
     const auto* at = reinterpret_cast<const unsigned char*>(foci);
     for (uint32_t i = 0; i < count; ++i) {
@@ -58,9 +59,9 @@ Status readFoci(const FxFocus* foci, uint32_t count, std::pmr::vector<Frustum>& 
         FxFocus known;
         if (Status status = fx::api::readStruct(given, "foci", fxDefaultFocus(), known); !status)
             return status;
-        if (Status status = checkFocus(known); !status)
+        if (Status status = checkFocus(world, known); !status)
             return status;
-        out.push_back(toFrustum(known));
+        out.push_back(toFrustum(world, known));
         at += given->structSize;
     }
     return {};
@@ -100,7 +101,7 @@ FxFrameStats gatherStats(const FxScene& object)
     return stats;
 }
 
-FxInstanceActivity toApi(const fx::scene::Scene::Activity& known)
+FxInstanceActivity toApi(const HostWorld& world, const fx::scene::Scene::Activity& known)
 {
     FxInstanceActivity activity{};
     activity.state = uint32_t(known.state);
@@ -109,7 +110,7 @@ FxInstanceActivity toApi(const fx::scene::Scene::Activity& known)
     activity.particles = known.particles;
     activity.significance = float(known.significance);
     activity.milliseconds = float(known.milliseconds);
-    activity.reach = float(std::min(known.reach, std::numeric_limits<double>::infinity()));
+    activity.reach = float(world.fromMeters(std::min(known.reach, std::numeric_limits<double>::infinity())));
     activity.lagTicks = known.lag;
     return activity;
 }
@@ -127,7 +128,7 @@ FxResult fxScene_SetFocus(FxScene* scene, const FxFocus* foci, uint32_t count)
             return check.status();
         scene->foci.clear();
         scene->foci.reserve(count);
-        if (Status status = readFoci(foci, count, scene->foci); !status)
+        if (Status status = readFoci(scene->context->world, foci, count, scene->foci); !status)
             return status;
         scene->scene.setFocus(scene->foci);
         return {};
@@ -142,10 +143,12 @@ FxResult fxScene_SetActivationHints(FxScene* scene, FxInstanceId instance, const
             return status;
         fx::api::Checks check;
         check.range(known.priority, 0.0f, 1e6f, "hints.priority");
-        check.range(known.maxDistance, 0.0f, float(kFarthest), "hints.maxDistance");
+        const HostWorld& world = scene->context->world;
+        check.range(known.maxDistance, 0.0f, world.fromMeters(float(kFarthest)), "hints.maxDistance");
         check.flag(known.occluded, "hints.occluded");
         if (check.status())
-            scene->scene.setHints(id, {known.priority, known.maxDistance, known.occluded != 0});
+            scene->scene.setHints(id,
+                                  {known.priority, world.toMeters(known.maxDistance), known.occluded != 0});
         return check.status();
     };
     return fx::api::withInstance("fxScene_SetActivationHints", scene, instance, set);
@@ -170,7 +173,8 @@ FxResult fxScene_SetBudget(FxScene* scene, const FxBudget* budget)
 FxResult fxScene_GetInstanceActivity(FxScene* scene, FxInstanceId instance, FxInstanceActivity* ioActivity)
 {
     const auto get = [&](fx::scene::LocalId id) -> Status {
-        return fx::api::writeStruct(toApi(scene->scene.activity(id)), ioActivity, "ioActivity");
+        return fx::api::writeStruct(toApi(scene->context->world, scene->scene.activity(id)), ioActivity,
+                                    "ioActivity");
     };
     return fx::api::withInstance("fxScene_GetInstanceActivity", scene, instance, get);
 }

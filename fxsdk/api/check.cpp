@@ -37,11 +37,6 @@ bool isUnitQuaternion(const float* xyzw)
                     1.0f);
 }
 
-glm::quat toRotation(const float* xyzw)
-{
-    return glm::normalize(glm::quat(xyzw[3], xyzw[0], xyzw[1], xyzw[2]));
-}
-
 bool isRigid(const float* matrix)
 {
     if (!base::allFinite(matrix, 16))
@@ -60,11 +55,17 @@ const char* viewFault(const float* matrix)
         return "is not finite";
     if (isRigid(matrix))
         return nullptr;
+    const glm::mat4 mirror(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, -1, 0),
+                           glm::vec4(0, 0, 0, 1));
+    const glm::mat4 mirrored = mirror * glm::make_mat4(matrix);
+    if (isRigid(glm::value_ptr(mirrored)))
+        return "mirrors the world that the axes of FxContextDef state: give a matrix to eye coordinates with "
+               "x to "
+               "the right, y up and a camera that looks along -z, or state the axes of the host";
     const glm::mat4 transposed = glm::transpose(glm::make_mat4(matrix));
     return isRigid(glm::value_ptr(transposed))
                ? "looks row-major: transpose it"
-               : "is not a rotation and a translation: take scale, mirroring and "
-                 "shear out of it";
+               : "is not a rotation and a translation: take scale and shear out of it";
 }
 
 } // namespace fx::api

@@ -5,9 +5,6 @@
 #include "foundation/math/bits.h"
 #include "foundation/result/status.h"
 
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
-
 #include <cstdint>
 #include <string>
 
@@ -69,11 +66,10 @@ private:
 
 /// Whether the quaternion (x, y, z, w) has unit length within 1e-3; false if a component is not finite.
 bool isUnitQuaternion(const float* xyzw);
-/// Converts a unit quaternion (x, y, z, w) to a normalized rotation.
-glm::quat toRotation(const float* xyzw);
 /// Whether the column-major matrix is orthonormal within 1e-3 and right-handed, with last row 0 0 0 1.
 bool isRigid(const float* matrix);
-/// The reason why the matrix is not a view matrix, with the remedy; null for a view matrix.
+/// The reason why the matrix, in axes of the library, is not a view matrix, with the remedy; null for a view
+/// matrix.
 const char* viewFault(const float* matrix);
 
 } // namespace fx::api

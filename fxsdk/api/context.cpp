@@ -18,7 +18,7 @@ std::unique_ptr<fx::base::TaskRunner> makeTasks(const FxContextDef& def)
 } // namespace
 
 FxContext::FxContext(const FxContextDef& given, const fx::api::TechniqueLists& techniquesGiven)
-    : def(given), techniques(techniquesGiven), memory(fx::api::toHooks(given.allocator)),
+    : def(given), world(given), techniques(techniquesGiven), memory(fx::api::toHooks(given.allocator)),
       tasks(makeTasks(given)), presets(&memory, uint32_t(fx::scene::kIdPartMask)), scenes(&memory),
       views(&memory), loads(&memory)
 {

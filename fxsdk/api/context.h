@@ -7,6 +7,7 @@
 #include "foundation/snapshot/snapshot_schema.h"
 #include "foundation/tasks/task_runner.h"
 #include "fxsdk/api/call_scope.h"
+#include "fxsdk/api/host_world.h"
 #include "fxsdk/fx_context.h"
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/fx_preset_load.h"
@@ -53,7 +54,7 @@ base::AllocatorHooks toHooks(const FxAllocator& allocator);
 
 struct FxContext
 {
-    /// Creates a context that is ready for use, without GL. Throws std::bad_alloc.
+    /// Creates a context that is ready for use, without GL, of a checked definition. Throws std::bad_alloc.
     /// @param techniques lists of techniques, which must outlive the context
     explicit FxContext(const FxContextDef& def, const fx::api::TechniqueLists& techniques = {});
     FxContext(const FxContext&) = delete;
@@ -66,6 +67,7 @@ struct FxContext
     std::shared_ptr<const fx::sim::EffectDef> findPreset(uint64_t fingerprint);
 
     const FxContextDef def;
+    const fx::api::HostWorld world; ///< units of length and axes of `def`
     const fx::api::TechniqueLists techniques;
     fx::base::HostMemory memory;
     fx::base::SnapshotSchema schema;      ///< constant after construction

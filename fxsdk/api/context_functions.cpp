@@ -33,7 +33,7 @@ Status checkDef(const FxContextDef& def)
     check.that(!def.assets.open == !def.assets.close, "def.assets has one function of two; set both or none");
     check.range(def.workers, 0u, kMaxWorkers, "def.workers");
     check.range(def.flags, 0u, uint32_t(FX_CONTEXT_PLACEHOLDERS), "def.flags");
-    return check.status();
+    return check.status() ? fx::api::HostWorld::check(def) : check.status();
 }
 
 /// @param name of the argument that has the loader, in messages

@@ -3,8 +3,6 @@
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/fx_events.h"
 
-#include <glm/gtc/type_ptr.hpp>
-
 #include <algorithm>
 
 namespace {
@@ -29,10 +27,11 @@ FxEvent toEvent(const FxScene& scene, const SceneEvent& event)
     out.userData = event.userData;
     out.tick = event.tick;
     out.seconds = fx::base::toSeconds(event.tick);
-    std::copy_n(glm::value_ptr(event.position), 3, out.position);
-    std::copy_n(glm::value_ptr(event.velocity), 3, out.velocity);
-    out.speed = event.speed;
-    std::copy_n(glm::value_ptr(event.normal), 3, out.normal);
+    const fx::api::HostWorld& world = scene.context->world;
+    world.writePosition(event.position, out.position);
+    world.writeVector(event.velocity, out.velocity);
+    out.speed = world.fromMeters(event.speed);
+    world.writeDirection(event.normal, out.normal);
     out.cue = event.cue;
     out.solver = event.solver;
     out.particle = event.particle;
@@ -68,6 +67,15 @@ FxResult fxScene_GetEvents(FxScene* scene, FxEvent* ioEvents, uint32_t capacity,
             *outLost = scene->scene.lostEvents();
         return {};
     });
+}
+
+FxResult fxScene_SetUserData(FxScene* scene, FxInstanceId instance, uint64_t userData)
+{
+    return fx::api::withInstance("fxScene_SetUserData", scene, instance,
+                                 [&](fx::scene::LocalId id) -> Status {
+                                     scene->scene.setUserData(id, userData);
+                                     return {};
+                                 });
 }
 
 FxResult fxScene_GetUserData(FxScene* scene, FxInstanceId instance, uint64_t* outUserData)

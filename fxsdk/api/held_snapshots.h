@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
+#include "fxsdk/api/host_snapshot.h"
 #include "fxsdk/scene/scene.h"
 
 #include <algorithm>
@@ -17,14 +18,20 @@ class HeldSnapshots
 public:
     static constexpr uint32_t kCapacity = 16;
 
-    /// Adds a snapshot. Computes GPU particles of the snapshot on the CPU.
+    /// Adds a snapshot. Computes GPU particles of the snapshot on the CPU, and converts it to the host's
+    /// world.
     /// @return an id for find() and take(); 0 if kCapacity snapshots are held; then `presentation` is not
     ///         added
-    scene::LocalId add(const scene::Presentation& presentation, std::pmr::memory_resource* memory)
+    scene::LocalId add(const scene::Presentation& presentation, const HostWorld& world,
+                       std::pmr::memory_resource* memory)
     {
         Held held{presentation, presentation.snapshots, {}};
         held.replay(held.shown.snapshots.newer, 0, memory);
         held.replay(held.shown.snapshots.older, 1, memory);
+        if (!world.isLibraryWorld()) {
+            held.convert(held.shown.snapshots.newer, 0, world, memory);
+            held.convert(held.shown.snapshots.older, 1, world, memory);
+        }
         std::lock_guard lock(mutex_);
         for (uint32_t i = 0; i < kCapacity; ++i) {
             Slot& slot = slots_[i];
@@ -69,16 +76,24 @@ private:
     {
         scene::Presentation shown;
         base::SnapshotPair taken; ///< snapshots acquired from the scene
-        /// Copies of snapshots with GPU particles. In the copies, the GPU particles are computed. Null for a
-        /// snapshot without GPU particles.
-        std::array<std::unique_ptr<base::FrameSnapshot>, 2> replayed;
+        /// Copies of snapshots with GPU particles, or for a host whose world is not that of the library. In
+        /// the copies, the GPU particles are computed. Null for a snapshot that needs no copy.
+        std::array<std::unique_ptr<base::FrameSnapshot>, 2> copies;
 
         void replay(const base::FrameSnapshot*& io, size_t which, std::pmr::memory_resource* memory)
         {
             if (!io || !base::hasGpuParticles(*io))
                 return;
-            replayed[which] = base::replayOnCpu(*io, memory);
-            io = replayed[which].get();
+            copies[which] = base::replayOnCpu(*io, memory);
+            io = copies[which].get();
+        }
+        void convert(const base::FrameSnapshot*& io, size_t which, const HostWorld& world,
+                     std::pmr::memory_resource* memory)
+        {
+            if (!io)
+                return;
+            copies[which] = toHostWorld(world, *io, memory);
+            io = copies[which].get();
         }
     };
     struct Slot

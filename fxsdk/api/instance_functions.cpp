@@ -8,6 +8,7 @@
 
 namespace {
 
+using fx::api::HostWorld;
 using fx::base::Code;
 using fx::base::Status;
 
@@ -26,31 +27,35 @@ constexpr float kLargestScale = 1e3f;   // [1]
 /// Latest start: far enough from the end of int64_t that no sum of steps overflows.
 constexpr int64_t kLatestStart = std::numeric_limits<int64_t>::max() / 4;
 
-void checkParameters(fx::api::Checks& check, float intensity, const float* wind, uint32_t emitting,
-                     const float* tint)
+void checkParameters(const HostWorld& world, fx::api::Checks& check, float intensity, const float* wind,
+                     uint32_t emitting, const float* tint)
 {
     check.range(intensity, 0.0f, fx::api::kHighestIntensity, "intensity");
-    check.range3(wind, -fx::api::kStrongestWind, fx::api::kStrongestWind, "wind");
+    const float strongest = world.fromMeters(fx::api::kStrongestWind);
+    check.range3(wind, -strongest, strongest, "wind");
     check.flag(emitting, "emitting");
     check.range3(tint, 0.0f, fx::api::kHighestTint, "tint");
 }
 
-void checkPlacement(fx::api::Checks& check, const double* position, const float* rotation, float scale)
+void checkPlacement(const HostWorld& world, fx::api::Checks& check, const double* position,
+                    const float* rotation, float scale)
 {
-    check.range3(position, -kFarthest, kFarthest, "position");
+    const double farthest = world.fromMeters(kFarthest);
+    check.range3(position, -farthest, farthest, "position");
     check.that(fx::api::isUnitQuaternion(rotation), "rotation is not a unit quaternion (x, y, z, w)");
     check.range(scale, kSmallestScale, kLargestScale, "scale");
 }
 
-fx::base::Placement toPlacement(const double* position, const float* rotation, float scale)
+fx::base::Placement toPlacement(const HostWorld& world, const double* position, const float* rotation,
+                                float scale)
 {
-    return {{position[0], position[1], position[2]}, fx::api::toRotation(rotation), scale};
+    return {world.position(position), glm::normalize(world.rotation(rotation)), scale};
 }
 
-fx::sim::InstanceParameters toParameters(float intensity, const float* wind, uint32_t emitting,
-                                         const float* tint)
+fx::sim::InstanceParameters toParameters(const HostWorld& world, float intensity, const float* wind,
+                                         uint32_t emitting, const float* tint)
 {
-    return {intensity, {wind[0], wind[1], wind[2]}, emitting != 0, {tint[0], tint[1], tint[2]}};
+    return {intensity, world.vector(wind), emitting != 0, {tint[0], tint[1], tint[2]}};
 }
 
 static_assert(FX_LOWEST_LAYER == fx::scene::kLowestLayer && FX_HIGHEST_LAYER == fx::scene::kHighestLayer);
@@ -60,11 +65,11 @@ void checkLayer(fx::api::Checks& check, int32_t layer, const char* name)
     check.range(layer, FX_LOWEST_LAYER, FX_HIGHEST_LAYER, name);
 }
 
-Status checkDef(const FxInstanceDef& def)
+Status checkDef(const HostWorld& world, const FxInstanceDef& def)
 {
     fx::api::Checks check;
-    checkPlacement(check, def.position, def.rotation, def.scale);
-    checkParameters(check, def.intensity, def.wind, def.emitting, def.tint);
+    checkPlacement(world, check, def.position, def.rotation, def.scale);
+    checkParameters(world, check, def.intensity, def.wind, def.emitting, def.tint);
     check.range(def.startTick, int64_t(0), kLatestStart, "def.startTick");
     check.flag(def.destroyWhenFinished, "def.destroyWhenFinished");
     fx::api::checkQuality(check, def.quality, "def.quality");
@@ -85,7 +90,8 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         FxInstanceDef known;
         if (Status status = fx::api::readStruct(def, "def", fxDefaultInstanceDef(), known); !status)
             return status;
-        if (Status status = checkDef(known); !status)
+        const HostWorld& world = scene->context->world;
+        if (Status status = checkDef(world, known); !status)
             return status;
         auto effect = scene->context->findPreset(known.preset);
         if (!effect)
@@ -96,8 +102,8 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         setup.seed = known.seed;
         setup.userData = known.userData;
         setup.startTick = known.startTick;
-        setup.placement = toPlacement(known.position, known.rotation, known.scale);
-        setup.parameters = toParameters(known.intensity, known.wind, known.emitting, known.tint);
+        setup.placement = toPlacement(world, known.position, known.rotation, known.scale);
+        setup.parameters = toParameters(world, known.intensity, known.wind, known.emitting, known.tint);
         setup.destroyWhenFinished = known.destroyWhenFinished != 0;
         setup.quality = fx::api::toQuality(known.quality, scene->quality);
         const fx::scene::LocalId id =
@@ -179,9 +185,10 @@ FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, const doubl
             check.notNull(rotation, "rotation");
             if (!check.status())
                 return check.status();
-            checkPlacement(check, position, rotation, scale);
+            const HostWorld& world = scene->context->world;
+            checkPlacement(world, check, position, rotation, scale);
             if (check.status())
-                scene->scene.setPlacement(id, toPlacement(position, rotation, scale));
+                scene->scene.setPlacement(id, toPlacement(world, position, rotation, scale));
             return check.status();
         });
 }
@@ -195,11 +202,12 @@ FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance, const FxIn
                     fx::api::readStruct(parameters, "parameters", fxDefaultInstanceParameters(), known);
                 !status)
                 return status;
+            const HostWorld& world = scene->context->world;
             fx::api::Checks check;
-            checkParameters(check, known.intensity, known.wind, known.emitting, known.tint);
+            checkParameters(world, check, known.intensity, known.wind, known.emitting, known.tint);
             if (check.status())
                 scene->scene.setParameters(
-                    id, toParameters(known.intensity, known.wind, known.emitting, known.tint));
+                    id, toParameters(world, known.intensity, known.wind, known.emitting, known.tint));
             return check.status();
         });
 }

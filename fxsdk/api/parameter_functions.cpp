@@ -15,6 +15,7 @@
 
 namespace {
 
+using fx::api::HostWorld;
 using fx::base::Code;
 using fx::base::Status;
 using Values = std::array<float, 3>;
@@ -37,11 +38,12 @@ struct ParameterRow
     float maximum;
     float standard; ///< default of each component
     const char* unit;
+    bool isVelocity = false; ///< in units and axes of the host
 };
 
 constexpr std::array<ParameterRow, 5> kRows{
     {{"intensity", FX_PARAMETER_FLOAT, 0.0f, fx::api::kHighestIntensity, 1.0f, "1"},
-     {"wind", FX_PARAMETER_FLOAT3, -fx::api::kStrongestWind, fx::api::kStrongestWind, 0.0f, "m/s"},
+     {"wind", FX_PARAMETER_FLOAT3, -fx::api::kStrongestWind, fx::api::kStrongestWind, 0.0f, "m/s", true},
      {"emitting", FX_PARAMETER_BOOL, 0.0f, 1.0f, 1.0f, "1"},
      {"tint", FX_PARAMETER_FLOAT3, 0.0f, fx::api::kHighestTint, 1.0f, "1"},
      {"speed", FX_PARAMETER_FLOAT, 0.0f, fx::api::kHighestSpeed, 1.0f, "1"}}};
@@ -87,8 +89,13 @@ size_t componentsOf(FxParameterType type)
     return type == FX_PARAMETER_FLOAT3 ? 3 : 1;
 }
 
+float limitOf(const HostWorld& world, const ParameterRow& row, float limit)
+{
+    return row.isVelocity ? world.fromMeters(limit) : limit;
+}
+
 /// Reads and checks the value of a host.
-Status readValue(const ParameterRow& row, const void* value, Values& out)
+Status readValue(const HostWorld& world, const ParameterRow& row, const void* value, Values& out)
 {
     out = {};
     if (row.type == FX_PARAMETER_BOOL) {
@@ -103,12 +110,18 @@ Status readValue(const ParameterRow& row, const void* value, Values& out)
     std::memcpy(out.data(), value, count * sizeof(float));
     fx::api::Checks check;
     for (size_t i = 0; i < count; ++i)
-        check.range(out[i], row.minimum, row.maximum, row.name);
+        check.range(out[i], limitOf(world, row, row.minimum), limitOf(world, row, row.maximum), row.name);
+    if (row.isVelocity) {
+        const glm::vec3 velocity = world.vector(out.data());
+        out = {velocity.x, velocity.y, velocity.z};
+    }
     return check.status();
 }
 
-void writeValue(const ParameterRow& row, const Values& values, void* out)
+void writeValue(const HostWorld& world, const ParameterRow& row, Values values, void* out)
 {
+    if (row.isVelocity)
+        world.writeVector({values[0], values[1], values[2]}, values.data());
     if (row.type == FX_PARAMETER_BOOL) {
         const uint32_t flag = values[0] != 0.0f ? 1 : 0;
         std::memcpy(out, &flag, sizeof flag);
@@ -197,8 +210,8 @@ FxResult fxGetParameterInfo(FxContext* context, FxPresetId preset, uint32_t inde
         info.type = uint32_t(row.type);
         info.parameter = handleOf(index);
         info.count = uint32_t(kRows.size());
-        info.minimum = row.minimum;
-        info.maximum = row.maximum;
+        info.minimum = limitOf(context->world, row, row.minimum);
+        info.maximum = limitOf(context->world, row, row.maximum);
         std::fill_n(info.defaultValue, componentsOf(row.type), row.standard);
         fx::api::copyText(row.name, info.name, sizeof info.name);
         fx::api::copyText(row.unit, info.unit, sizeof info.unit);
@@ -209,32 +222,32 @@ FxResult fxGetParameterInfo(FxContext* context, FxPresetId preset, uint32_t inde
 FxResult fxScene_SetParameter(FxScene* scene, FxInstanceId instance, FxParameterId parameter,
                               FxParameterType type, const void* value)
 {
-    return fx::api::withInstance("fxScene_SetParameter", scene, instance,
-                                 [&](fx::scene::LocalId id) -> Status {
-                                     if (!value)
-                                         return fx::api::invalid("value is null");
-                                     size_t row = 0;
-                                     if (Status status = findRow(parameter, type, row); !status)
-                                         return status;
-                                     Values values;
-                                     if (Status status = readValue(kRows[row], value, values); !status)
-                                         return status;
-                                     set(scene->scene, id, Parameter(row), values);
-                                     return {};
-                                 });
+    return fx::api::withInstance(
+        "fxScene_SetParameter", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            if (!value)
+                return fx::api::invalid("value is null");
+            size_t row = 0;
+            if (Status status = findRow(parameter, type, row); !status)
+                return status;
+            Values values;
+            if (Status status = readValue(scene->context->world, kRows[row], value, values); !status)
+                return status;
+            set(scene->scene, id, Parameter(row), values);
+            return {};
+        });
 }
 
 FxResult fxScene_GetParameter(FxScene* scene, FxInstanceId instance, FxParameterId parameter,
                               FxParameterType type, void* outValue)
 {
-    return fx::api::withInstance("fxScene_GetParameter", scene, instance,
-                                 [&](fx::scene::LocalId id) -> Status {
-                                     if (!outValue)
-                                         return fx::api::invalid("outValue is null");
-                                     size_t row = 0;
-                                     if (Status status = findRow(parameter, type, row); !status)
-                                         return status;
-                                     writeValue(kRows[row], get(scene->scene, id, Parameter(row)), outValue);
-                                     return {};
-                                 });
+    return fx::api::withInstance(
+        "fxScene_GetParameter", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            if (!outValue)
+                return fx::api::invalid("outValue is null");
+            size_t row = 0;
+            if (Status status = findRow(parameter, type, row); !status)
+                return status;
+            writeValue(scene->context->world, kRows[row], get(scene->scene, id, Parameter(row)), outValue);
+            return {};
+        });
 }

@@ -124,16 +124,14 @@ FxResult fxGetPresetSource(FxContext* context, FxPresetId preset, char* buffer, 
 
 FxResult fxScene_GetInstanceInfo(FxScene* scene, FxInstanceId instance, FxInstanceInfo* ioInfo)
 {
-    return fx::api::withInstance("fxScene_GetInstanceInfo", scene, instance,
-                                 [&](fx::scene::LocalId id) -> Status {
-                                     FxInstanceInfo info{};
-                                     info.preset = idOf(*scene->context, scene->scene.effectOf(id));
-                                     const glm::dvec3 position = scene->scene.placementOf(id).position;
-                                     for (int i = 0; i < 3; ++i)
-                                         info.position[i] = position[i];
-                                     info.localSeconds = fx::base::toSeconds(scene->scene.localTime(id));
-                                     info.particles = scene->scene.particles(id);
-                                     info.state = uint32_t(scene->scene.state(id));
-                                     return fx::api::writeStruct(info, ioInfo, "ioInfo");
-                                 });
+    return fx::api::withInstance(
+        "fxScene_GetInstanceInfo", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            FxInstanceInfo info{};
+            info.preset = idOf(*scene->context, scene->scene.effectOf(id));
+            scene->context->world.writePosition(scene->scene.placementOf(id).position, info.position);
+            info.localSeconds = fx::base::toSeconds(scene->scene.localTime(id));
+            info.particles = scene->scene.particles(id);
+            info.state = uint32_t(scene->scene.state(id));
+            return fx::api::writeStruct(info, ioInfo, "ioInfo");
+        });
 }

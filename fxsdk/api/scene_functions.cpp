@@ -2,6 +2,8 @@
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 
 namespace {
@@ -12,13 +14,14 @@ using fx::base::Status;
 constexpr int64_t kLongestAbsence = 3600 * FX_TICKS_PER_SECOND;
 constexpr uint32_t kAllEvents = FX_EVENTS_FINISHED | FX_EVENTS_CUES | FX_EVENTS_UNNAMED;
 
-Status checkDef(const FxSceneDef& def)
+Status checkDef(const fx::api::HostWorld& world, const FxSceneDef& def)
 {
     fx::api::Checks check;
     check.range(def.maxInstances, 1u, uint32_t(fx::scene::kIdPartMask), "def.maxInstances");
     check.range(def.stepTicks, FX_TICKS_PER_SECOND / 1000, FX_TICKS_PER_SECOND, "def.stepTicks");
     check.range(def.maxFrameTicks, def.stepTicks, 60 * FX_TICKS_PER_SECOND, "def.maxFrameTicks");
-    check.range3(def.gravity, -1000.0f, 1000.0f, "def.gravity");
+    const float strongest = world.fromMeters(1000.0f);
+    check.range3(def.gravity, -strongest, strongest, "def.gravity");
     check.flag(def.hasGround, "def.hasGround");
     check.flag(def.shareInstances, "def.shareInstances");
     check.flag(def.disableCulling, "def.disableCulling");
@@ -31,6 +34,14 @@ Status checkDef(const FxSceneDef& def)
     check.range(def.eventKinds, 0u, kAllEvents, "def.eventKinds");
     fx::api::checkQuality(check, def.quality, "def.quality");
     return check.status();
+}
+
+/// The default stands for gravity that points down in every world, see FxSceneDef::gravity.
+glm::vec3 toGravity(const fx::api::HostWorld& world, const FxSceneDef& def)
+{
+    const glm::vec3 given = glm::make_vec3(def.gravity);
+    const FxSceneDef defaults = fxDefaultSceneDef();
+    return given == glm::make_vec3(defaults.gravity) ? given : world.vector(def.gravity);
 }
 
 FxSceneStatistics gatherStatistics(FxScene& object)
@@ -89,7 +100,7 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
         FxSceneDef known;
         if (Status status = fx::api::readStruct(def, "def", fxDefaultSceneDef(), known); !status)
             return status;
-        if (Status status = checkDef(known); !status)
+        if (Status status = checkDef(context->world, known); !status)
             return status;
 
         const fx::api::SharedCaller::Scope scope(context->tables);
@@ -98,22 +109,22 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
         const size_t count = context->scenes.size() + 1;
         if (context->scenes.capacity() < count)
             context->scenes.reserve(std::max(count, 2 * context->scenes.capacity()));
-        const fx::scene::SceneOptions options{
-            known.stepTicks,
-            known.maxFrameTicks,
-            known.maxInstances,
-            {{known.gravity[0], known.gravity[1], known.gravity[2]}, known.hasGround != 0},
-            known.shareInstances != 0,
-            known.disableCulling == 0,
-            known.lockStep != 0,
-            known.releaseAfterTicks,
-            known.maxCatchUpTicks,
-            known.catchUpSteps,
-            known.workBudget == 0 ? fx::base::kNoWorkLimit : known.workBudget,
-            known.eventCapacity,
-            (known.eventKinds & FX_EVENTS_FINISHED) != 0,
-            (known.eventKinds & FX_EVENTS_CUES) != 0,
-            (known.eventKinds & FX_EVENTS_UNNAMED) != 0};
+        const fx::scene::SceneOptions options{known.stepTicks,
+                                              known.maxFrameTicks,
+                                              known.maxInstances,
+                                              {toGravity(context->world, known), known.hasGround != 0},
+                                              known.shareInstances != 0,
+                                              known.disableCulling == 0,
+                                              known.lockStep != 0,
+                                              known.releaseAfterTicks,
+                                              known.maxCatchUpTicks,
+                                              known.catchUpSteps,
+                                              known.workBudget == 0 ? fx::base::kNoWorkLimit
+                                                                    : known.workBudget,
+                                              known.eventCapacity,
+                                              (known.eventKinds & FX_EVENTS_FINISHED) != 0,
+                                              (known.eventKinds & FX_EVENTS_CUES) != 0,
+                                              (known.eventKinds & FX_EVENTS_UNNAMED) != 0};
         FxScene* scene =
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
         scene->quality = fx::api::toQuality(known.quality, fx::sim::QualityLevel::Medium);

@@ -10,8 +10,21 @@
 #include "fxsdk/scene/scene.h"
 
 #include <atomic>
+#include <memory>
 #include <memory_resource>
 #include <vector>
+
+namespace fx::api {
+
+/// The contact callback of a host whose world is not that of the library.
+struct HostContact
+{
+    const HostWorld* world;
+    void* user;
+    FxContactFunction meet;
+};
+
+} // namespace fx::api
 
 struct FxScene
 {
@@ -30,8 +43,9 @@ struct FxScene
     /// temporary memory of fxScene_SetFocus()
     std::pmr::vector<fx::activation::Frustum> foci{&context->memory};
     fx::api::HeldSnapshots held;
-    std::atomic<uint32_t> views{0};      ///< number of views that show this scene
-    double longestFrame;                 ///< [s] longest time that one update simulates
+    std::shared_ptr<const fx::api::HostContact> contact; ///< null if the callback needs no conversion
+    std::atomic<uint32_t> views{0};                      ///< number of views that show this scene
+    double longestFrame;                                 ///< [s] longest time that one update simulates
     std::atomic<bool> catchingUp{false}; ///< whether the time of the last update exceeded longestFrame
 
     bool isBehind = false; ///< whether the last update left steps for the next one

@@ -84,10 +84,8 @@ FxSnapshotGroup describeGroup(const FxScene& scene, const SnapshotGroup& group, 
     out.instance.bits = scene.ids.encode(info.instance, fx::api::kInstanceIdType);
     out.solver = info.solver;
     out.scale = info.placement.scale;
-    std::copy_n(glm::value_ptr(info.placement.position), 3, out.position);
-    const glm::quat& rotation = info.placement.rotation;
-    const float xyzw[4] = {rotation.x, rotation.y, rotation.z, rotation.w};
-    std::copy_n(xyzw, 4, out.rotation);
+    scene.context->world.writePosition(info.placement.position, out.position);
+    scene.context->world.writeRotation(info.placement.rotation, out.rotation);
     std::copy_n(glm::value_ptr(info.bounds.min), 3, out.boundsMin);
     std::copy_n(glm::value_ptr(info.bounds.max), 3, out.boundsMax);
     out.ids = kind.hasIds ? group.ids().data() : nullptr;
@@ -110,7 +108,7 @@ FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot)
         const Presentation presentation = scene->scene.acquire();
         fx::scene::LocalId id = 0;
         try {
-            id = scene->held.add(presentation, &scene->context->memory);
+            id = scene->held.add(presentation, scene->context->world, &scene->context->memory);
         } catch (...) {
             scene->scene.release(presentation.snapshots);
             throw;

@@ -6,9 +6,12 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
+
+using fx::api::HostWorld;
 
 static_assert(int(FX_DEPTH_REVERSED) == int(fx::render::DepthConvention::Reversed));
 static_assert(int(FX_BILLBOARD_PLANAR) == int(fx::render::BillboardForm::Planar));
@@ -27,6 +30,7 @@ static_assert(int(FX_OUTPUT_OPTICAL_DEPTH) == int(fx::render::view_output::Optic
 
 constexpr float kBrightest = 1e6f;  // [cd/m2] and [lx]
 constexpr double kFarthest = 1e9;   // [m]
+constexpr float kAllDepths = 1e9f;  // FxFrameDef::rangeFar of a frame without an end, in any unit
 constexpr int32_t kWidest = 16'384; // [pixel]
 constexpr float kUnitTolerance = 1e-3f;
 
@@ -98,10 +102,10 @@ void checkComposition(fx::api::Checks& check, const FxViewSettings& given)
     check.that(given.voxels >= 16 && given.voxels <= 256, "settings.voxels is not from 16 to 256");
 }
 
-void checkSunShadow(fx::api::Checks& check, const FxFrameDef& given)
+void checkSunShadow(const HostWorld& world, fx::api::Checks& check, const FxFrameDef& given)
 {
     check.range(given.sunShadowConvention, 0u, uint32_t(FX_DEPTH_REVERSED), "frame.sunShadowConvention");
-    check.range(given.sunShadowEdge, 0.0f, 100.0f, "frame.sunShadowEdge");
+    check.range(given.sunShadowEdge, 0.0f, world.fromMeters(100.0f), "frame.sunShadowEdge");
     const float* m = given.sunShadowMatrix;
     check.that(fx::base::allFinite(m, 16), "frame.sunShadowMatrix is not finite");
     check.that(
@@ -132,12 +136,13 @@ void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
     check.range(given.displayWhite, 1.0f, 1e6f, "frame.displayWhite");
 }
 
-void checkRange(fx::api::Checks& check, const FxFrameDef& given)
+void checkRange(const HostWorld& world, fx::api::Checks& check, const FxFrameDef& given)
 {
+    const float farthest = std::max(world.fromMeters(float(kFarthest)), kAllDepths);
     check.range(given.reserved, 0u, 0u, "frame.reserved");
     check.range(given.rangePart, uint32_t(FX_RANGE_ONLY), uint32_t(FX_RANGE_LAST), "frame.rangePart");
-    check.range(given.rangeNear, 0.0f, float(kFarthest), "frame.rangeNear");
-    check.range(given.rangeFar, 0.0f, float(kFarthest), "frame.rangeFar");
+    check.range(given.rangeNear, 0.0f, farthest, "frame.rangeNear");
+    check.range(given.rangeFar, 0.0f, farthest, "frame.rangeFar");
     check.that(!(given.rangeFar <= given.rangeNear),
                "frame.rangeFar is not above frame.rangeNear: give the farther depth as rangeFar, or 1e9 for "
                "all effects behind rangeNear");
@@ -147,13 +152,13 @@ void checkRange(fx::api::Checks& check, const FxFrameDef& given)
                "would not see this one: set frame.target to FX_TARGET_TEXTURE, except in the last call");
 }
 
-fx::render::DepthRange toRange(const FxFrameDef& given)
+fx::render::DepthRange toRange(const HostWorld& world, const FxFrameDef& given)
 {
     fx::render::DepthRange range;
     if (given.rangeNear > 0.0f)
-        range.from = given.rangeNear;
-    if (given.rangeFar < float(kFarthest))
-        range.to = given.rangeFar;
+        range.from = world.toMeters(given.rangeNear);
+    if (given.rangeFar < kAllDepths)
+        range.to = world.toMeters(given.rangeFar);
     range.isContinued = given.rangePart == FX_RANGE_NEXT || given.rangePart == FX_RANGE_LAST;
     range.isLast = given.rangePart == FX_RANGE_ONLY || given.rangePart == FX_RANGE_LAST;
     return range;
@@ -161,7 +166,8 @@ fx::render::DepthRange toRange(const FxFrameDef& given)
 
 } // namespace
 
-fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::ViewSettings& outSettings)
+fx::base::Status fx::api::convertSettings(const HostWorld& world, const FxViewSettings& given,
+                                          render::ViewSettings& outSettings)
 {
     Checks check;
     checkLight(check, given);
@@ -174,7 +180,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
 
     render::ViewSettings settings;
     settings.exposureEv100 = given.exposureEv100;
-    settings.lighting.sunDirection = glm::normalize(glm::make_vec3(given.sunDirection));
+    settings.lighting.sunDirection = glm::normalize(world.direction(given.sunDirection));
     settings.lighting.sunIlluminance = glm::make_vec3(given.sunIlluminance);
     settings.lighting.skyLuminance = glm::make_vec3(given.skyLuminance);
     settings.lighting.groundAlbedo = given.groundAlbedo;
@@ -225,24 +231,27 @@ fx::base::Status fx::api::convertBudget(const FxViewSettings& given, quality::Bu
     return {};
 }
 
-fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest)
+fx::base::Status fx::api::convertFrame(const HostWorld& world, const FxFrameDef& given,
+                                       render::FrameRequest& outRequest)
 {
+    const double farthest = world.fromMeters(kFarthest);
+    const glm::mat4 view = world.view(given.view);
     Checks check;
-    check.range3(given.origin, -kFarthest, kFarthest, "frame.origin");
-    check.noFault(viewFault(given.view), "frame.view");
+    check.range3(given.origin, -farthest, farthest, "frame.origin");
+    check.noFault(viewFault(glm::value_ptr(view)), "frame.view");
     check.noFault(projectionFault(given.projection), "frame.projection");
     checkTarget(check, given);
-    checkSunShadow(check, given);
-    checkRange(check, given);
+    checkSunShadow(world, check, given);
+    checkRange(world, check, given);
     check.noFault(frameProjectionFault(given.projection, given.depthConvention == FX_DEPTH_REVERSED),
                   "frame.projection");
     if (!check.status())
         return check.status();
 
     render::CameraView& camera = outRequest.camera;
-    camera.origin = glm::make_vec3(given.origin);
-    camera.view = glm::make_mat4(given.view);
-    camera.projection = glm::make_mat4(given.projection);
+    camera.origin = world.position(given.origin);
+    camera.view = view;
+    camera.projection = world.projection(given.projection);
     camera.depth = render::DepthConvention(given.depthConvention);
     camera.zeroToOne = given.zeroToOne != 0;
     camera.upperLeftOrigin = given.upperLeftOrigin != 0;
@@ -260,9 +269,9 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
     targets.keepScissor = given.keepScissor != 0;
     targets.displayWhite = given.displayWhite;
     outRequest.sunShadow = {given.sunShadowTexture, render::DepthConvention(given.sunShadowConvention),
-                            glm::make_mat4(given.sunShadowMatrix), given.sunShadowEdge};
+                            world.ofWorld(given.sunShadowMatrix), world.toMeters(given.sunShadowEdge)};
     outRequest.deltaTime = given.deltaTime;
     outRequest.resetHistory = given.resetHistory != 0;
-    outRequest.range = toRange(given);
+    outRequest.range = toRange(world, given);
     return {};
 }

@@ -28,8 +28,8 @@ Status checkCreate(const FxContext* context, const FxScene* scene, FxView** outV
 }
 
 /// Leaves both outputs as they are on failure.
-Status readSettings(const FxViewSettings* given, fx::render::ViewSettings& outSettings,
-                    fx::quality::BudgetOptions& outBudget)
+Status readSettings(const FxContext& context, const FxViewSettings* given,
+                    fx::render::ViewSettings& outSettings, fx::quality::BudgetOptions& outBudget)
 {
     FxViewSettings known;
     if (Status status = fx::api::readStruct(given, "settings", fxDefaultViewSettings(), known); !status)
@@ -37,7 +37,7 @@ Status readSettings(const FxViewSettings* given, fx::render::ViewSettings& outSe
     fx::quality::BudgetOptions budget;
     if (Status status = fx::api::convertBudget(known, budget); !status)
         return status;
-    if (Status status = fx::api::convertSettings(known, outSettings); !status)
+    if (Status status = fx::api::convertSettings(context.world, known, outSettings); !status)
         return status;
     outBudget = budget;
     return {};
@@ -140,11 +140,12 @@ void showMoment(const FxView& view, const fx::scene::Presentation& shown, fx::re
     io.instances = fx::api::instanceNames(view);
 }
 
-Status readFrame(const FxFrameDef* frame, FxFrameDef& outKnown, fx::render::FrameRequest& outRequest)
+Status readFrame(const FxView& view, const FxFrameDef* frame, FxFrameDef& outKnown,
+                 fx::render::FrameRequest& outRequest)
 {
     if (Status status = fx::api::readStruct(frame, "frame", fxDefaultFrameDef(), outKnown); !status)
         return status;
-    return fx::api::convertFrame(outKnown, outRequest);
+    return fx::api::convertFrame(view.context->world, outKnown, outRequest);
 }
 
 /// Whether the frame follows the range that was drawn last, if it says so.
@@ -167,10 +168,10 @@ Status checkSequence(const FxView& view, const FxFrameDef& known)
     return {};
 }
 
-Status readEye(const char* eye, const FxFrameDef* frame, FxFrameDef& outKnown,
+Status readEye(const FxView& view, const char* eye, const FxFrameDef* frame, FxFrameDef& outKnown,
                fx::render::FrameRequest& outRequest)
 {
-    Status status = readFrame(frame, outKnown, outRequest);
+    Status status = readFrame(view, frame, outKnown, outRequest);
     if (status && outKnown.rangePart != FX_RANGE_ONLY)
         status = fx::api::invalid("frame.rangePart is not FX_RANGE_ONLY: draw each eye by a view of its own");
     return status ? status : Status(status.code(), std::string(eye) + ": " + std::string(status.message()));
@@ -193,9 +194,9 @@ Status renderEyes(FxView& view, const FxFrameDef* first, const FxFrameDef* secon
 {
     FxFrameDef known, knownSecond;
     fx::render::FrameRequest request, requestSecond;
-    if (Status status = readEye("first", first, known, request); !status)
+    if (Status status = readEye(view, "first", first, known, request); !status)
         return status;
-    if (Status status = readEye("second", second, knownSecond, requestSecond); !status)
+    if (Status status = readEye(view, "second", second, knownSecond, requestSecond); !status)
         return status;
     const uint64_t before = view.context->memory.allocationCount();
     view.sleeps = false;
@@ -235,7 +236,7 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
 {
     FxFrameDef known;
     fx::render::FrameRequest request;
-    if (Status status = readFrame(frame, known, request); !status)
+    if (Status status = readFrame(view, frame, known, request); !status)
         return status;
     if (Status status = checkSequence(view, known); !status)
         return status;
@@ -301,7 +302,7 @@ FxResult fxCreateView(FxContext* context, FxScene* scene, const FxViewSettings* 
         const FxViewSettings defaults = fxDefaultViewSettings();
         fx::render::ViewSettings known;
         fx::quality::BudgetOptions budget;
-        if (Status status = readSettings(settings ? settings : &defaults, known, budget); !status)
+        if (Status status = readSettings(*context, settings ? settings : &defaults, known, budget); !status)
             return status;
         const fx::api::SingleCaller::Scope gl(context->gl, fx::api::kGlThreadRule);
         if (!gl.status())
@@ -344,7 +345,7 @@ FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
     return fx::api::insideView("fxView_SetSettings", view, [&]() -> Status {
         fx::render::ViewSettings known;
         fx::quality::BudgetOptions budget;
-        if (Status status = readSettings(settings, known, budget); !status)
+        if (Status status = readSettings(*view->context, settings, known, budget); !status)
             return status;
         if (Status status = view->quality.setOptions(budget); !status)
             return status;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -14,6 +15,7 @@
 
 namespace {
 
+using fx::api::HostWorld;
 using fx::base::Status;
 using fx::render::HostLight;
 using fx::render::HostLights;
@@ -29,11 +31,12 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kFarthest = 1e9; // [m]
 constexpr float kUnitTolerance = 1e-3f;
 
-Status checkLight(const FxLight& given)
+Status checkLight(const HostWorld& world, const FxLight& given)
 {
+    const double farthest = world.fromMeters(kFarthest);
     fx::api::Checks check;
-    check.range(given.radius, 0.0f, 1e4f, "lights.radius");
-    check.range3(given.position, -kFarthest, kFarthest, "lights.position");
+    check.range(given.radius, 0.0f, world.fromMeters(1e4f), "lights.radius");
+    check.range3(given.position, -farthest, farthest, "lights.position");
     check.range3(given.intensity, 0.0f, 1e9f, "lights.intensity");
     const float length = glm::length(glm::make_vec3(given.axis));
     check.that(std::abs(length - 1.0f) <= kUnitTolerance,
@@ -45,13 +48,13 @@ Status checkLight(const FxLight& given)
     return check.status();
 }
 
-HostLight toHostLight(const FxLight& given)
+HostLight toHostLight(const HostWorld& world, const FxLight& given)
 {
     HostLight light;
-    light.position = glm::make_vec3(given.position);
+    light.position = world.position(given.position);
     light.intensity = glm::make_vec3(given.intensity);
-    light.radius = given.radius;
-    light.axis = glm::normalize(glm::make_vec3(given.axis));
+    light.radius = world.toMeters(given.radius);
+    light.axis = glm::normalize(world.direction(given.axis));
     if (given.outerConeAngle < kPi - 1e-3f) {
         light.cosInner = std::cos(given.innerConeAngle);
         light.cosOuter = std::cos(given.outerConeAngle);
@@ -60,7 +63,7 @@ HostLight toHostLight(const FxLight& given)
 }
 
 /// Lights of any version of FxLight: they lie structSize apart.
-Status readLights(const FxLight* lights, uint32_t count, HostLights& out)
+Status readLights(const HostWorld& world, const FxLight* lights, uint32_t count, HostLights& out)
 {
     const auto* at = reinterpret_cast<const unsigned char*>(lights);
     for (uint32_t i = 0; i < count; ++i) {
@@ -68,9 +71,9 @@ Status readLights(const FxLight* lights, uint32_t count, HostLights& out)
         FxLight known;
         if (Status status = fx::api::readStruct(given, "lights", fxDefaultLight(), known); !status)
             return status;
-        if (Status status = checkLight(known); !status)
+        if (Status status = checkLight(world, known); !status)
             return status;
-        out.lights[out.count++] = toHostLight(known);
+        out.lights[out.count++] = toHostLight(world, known);
         at += given->structSize;
     }
     return {};
@@ -85,7 +88,7 @@ Status prepareLights(FxView& view, const FxFrameDef* frame)
     if (known.target == FX_TARGET_TEXTURE && known.colorTexture == 0)
         withTarget.target = FX_TARGET_FRAMEBUFFER; // nothing is drawn to it yet
     fx::render::FrameRequest request;
-    if (Status status = fx::api::convertFrame(withTarget, request); !status)
+    if (Status status = fx::api::convertFrame(view.context->world, withTarget, request); !status)
         return status;
     if (view.sleeps && view.scene->scene.showsNothing()) {
         view.prepared.reset();
@@ -103,6 +106,33 @@ Status prepareLights(FxView& view, const FxFrameDef* frame)
     return status;
 }
 
+/// Makes a row that is multiplied by a position in meters, in the library's axes, one for a position of the
+/// host.
+void convertRow(const HostWorld& world, glm::vec4& io)
+{
+    const glm::vec3 perMeter(io);
+    world.writeDirection(perMeter, glm::value_ptr(io));
+    for (int i = 0; i < 3; ++i)
+        io[i] = world.toMeters(io[i]); // per unit of length of the host
+}
+
+/// The shadow of a light for positions of the host. For a point light, the rows `right` lead to meters and to
+/// the library's axes, in which the other members stay.
+fx::render::MediaShadowBlock forHost(const HostWorld& world, fx::render::MediaShadowBlock block)
+{
+    for (glm::vec4& row : block.right)
+        convertRow(world, row);
+    if (block.place.w > 0.5f) {
+        world.writeVector(glm::vec3(block.place), glm::value_ptr(block.place));
+        return block;
+    }
+    for (glm::vec4& row : block.up)
+        convertRow(world, row);
+    for (glm::vec4& row : block.along)
+        convertRow(world, row);
+    return block;
+}
+
 FxMediaShadow toApi(const fx::render::MediaShadowBlock& block, uint32_t texture)
 {
     FxMediaShadow shadow{};
@@ -114,14 +144,13 @@ FxMediaShadow toApi(const fx::render::MediaShadowBlock& block, uint32_t texture)
     return shadow;
 }
 
-FxLight toApi(const fx::render::EffectLight& light)
+FxLight toApi(const HostWorld& world, const fx::render::EffectLight& light)
 {
     FxLight api = fxDefaultLight();
-    for (int i = 0; i < 3; ++i) {
-        api.position[i] = light.position[i];
-        api.intensity[i] = light.intensity[i];
-    }
-    api.radius = light.radius;
+    world.writePosition(light.position, api.position);
+    std::copy_n(glm::value_ptr(light.intensity), 3, api.intensity);
+    api.radius = world.fromMeters(light.radius);
+    world.writeDirection({0.0f, -1.0f, 0.0f}, api.axis);
     return api;
 }
 
@@ -159,7 +188,7 @@ FxResult fxView_SetLights(FxView* view, const FxLight* lights, uint32_t count)
         if (!check.status())
             return check.status();
         HostLights known;
-        if (Status status = readLights(lights, count, known); !status)
+        if (Status status = readLights(view->context->world, lights, count, known); !status)
             return status;
         view->prepared.reset();
         view->renderer.settings().hostLights = known;
@@ -184,7 +213,8 @@ FxResult fxView_GetMediaShadow(FxView* view, uint32_t kind, uint32_t index, FxMe
         if (!check.status())
             return check.status();
         const fx::render::ViewRenderer& renderer = view->renderer;
-        const auto block = renderer.mediaShadow(LightKind(kind), index, view->origin);
+        const auto block =
+            forHost(view->context->world, renderer.mediaShadow(LightKind(kind), index, view->origin));
         return fx::api::writeStruct(toApi(block, renderer.mediaShadowTexture()), ioShadow, "ioShadow");
     });
 }
@@ -236,6 +266,6 @@ FxResult fxView_GetEffectLight(FxView* view, uint32_t index, FxLight* ioLight)
         const auto lights = view->renderer.effectLights();
         if (index >= lights.size())
             return fx::api::invalid("the last frame has fewer effects that shine than index");
-        return fx::api::writeStruct(toApi(lights[index]), ioLight, "ioLight");
+        return fx::api::writeStruct(toApi(view->context->world, lights[index]), ioLight, "ioLight");
     });
 }

@@ -155,9 +155,10 @@ inline const FxLog* logOf(const FxView* view)
 void destroyView(FxView* view);
 
 /// Converts checked settings and frames to the renderer's types. The status names the invalid member.
-base::Status convertSettings(const FxViewSettings& given, render::ViewSettings& outSettings);
+base::Status convertSettings(const HostWorld& world, const FxViewSettings& given,
+                             render::ViewSettings& outSettings);
 base::Status convertBudget(const FxViewSettings& given, quality::BudgetOptions& outOptions);
-base::Status convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest);
+base::Status convertFrame(const HostWorld& world, const FxFrameDef& given, render::FrameRequest& outRequest);
 
 /// Functions that convert instance ids in the outputs to ids of the C API.
 inline render::InstanceNames instanceNames(const FxView& view)
@@ -173,7 +174,7 @@ inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
 {
     view.prepared.reset();
     view.rangeEnd.reset();
-    view.origin = {frame.origin[0], frame.origin[1], frame.origin[2]};
+    view.origin = view.context->world.position(frame.origin);
     ShownFrame& frameToShow = view.prepared.emplace(
         view.scene->scene, view.quality, view.renderer, view.masked, frame,
         frame.holdQuality != 0 || frame.rangePart != FX_RANGE_ONLY || view.scene->catchingUp.load());

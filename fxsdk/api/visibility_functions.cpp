@@ -44,7 +44,7 @@ private:
     fx::scene::Presentation shown_;
 };
 
-Status readCamera(const FxFrameDef* given, std::optional<Watcher>& out)
+Status readCamera(const FxScene& scene, const FxFrameDef* given, std::optional<Watcher>& out)
 {
     if (!given)
         return {};
@@ -61,7 +61,7 @@ Status readCamera(const FxFrameDef* given, std::optional<Watcher>& out)
     camera.width = 1;
     camera.height = known.height;
     fx::render::FrameRequest request;
-    if (Status status = fx::api::convertFrame(camera, request); !status)
+    if (Status status = fx::api::convertFrame(scene.context->world, camera, request); !status)
         return status;
     out = Watcher{fx::render::cameraGeometry(request.camera), float(known.height), known.visibilityMask};
     return {};
@@ -101,10 +101,10 @@ public:
         return inView_ ? FX_VISIBILITY_TOO_SMALL : FX_VISIBILITY_BESIDE;
     }
 
-    void describe(FxVisibility& io) const
+    void describe(const fx::api::HostWorld& world, FxVisibility& io) const
     {
-        io.radius = radius_;
-        io.distance = distance_;
+        io.radius = world.fromMeters(radius_);
+        io.distance = world.fromMeters(distance_);
         io.pixels = pixels_;
     }
 
@@ -165,7 +165,7 @@ FxResult fxScene_ExplainVisibility(FxScene* scene, FxInstanceId instance, const 
 {
     const auto explain = [&](fx::scene::LocalId id) -> Status {
         std::optional<Watcher> watcher;
-        if (Status status = readCamera(camera, watcher); !status)
+        if (Status status = readCamera(*scene, camera, watcher); !status)
             return status;
         const fx::scene::Scene::Activity activity = scene->scene.activity(id);
         GroupReport groups(watcher);
@@ -183,7 +183,7 @@ FxResult fxScene_ExplainVisibility(FxScene* scene, FxInstanceId instance, const 
         report.state = uint32_t(activity.state);
         report.reason = uint32_t(activity.reason);
         report.particles = activity.particles;
-        groups.describe(report);
+        groups.describe(scene->context->world, report);
         return fx::api::writeStruct(report, ioVisibility, "ioVisibility");
     };
     return fx::api::withInstance("fxScene_ExplainVisibility", scene, instance, explain);
@@ -203,8 +203,10 @@ const char* fxGetVisibilityText(uint32_t cause)
         "The effect has no particles at this moment: no birth is due yet, or intensity or emitting is 0.",
         "The effect is behind the camera or before the near plane: the camera looks along its -Z; check the "
         "signs of the view matrix, and that it is not the matrix from eye to world.",
-        "The effect is beside the view: check position and unit, which is the meter, and the view matrix.",
-        "The effect is smaller than a pixel: check the unit of positions, which is the meter, and the scale.",
+        "The effect is beside the view: check the position, the view matrix, and FxContextDef::unitsPerMeter "
+        "and "
+        "axes.",
+        "The effect is smaller than a pixel: check the position, the scale, and FxContextDef::unitsPerMeter.",
         "The visibility masks of the instance and of the frame share no bit: see fxScene_SetVisibilityMask "
         "and "
         "FxFrameDef::visibilityMask.",

@@ -54,6 +54,7 @@ public:
     InstanceState state(LocalId id);
     uint32_t particles(LocalId id);
     uint64_t userData(LocalId id) { return instances_.find(id)->setup.userData; }
+    void setUserData(LocalId id, uint64_t number) { instances_.find(id)->setup.userData = number; }
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     const sim::InstanceParameters& parameters(LocalId id) { return instances_.find(id)->setup.parameters; }

@@ -5,11 +5,12 @@
 // light, the first is the widest and coarsest.
 struct FxMediaShadow
 {
-    vec4 right[3]; // parallel light: texel x = dot(right.xyz, p) + right.w
+    vec4 right[3]; // parallel light: texel x = dot(right.xyz, p) + right.w; of a point: rows of the matrix to meters and the
+                   // axes of the planes
     vec4 up[3];    // texel y likewise
-    vec4 along[3]; // plane likewise; of a point: w times the distance - x; y radius of the glowing ball that it stands for [m]
+    vec4 along[3]; // plane likewise; of a point: w times the distance [m] - x; y radius of the glowing ball that it stands for [m]
     vec4 tiles[3]; // xy texel of the first plane in the texture; z texels along a side; w planes, 0: there is no such level
-    vec4 place;    // of a point: xyz [m] relative to the frame's origin; w 0 parallel light, 1 a point
+    vec4 place;    // of a point: xyz relative to the frame's origin, in units and axes of the host; w 0 parallel light, 1 a point
 };
 
 // x optical depth up to a plane; y between it and the next. The planes of a level lie in rows of eight tiles.
@@ -52,7 +53,8 @@ vec2 fxMediaTexel(vec3 d, float texels)
 // Mean transmittance from a glowing ball to p: of 16 places of it, seen through what stands next to it.
 float fxMediaPenumbra(sampler2D planes, FxMediaShadow shadow, vec3 p)
 {
-    vec3 d = p - shadow.place.xyz;
+    vec3 fromLight = p - shadow.place.xyz;
+    vec3 d = vec3(dot(shadow.right[0].xyz, fromLight), dot(shadow.right[1].xyz, fromLight), dot(shadow.right[2].xyz, fromLight));
     float away = length(d);
     float nearest = shadow.along[0].x / max(shadow.along[0].w, 1e-12); // [m] the first shell
     float caster = max(min(max(1.2 * shadow.along[0].y, nearest), away / 1.3), 1e-12);
@@ -72,7 +74,8 @@ float fxMediaPenumbra(sampler2D planes, FxMediaShadow shadow, vec3 p)
     return sum / float(places);
 }
 
-// Share of the light that reaches p through media, per color. planes: filters linearly. p [m]: relative to the frame's origin.
+// Share of the light that reaches p through media, per color. planes: filters linearly. p: relative to the frame's
+// origin, in units and axes of the host, meters unless FxContextDef states others.
 vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)
 {
     vec4 tiles = shadow.tiles[0];

@@ -57,6 +57,24 @@ class Simulation(unittest.TestCase):
             compared += len(a.ids)
         self.assertGreater(compared, 50)
 
+    def test_a_world_in_centimeters_with_z_up_is_the_same(self):
+        x, y, z = range(3)  # FxAxis
+        unreal = fxsdk.Context(workers=1, unitsPerMeter=100.0, rightAxis=y, upAxis=z, forwardAxis=x)
+        self.addCleanup(unreal.close)
+        here, there = self.context.scene(), unreal.scene()
+        here.add("campfire", position=(1.0, 2.0, -3.0))
+        there.add("campfire", position=(300.0, 100.0, 200.0))
+        for scene in (here, there):
+            scene.update(0.5)
+        self.assertEqual(there.hash(), here.hash())
+        compared = 0
+        for a, b in zip(here.groups("blob"), there.groups("blob")):
+            right, up, back = a.positions.T
+            expected = 100.0 * numpy.stack([-back, right, up], axis=1)
+            self.assertLess(numpy.abs(b.positions - expected).max(initial=0.0), 1e-2)
+            compared += len(a.ids)
+        self.assertGreater(compared, 20)
+
     def test_updates_of_any_length_take_their_steps(self):
         scene = self.context.scene()
         scene.update(1.0)

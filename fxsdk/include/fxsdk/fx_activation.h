@@ -42,7 +42,7 @@ typedef struct FxFocus
     double origin[3];
 
     /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid; default
-    /// identity.
+    /// identity. See FxFrameDef::view.
     float view[16];
 
     /// Matrix from eye to clip coordinates, column-major, right-handed; perspective (elements 11 and 15 are

@@ -5,8 +5,13 @@
 /// Ownership: all strings returned here belong to the library. The caller frees none of them.
 ///
 /// Conventions of the whole API
-///   Units       metre, second, kilogram, kelvin, cd/m2. Light is linear Rec. 709.
+///   Units       meter, second, kilogram, kelvin, cd/m2. Light is linear Rec. 709.
 ///   Axes        right-handed, +Y up; a camera looks along -Z. Matrices are float[16], column-major.
+///   Host world  FxContextDef states other units of length and other axes. Then [m], [m/s], [m/s2] and
+///               [m2] count units of the host instead of meters, and positions, directions, rotations and
+///               matrices are in axes of the host, in arguments, results and snapshots. Ranges are stated in
+///               meters. Photometric values ([cd], [lx], [cd/m2]), preset files, saved states and textures
+///               do not depend on units and axes of the host. See docs/howto/units-and-axes.md.
 ///   Errors      a failed call changes nothing and leaves its outputs untouched. fxGetLastErrorMessage()
 ///               returns its message on the same thread. The library never prints, aborts or throws.
 ///   Structs     every definition starts with structSize and grows only at its end. A shorter

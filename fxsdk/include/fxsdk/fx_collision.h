@@ -29,8 +29,8 @@ typedef struct FxCollisionMesh
     /// [m] x, y, z of each vertex, each component within +-1e5; read during the call only.
     const float* positions;
 
-    /// Three indices per triangle, counter-clockwise seen from outside; read during the call only. Null
-    /// (default): three consecutive vertices per triangle.
+    /// Three indices per triangle, counter-clockwise as seen from outside, also if the host's axes are
+    /// left-handed; read during the call only. Null (default): three consecutive vertices per triangle.
     const uint32_t* indices;
 
     /// Number of vertices, 3..2^24.

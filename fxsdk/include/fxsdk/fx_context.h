@@ -102,6 +102,18 @@ typedef enum FxContextFlag
     FX_CONTEXT_PLACEHOLDERS = 1
 } FxContextFlag;
 
+/// A direction along an axis of the host's world.
+typedef enum FxAxis
+{
+    FX_AXIS_X = 0,                ///< along +X
+    FX_AXIS_Y = 1,                ///< along +Y
+    FX_AXIS_Z = 2,                ///< along +Z
+    FX_AXIS_NEGATIVE_X = 3,       ///< along -X
+    FX_AXIS_NEGATIVE_Y = 4,       ///< along -Y
+    FX_AXIS_NEGATIVE_Z = 5,       ///< along -Z
+    FX_AXIS_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never valid
+} FxAxis;
+
 /// Definition of a new context. Fill with fxDefaultContextDef(), then change members.
 typedef struct FxContextDef
 {
@@ -132,14 +144,39 @@ typedef struct FxContextDef
 
     /// Sum of FxContextFlag values; default 0.
     uint32_t flags;
+
+    /// [1/m] 1e-3..1e6, number of the host's units of length in a meter: 1 (default) for meters, 100 for
+    /// centimeters, 39.3700787 for inches. All lengths and velocities of the API count these units.
+    double unitsPerMeter;
+
+    /// FxAxis that points to the right in the host's world; default FX_AXIS_X. Right, up and forward are
+    /// along three different axes, and state whether the world is right-handed or left-handed. The defaults
+    /// are the axes of the library: right-handed, +Y up. docs/howto/units-and-axes.md lists the values for
+    /// engines.
+    uint32_t rightAxis;
+
+    /// FxAxis that points up; default FX_AXIS_Y.
+    uint32_t upAxis;
+
+    /// FxAxis that points forward; default FX_AXIS_NEGATIVE_Z. Of an effect without rotation, -Z of its
+    /// preset points there.
+    uint32_t forwardAxis;
+
+    /// Reserved; 0.
+    uint32_t reserved;
 } FxContextDef;
 
-/// The definition of a context that simulates on the library's own threads, without GL.
+/// The definition of a context that simulates on the library's own threads, without GL, in meters and with +Y
+/// up.
 static inline FxContextDef fxDefaultContextDef(void)
 {
     FxContextDef def = FX_ZEROED;
     def.structSize = sizeof(FxContextDef);
     def.headerVersion = FX_VERSION;
+    def.unitsPerMeter = 1.0;
+    def.rightAxis = FX_AXIS_X;
+    def.upAxis = FX_AXIS_Y;
+    def.forwardAxis = FX_AXIS_NEGATIVE_Z;
     return def;
 }
 
@@ -164,8 +201,9 @@ FX_API void* fxGetGlProcAddress(void* user, const char* name);
 /// Creates a context. [any; with GL: on the thread where the OpenGL 4.5 context is current, which becomes
 /// the context's GL thread]
 /// @param outContext receives the context; untouched on failure
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (header of another major number),
-///         FX_ERROR_GL_UNSUPPORTED (the message names the version or function), FX_ERROR_OUT_OF_MEMORY
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member and the remedy), FX_ERROR_VERSION
+///         (header of another major number), FX_ERROR_GL_UNSUPPORTED (the message names the version or
+///         function), FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext);
 
 /// Destroys a context with all objects in it. Pointers and ids of these objects are invalid afterwards. Null

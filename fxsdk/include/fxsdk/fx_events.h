@@ -65,7 +65,7 @@ typedef struct FxEvent
     /// Instance of the event; the instance may have been destroyed since.
     FxInstanceId instance;
 
-    /// FxInstanceDef::userData of the instance.
+    /// FxInstanceDef::userData of the instance, or the last number of fxScene_SetUserData().
     uint64_t userData;
 
     /// [tick] scene time of the event; for FX_EVENT_FINISHED the end of the step.
@@ -105,8 +105,8 @@ typedef struct FxEvent
 
 /// Reads the oldest events and removes them from the scene. Events of a step appear when the step is
 /// complete. If a step has more events than there is room for, its first ones are kept, and the others are
-/// counted as lost. A host that reads after every update needs room for the events of one update. [scene
-/// thread]
+/// counted as lost. Events of a step for which memory is exhausted are counted as lost, too. A host that
+/// reads after every update needs room for the events of one update. [scene thread]
 /// @param ioEvents  receives the events, in order; structSize of the first element must be set, and is the
 ///                  distance of the elements in bytes. Null: only the number of events is read, and no event
 ///                  is removed
@@ -120,7 +120,12 @@ typedef struct FxEvent
 FX_API FxResult fxScene_GetEvents(FxScene* scene, FxEvent* ioEvents, uint32_t capacity, uint32_t* outCount,
                                   uint64_t* outLost);
 
-/// Reads FxInstanceDef::userData of an instance. [scene thread]
+/// Changes FxInstanceDef::userData of an instance. Events that are recorded from now on have this number;
+/// simulation, culling and hashes do not depend on it. Saved states contain it. [scene thread]
+/// @return FX_OK, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_SetUserData(FxScene* scene, FxInstanceId instance, uint64_t userData);
+
+/// Reads FxInstanceDef::userData of an instance, or the last number of fxScene_SetUserData(). [scene thread]
 /// @param outUserData receives the number; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetUserData(FxScene* scene, FxInstanceId instance, uint64_t* outUserData);

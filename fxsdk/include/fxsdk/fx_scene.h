@@ -52,7 +52,8 @@ typedef struct FxSceneDef
     /// Longer times are shortened to maxFrameTicks, and the dropped time is counted.
     int64_t maxFrameTicks;
 
-    /// [m/s2] world, each component within +-1000; default 0, -9.80665, 0.
+    /// [m/s2] world, each component within +-1000; default 0, -9.80665, 0. With units or axes of the host
+    /// (FxContextDef), the exact default stands for standard gravity, downwards along the host's up axis.
     float gravity[3];
 
     /// 1 (default): the ground of a preset is the plane y = 0 of the local space of the instance. 0: no

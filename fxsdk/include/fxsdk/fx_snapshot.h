@@ -4,6 +4,9 @@
 /// A snapshot holds the last two steps of a scene as lists of groups. A group is the output of one solver of
 /// one instance: columns of numbers, an id per element, and a placement. An element has the same id in both
 /// steps. The placement maps local to world coordinates: world = position + rotation * (scale * local).
+/// With units or axes of the host (FxContextDef), placements, bounds, columns and constants are in them: [m],
+/// [m/s] and [m2] count units of the host, and local axes are those of the host. Each acquired snapshot is
+/// then copied.
 /// Threads: everything here may be called from any thread, also while the scene thread updates the scene.
 /// Ownership: pointers into a snapshot stay valid until the snapshot is released. At most 16 snapshots of a
 /// scene are held at once.

@@ -289,7 +289,8 @@ typedef struct FxLayerTextures
     /// RGBA32F, light and opacity of dust, as in `fire`.
     uint32_t dust;
 
-    /// R32F [m] transmittance-weighted distance of the media; +inf where there are no media.
+    /// R32F, in meters in every context: transmittance-weighted distance of the media; +inf where there are
+    /// no media.
     uint32_t depth;
 
     /// R32F [1] optical depth through all media.
@@ -320,11 +321,12 @@ typedef struct FxOutputTextures
     /// right, green upwards; 0 where there is no instance.
     uint32_t motion;
 
-    /// R32F [m] distance at which the optical depth reaches 0.01; +inf where the optical depth stays below
-    /// 0.01.
+    /// R32F, in meters in every context: distance at which the optical depth reaches 0.01; +inf where the
+    /// optical depth stays below 0.01.
     uint32_t firstDepth;
 
-    /// R32F [m] mean distance of the particles seen in the pixel; +inf where there are no particles.
+    /// R32F, in meters in every context: mean distance of the particles seen in the pixel; +inf where there
+    /// are no particles.
     uint32_t meanDepth;
 
     /// R32F [1] optical depth of all media up to the first opaque surface.

@@ -72,7 +72,9 @@ typedef struct FxFrameDef
     double origin[3];
 
     /// Matrix from world coordinates minus `origin` to eye coordinates, column-major; rigid (columns
-    /// orthonormal within 1e-3); default identity.
+    /// orthonormal within 1e-3); default identity. In eye coordinates, x is right, y is up, and the camera
+    /// looks along -z, in units of the host, whatever the axes of the world. With left-handed axes of
+    /// FxContextDef, the determinant of the matrix is therefore -1.
     float view[16];
 
     /// Matrix from eye to clip coordinates, column-major, right-handed; perspective (elements 11 and 15 are

@@ -27,8 +27,8 @@ enum
 };
 
 /// A point light, a spherical light or a spotlight. Fill with fxDefaultLight(), then set position and
-/// intensity. The illuminance of a surface that faces the light at the distance d is intensity / (d^2 +
-/// radius^2).
+/// intensity. The illuminance in lx of a surface that faces the light at the distance d is intensity / (d^2 +
+/// radius^2), with d and radius in meters. Intensities do not depend on the host's units of length.
 typedef struct FxLight
 {
     /// Set by fxDefaultLight(); do not touch.

@@ -327,6 +327,10 @@ public:
         return events;
     }
 
+    void setUserData(FxInstanceId instance, uint64_t number)
+    {
+        check(fxScene_SetUserData(get(), instance, number));
+    }
     uint64_t userData(FxInstanceId instance)
     {
         uint64_t number = 0;

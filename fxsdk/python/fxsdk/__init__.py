@@ -76,7 +76,7 @@ class Context(_Object):
 
     @param gl True where a context of OpenGL 4.5 of EGL, GLX or SDL is current, such as that of an Offscreen; or a function that
               takes the name of a function of OpenGL as bytes and returns its address. Without it nothing can be drawn.
-    @param members of FxContextDef, such as workers=1
+    @param members of FxContextDef, such as workers=1, or unitsPerMeter=100 for centimeters
     """
 
     def __init__(self, gl=None, **members):
@@ -286,7 +286,7 @@ def perspective(width, height, fov_y=math.radians(50.0), near=_NEAR):
 
 
 def look_at(eye, target):
-    """Members origin and view of FxFrameDef for an eye that looks at a target, +Y up."""
+    """Members origin and view of FxFrameDef for an eye that looks at a target, +Y up, in a context with the default axes."""
     eye, target = numpy.asarray(eye, float), numpy.asarray(target, float)
     back = eye - target
     back /= numpy.linalg.norm(back)

@@ -23,6 +23,8 @@ MediaShadowBlock mediaShadow(const LightList& list, size_t light, const glm::dve
         return block;
     const glm::dvec3 shift = origin - eye;
     if (lights[light].color.w > 0.5f) {
+        for (int i = 0; i < 3; ++i)
+            block.right[size_t(i)][i] = 1.0f; // the planes have the axes of the world
         block.along[0] = lights[light].along;
         block.tiles[0] = lights[light].tiles;
         block.place = {glm::vec3(glm::dvec3(glm::vec3(lights[light].place)) - shift), 1.0f};

@@ -46,6 +46,8 @@ void main()
     FxMediaShadow shadow;
     for (int i = 0; i < 3; ++i)
         shadow.right[i] = shadow.up[i] = shadow.along[i] = shadow.tiles[i] = vec4(0.0);
+    for (int i = 0; i < 3; ++i)
+        shadow.right[i][i] = 1.0;
     shadow.along[0] = vec4(ball.z, ball.x, 0.0, 1.0);
     shadow.tiles[0] = vec4(0.0, 0.0, 256.0, 2.0);
     shadow.place = vec4(0.0, 0.0, 0.0, 1.0);
@@ -85,6 +87,8 @@ void main()
     FxMediaShadow shadow;
     for (int i = 0; i < 3; ++i)
         shadow.right[i] = shadow.up[i] = shadow.along[i] = shadow.tiles[i] = vec4(0.0);
+    for (int i = 0; i < 3; ++i)
+        shadow.right[i][i] = 1.0;
     shadow.along[0] = vec4(0.0, 0.0, 0.0, 1.0);
     shadow.tiles[0] = vec4(0.0, 0.0, 256.0, 2.0);
     shadow.place = vec4(0.0, 0.0, 0.0, 1.0);
