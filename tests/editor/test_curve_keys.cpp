@@ -58,5 +58,22 @@ TEST(CurveKeys, hotterBodiesAreBluer)
                   ramp[i - 1][1][2].get<double>() / ramp[i - 1][1][0].get<double>());
 }
 
+TEST(CurveKeys, draggedKeysSnapToRoundTimesAndValues)
+{
+    const Json key = Json::array({0.42, 0.37});
+    const KeyMove move = snapped(key, {0.1, 0.2}, 1.1); // steps of 1/20 and of 0.05
+    EXPECT_NEAR(0.42 + move.time, 0.5, 1e-12);
+    EXPECT_NEAR(0.37 + move.value, 0.55, 1e-12);
+    EXPECT_NEAR(370.0 + snapped(Json::array({0.4, 370.0}), {0.0, 61.0}, 5000.0).value, 400.0, 1e-9);
+    EXPECT_EQ(snapped(Json::array({0.4, Json::array({1, 1, 1})}), {0.0, 3.0}, 1.0).value, 3.0);
+}
+
+TEST(CurveKeys, displayColorsAreThoseOfSrgb)
+{
+    EXPECT_NEAR(toDisplay(0.21404f), 0.5f, 1e-4f);
+    for (const float value : {-0.5f, 0.0f, 0.002f, 0.18f, 1.0f, 7.0f})
+        EXPECT_NEAR(fromDisplay(toDisplay(value)), value, 1e-4f * std::max(1.0f, value));
+}
+
 } // namespace
 } // namespace fx::editor

@@ -59,6 +59,29 @@ TEST(ShapeHandles, aMovedHandleGivesTheMovedValue)
     EXPECT_EQ(valueAt(document, *extent, {0.0, 1.0, -3.0}), Json::array({1.0, 1.0, 0.0})); // not below 0
 }
 
+TEST(ShapeHandles, obstaclesAndVectorFieldsAreDragged)
+{
+    const Document document = presetWith(R"("collisions": [{"shape": "plane", "position": [0, 0.5, 0]},
+        {"shape": "sphere", "size": 2, "position": [1, 2, 3]}, {"shape": "box", "size": [1, 2, 3], "axis": [1, 0, 0]},
+        {"shape": "ground"}, {"shape": "mesh", "file": "a.obj"}],
+        "forces": {"vectorFields": [{"file": "a.fxgrid", "scale": 2, "position": [0, 1, 0]}]})");
+    const ShapeWires wires = shapeWires(document, "/emitters/0");
+    for (const ShapeHandle& handle : wires.handles)
+        if (const Json::json_pointer at(handle.pointer); document.json().contains(at)) {
+            EXPECT_EQ(valueAt(document, handle, handle.place), document.json().at(at)) << handle.pointer;
+        }
+    const std::string obstacles = "/emitters/0/collisions/";
+    EXPECT_EQ(find(wires, obstacles + "0/axis")->kind, HandleKind::Direction);
+    EXPECT_EQ(valueAt(document, *find(wires, obstacles + "1/size"), {4.0, 2.0, 3.0}), Json(3.0));
+    // +Y of the box is turned to +X: its second half extent is dragged along X.
+    EXPECT_EQ(valueAt(document, *find(wires, obstacles + "2/size", 1), {5.0, 0.0, 0.0}),
+              Json::array({1.0, 5.0, 3.0}));
+    EXPECT_FALSE(find(wires, obstacles + "3/position"));
+    EXPECT_TRUE(find(wires, obstacles + "4/position"));
+    EXPECT_EQ(valueAt(document, *find(wires, "/emitters/0/forces/vectorFields/0/scale"), {3.0, 1.0, 0.0}),
+              Json(3.0));
+}
+
 TEST(ShapeHandles, sizesOfBallsStayNumbersAndFirstNumbersOfTriples)
 {
     const Document number = presetWith(R"("shape": "sphere", "size": 1)");

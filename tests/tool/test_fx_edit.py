@@ -3,11 +3,10 @@
 import json
 import re
 import shutil
-import struct
 import unittest
-import zlib
 
 from fx_program import LIBRARY, FxTest, fx
+from png_pixels import Pixels
 
 SCRIPT = """
 click /emitters/0/maxParticles
@@ -32,39 +31,6 @@ SMALL = """{"version": 1,
   "preview": {"camera": {"position": [0, 1, 6], "target": [0, 1, 0]}}
 }
 """
-
-
-class Pixels:
-    """RGB rows of a PNG with 8 bits, cut to a rectangle."""
-
-    def __init__(self, path, rectangle=None):
-        data = path.read_bytes()
-        width, height, _, kind = struct.unpack(">IIBB", data[16:26])
-        channels = {2: 3, 6: 4}[kind]
-        packed, at = b"", 8
-        while at < len(data):
-            size, = struct.unpack(">I", data[at:at + 4])
-            packed += data[at + 8:at + 8 + size] if data[at + 4:at + 8] == b"IDAT" else b""
-            at += 12 + size
-        raw = zlib.decompress(packed)
-        stride = width * channels
-        left, top, right, bottom = rectangle or (0, 0, width, height)
-        before, self.rows = bytes(stride), []
-        for y in range(bottom):
-            kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-            for i in range(stride if kind else 0):
-                a, b, c = line[i - channels] if i >= channels else 0, before[i], before[i - channels] if i >= channels else 0
-                nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
-                line[i] = (line[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
-            before = bytes(line)
-            if y >= top:
-                self.rows.append(before[left * channels:right * channels])
-
-    def __eq__(self, other):
-        return self.rows == other.rows
-
-    def mean(self):
-        return sum(map(sum, self.rows)) / sum(map(len, self.rows))
 
 
 class Edit(FxTest):
@@ -283,6 +249,71 @@ shot {folder}/hidden.png
     def test_a_comparison_with_the_reference_can_be_cancelled(self):
         outcome = self.small("time 1\nclick error\nclick error/cancel\ncompared\n")
         self.assertIn("cancelled", outcome.out)
+
+    def test_the_budget_is_measured_and_shown(self):
+        outcome = self.small("""
+time 1
+click tab/Budget
+click budget/measure
+measured
+places
+shot {folder}/budget.png
+click /emitters/0/maxParticles
+type 30
+key enter
+measured
+""")
+        for quality in ("low", "medium", "high"):
+            found = re.search(rf"^quality {quality}: (\d+) particles, simulation (\S+), lights (\S+), stage (\S+), "
+                              r"effects (\S+) ms$", outcome.out, re.M)
+            self.assertTrue(found, outcome.out)
+            self.assertGreater(int(found[1]), 10)
+            self.assertTrue(all(float(time) > 0 for time in found.groups()[1:]), outcome.out)
+        self.assertRegex(outcome.out, r"(?m)^/emitters/0: \d+ particles, drawing \S+ ms$")
+        moments = [int(count) for count in re.findall(r"^at \S+ s: (\d+) particles", outcome.out, re.M)][:24]
+        self.assertEqual((moments[0], len(moments)), (0, 24))
+        self.assertGreater(max(moments), 35)
+        self.assertIn("before the last change", outcome.out)
+        self.assertIn("budget/high ", outcome.out)
+
+    def test_the_button_writes_pictures_sequences_and_turntables(self):
+        render = """
+click render
+click render/kind/{0}
+click render/file
+key ctrl+a
+type {{folder}}/{1}
+click render/width
+type 96
+key enter
+click render/height
+type 64
+key enter
+"""
+        self.small("time 1\n" + render.format("picture", "still.png") + "click render/start\nrendered\n" +
+                   render.format("turntable", "turn.%02d.png") +
+                   "click render/turns\ntype 4\nkey enter\nclick render/start\nrendered\n" +
+                   "click timeline/end\ntype 0.2\nkey enter\n" +
+                   render.format("sequence", "frames.%02d.png") + "click render/start\nrendered\n")
+        names = self.names()
+        self.assertEqual([n for n in names if n.startswith("turn")], [f"turn.0{i}.png" for i in range(4)])
+        self.assertEqual([n for n in names if n.startswith("frames")], [f"frames.0{i}.png" for i in range(7)])
+        still, first, second = (Pixels(self.folder / n) for n in ("still.png", "turn.00.png", "turn.01.png"))
+        self.assertEqual((len(still.rows), len(still.rows[0])), (64, 3 * 96))
+        self.assertEqual(still, first)
+        self.assertNotEqual(first, second)
+
+    def test_a_file_that_does_not_fit_is_refused_with_the_remedy(self):
+        outcome = self.small("""
+click render
+click render/kind/sequence
+click render/file
+key ctrl+a
+type one.png
+click render/start
+rendered
+""")
+        self.assertIn("several frames are NAME.%04d.png or NAME.mp4", outcome.out)
 
     def edit(self, script):
         preset = self.folder / "campfire.fx.json"

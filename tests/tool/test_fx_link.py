@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""fx link and fx edit --link change a preset of a game that runs: examples/04_live_link."""
+"""fx link and fx edit --link change a preset of a game that runs: examples/04_live_link, and with a picture
+examples/05_live_picture. FX_LINK_SHOTS: a folder for its pictures before and after the edit."""
 import json
 import os
 import re
@@ -10,8 +11,11 @@ import time
 import unittest
 
 from fx_program import LIBRARY, PATIENCE, FxTest, fx
+from png_pixels import Pixels
 
 HOST = os.environ.get("FX_LIVE_LINK_HOST", "build/bin/04_live_link")
+PICTURE_HOST = os.environ.get("FX_LIVE_PICTURE_HOST", "build/bin/05_live_picture")
+SHOTS = os.environ.get("FX_LINK_SHOTS")
 
 PRESET = """{"version": 1, "name": "fountain", "ground": false, "emitters": [{
   "maxParticles": 300, "position": [0, %g, 0], "emission": {"rate": 60}, "lifetime": 3, "speed": 0.2,
@@ -96,6 +100,72 @@ linked
         self.assertEqual(outcome.code, 0, outcome.err)
         self.assertIn("shown by 1 instance", outcome.out)
         self.wait_for_height(40)
+
+
+# Glowing balls that stay where they are born: on the left, and after the edit on the right.
+GLOW = """{"version": 1, "name": "glow", "ground": false, "emitters": [{
+  "maxParticles": 300, "layer": "fire", "position": [%g, 1.5, 0], "emission": {"rate": 60}, "lifetime": 3, "speed": 0.2,
+  "radius": 0.2, "temperature": 1900, "forces": {"gravity": 0}}]}
+"""
+
+
+class PictureLink(FxTest):
+    def setUp(self):
+        super().setUp()
+        if not os.path.exists(PICTURE_HOST):
+            self.skipTest(f"{PICTURE_HOST} was not built: epoxy and spng are missing")
+        runtime = self.folder / "run"
+        runtime.mkdir(mode=0o700)
+        self.env = dict(os.environ, XDG_RUNTIME_DIR=str(runtime))
+        self.preset = self.write("glow.fx.json", GLOW % -2)
+        self.picture = self.folder / "game.png"
+        self.host = subprocess.Popen([PICTURE_HOST, str(self.preset), str(self.picture), "--link", "picture-game"],
+                                     env=self.env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def tearDown(self):
+        if hasattr(self, "host"):
+            self.host.kill()
+            self.host.communicate()
+        super().tearDown()
+
+    def bright(self):
+        """Bright pixels of the left and of the right half of the present picture."""
+        pixels = Pixels(self.picture)
+        half = len(pixels.rows[0]) // 6 * 3
+        return [sum(red > 200 for row in pixels.rows for red in row[first:last:3])
+                for first, last in ((0, half), (half, 2 * half))]
+
+    def wait_until(self, holds, what):
+        end = time.monotonic() + PATIENCE
+        while not (self.picture.exists() and holds(*self.bright())):
+            self.assertIsNone(self.host.poll(), "the game has ended")
+            self.assertLess(time.monotonic(), end, what)
+            time.sleep(0.1)
+
+    def shot(self, name):
+        if SHOTS:
+            os.makedirs(SHOTS, exist_ok=True)
+            shutil.copy(self.picture, os.path.join(SHOTS, name))
+
+    def test_the_picture_of_a_game_shows_the_edit_while_it_runs(self):
+        self.wait_until(lambda left, right: left > 100 > right, "the game shows the preset on the left")
+        self.shot("before.png")
+        script = self.write("events.txt", """
+click select/emitters/0
+click /emitters/0/position/0
+type 2
+key enter
+linked
+""")
+        outcome = fx("edit", self.preset, "--headless", "--width", 960, "--height", 640, "--script", script,
+                     "--recovery", self.folder / "recovery", "--link", "picture-game", env=self.env)
+        if "has no editor" in outcome.err:
+            self.skipTest(outcome.err)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertIn("shown by 1 instance", outcome.out)
+        self.wait_until(lambda left, right: right > 100 > left, "the game shows the edit on the right")
+        self.shot("after.png")
+        self.assertEqual(self.preset.read_text(), GLOW % -2) # the editor has not saved
 
 
 if __name__ == "__main__":

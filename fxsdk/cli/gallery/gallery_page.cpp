@@ -11,15 +11,18 @@ constexpr std::string_view kStyle = R"(
   body { font: 16px/1.45 system-ui, sans-serif; margin: 0 auto; max-width: 1600px; padding: 0 12px 24px }
   h1 { font-size: 1.5rem; margin: 16px 0 4px }
   h2 { font-size: 1.15rem; margin: 8px 0 4px }
+  nav { margin-bottom: 12px }
   nav a { display: inline-block; padding: 4px 8px 4px 0 }
   main { display: grid; gap: 16px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 420px), 1fr)) }
-  article { border: 1px solid #8886; border-radius: 8px; overflow: hidden; padding-bottom: 8px }
+  article { border: 1px solid #8886; border-radius: 8px; display: flex; flex-direction: column; overflow: hidden; padding-bottom: 8px }
+  article > a + a { margin-top: 2px }
+  article > pre { margin-bottom: 4px; margin-top: auto }
   article > :not(a):not(img) { margin-left: 12px; margin-right: 12px }
   img { display: block; height: auto; width: 100% }
   .tag { border: 1px solid #8888; border-radius: 10px; display: inline-block; font-size: .8rem; margin: 2px 4px 2px 0; padding: 0 8px }
   dl { display: grid; gap: 2px 12px; grid-template-columns: auto 1fr; margin: 8px 12px }
   dt { opacity: .75 } dd { margin: 0 }
-  pre { background: #8882; border-radius: 4px; overflow-x: auto; padding: 6px 8px }
+  pre { background: #8882; border-radius: 4px; overflow-wrap: anywhere; padding: 6px 8px; white-space: pre-wrap }
   .note { font-size: .85rem; opacity: .75 }
 )";
 
@@ -30,9 +33,11 @@ std::string formatted(const char* format, double value)
     return text;
 }
 
-/// Three significant digits, and all before the point.
+/// Three significant digits, and all before the point; from 10 s on in seconds.
 std::string milliseconds(double value)
 {
+    if (value >= 10000.0)
+        return formatted("%.3g", value / 1000.0) + " s";
     return formatted(value < 100.0 ? "%.3g" : "%.0f", value) + " ms";
 }
 

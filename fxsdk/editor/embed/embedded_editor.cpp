@@ -68,6 +68,8 @@ base::Result<std::unique_ptr<EmbeddedEditor>> EmbeddedEditor::create(std::unique
 EmbeddedEditor::~EmbeddedEditor()
 {
     reference_.reset();
+    render_.reset();
+    budget_.reset();
     if (preview_ && errorTexture_ != 0)
         preview_->device().gl.DeleteTextures(1, &errorTexture_);
 }
@@ -149,6 +151,7 @@ void EmbeddedEditor::updatePicture()
     preview_->device().gl.Finish();
     picture.texture = preview_->texture();
     picture.particles = preview_->particles();
+    picture.elements = preview_->elementCounts();
     picture.placement = preview_->placement();
     picture.overlays = preview_->overlays(session_->overlays, frame);
     picture.exposureEv100 = preview_->scene().view.exposureEv100;
@@ -273,10 +276,97 @@ void EmbeddedEditor::updateError()
     state.isRunning = false;
 }
 
-base::Status EmbeddedEditor::writePicture(const std::string& file)
+/// The texts that show one element each, and the one that shows none.
+base::Status EmbeddedEditor::startBudget()
 {
-    const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
-    return writePng(preview_->device(), preview_->texture(), frame.width, frame.height, file);
+    const Session& session = *session_;
+    BudgetSubject subject;
+    subject.text = session.shownText();
+    subject.name = session.name();
+    subject.kind = session.document.kind();
+    subject.time = session.playback.time();
+    subject.end = session.playback.end;
+    subject.frame = frameOf(session, state_->pictureSize);
+    if (subject.kind == DocumentKind::Preset) {
+        const Json& schema = session.document.schema();
+        const auto textWith = [&](const SoloMute& choice) {
+            return writeJson(
+                onStage(choice.shown(session.document.json(), schema), subject.kind, session.stage()));
+        };
+        SoloMute none;
+        for (const std::string& element : soloElements(session.document.json(), schema)) {
+            SoloMute one;
+            one.setSolo(element, true);
+            subject.elements.emplace_back(element, textWith(one));
+            none.setMuted(element, true);
+        }
+        subject.empty = textWith(none);
+    }
+    auto run = BudgetRun::create(loader_, std::move(subject));
+    if (!run)
+        return run.status();
+    budget_ = std::move(*run);
+    budgetRevision_ = session.shownRevision();
+    return {};
+}
+
+/// Measures one piece a frame.
+void EmbeddedEditor::updateBudget()
+{
+    BudgetState& state = state_->budget;
+    if (std::exchange(state.isAsked, false)) {
+        state.report = {}; // its textures go with the run
+        const base::Status status = startBudget();
+        state.failure = status.message();
+        state.isRunning = status.ok();
+    }
+    if (std::exchange(state.isStopped, false))
+        state.isRunning = false;
+    if (!budget_)
+        return;
+    state.isOld = budgetRevision_ != session_->shownRevision();
+    if (!state.isRunning)
+        return;
+    const base::Status status = budget_->step();
+    state.failure = status.message();
+    state.progress = budget_->progress();
+    state.report = budget_->report();
+    state.isRunning = !budget_->isDone();
+}
+
+base::Status EmbeddedEditor::startRender()
+{
+    const Session& session = *session_;
+    auto run = RenderRun::create(loader_, {state_->render.request, session.shownText(), session.name(),
+                                           session.document.kind(), session.camera, session.exposureEv100,
+                                           session.playback.time(), session.playback.end});
+    if (run)
+        render_ = std::move(*run);
+    return run.status();
+}
+
+/// Writes one frame a frame.
+void EmbeddedEditor::updateRender()
+{
+    RenderState& state = state_->render;
+    if (std::exchange(state.isAsked, false) && !render_)
+        session_->run(startRender());
+    if (std::exchange(state.isStopped, false) && render_) {
+        render_.reset();
+        session_->message = "Rendering was cancelled.";
+    }
+    state.isRunning = render_ != nullptr;
+    if (!render_)
+        return;
+    const base::Status status = render_->step();
+    state.progress = render_->progress();
+    if (!render_->isDone())
+        return;
+    session_->run(status);
+    if (status.ok())
+        session_->message = "Wrote " + state.request.file;
+    render_.reset();
+    state.isRunning = false;
 }
 
 void EmbeddedEditor::answerWhy()
@@ -333,12 +423,6 @@ void EmbeddedEditor::answerRequests()
 {
     if (state_->asksWhy)
         answerWhy();
-    if (state_->renderTo.empty())
-        return;
-    const std::string file = std::exchange(state_->renderTo, {});
-    session_->run(writePicture(file));
-    if (session_->message.empty())
-        session_->message = "Wrote " + file;
 }
 
 void EmbeddedEditor::draw(double seconds, ImVec2 low, ImVec2 size)
@@ -346,6 +430,8 @@ void EmbeddedEditor::draw(double seconds, ImVec2 low, ImVec2 size)
     session_->update(seconds);
     updateLink(seconds); // before the picture, which takes longer
     updateError();       // before the picture, which it draws over
+    updateBudget();
+    updateRender();
     updatePicture();
     updateBefore();
     drawEditor(*state_, low, size);

@@ -11,8 +11,10 @@
 #pragma once
 
 #include "fxsdk/editor/panels/editor_ui.h"
+#include "fxsdk/editor/preview/budget_run.h"
 #include "fxsdk/editor/preview/preview.h"
 #include "fxsdk/editor/preview/reference_error.h"
+#include "fxsdk/editor/preview/render_run.h"
 
 #include <glm/vec3.hpp>
 
@@ -80,7 +82,10 @@ private:
     void updateError();
     base::Status startError();
     void showError(const ErrorPicture& error);
-    base::Status writePicture(const std::string& file);
+    void updateBudget();
+    base::Status startBudget();
+    void updateRender();
+    base::Status startRender();
     void answerWhy();
     void answerRequests();
     void updateLink(double seconds);
@@ -102,6 +107,10 @@ private:
     double errorTime_ = 0.0;                  ///< [s] of the timeline that it compares
     std::optional<PictureKey> errorKey_; ///< of the moment that it compares; empty: the picture has changed
     uint32_t errorTexture_ = 0;
+
+    std::unique_ptr<BudgetRun> budget_; ///< the last one; its report has textures
+    uint64_t budgetRevision_ = 0;       ///< Session::shownRevision() that it measures
+    std::unique_ptr<RenderRun> render_; ///< while it runs
     render::GlLoader loader_;
 };
 

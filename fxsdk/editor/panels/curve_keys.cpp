@@ -108,6 +108,33 @@ void moveKeys(Json& ioKeys, const std::vector<size_t>& selected, double time, do
     }
 }
 
+KeyMove snapped(const Json& key, KeyMove move, double range)
+{
+    constexpr double kParts = 20.0;
+    const auto snap = [](double from, double way, double step) {
+        return step > 0.0 ? std::round((from + way) / step) * step - from : way;
+    };
+    move.time = snap(key[0].get<double>(), move.time, 1.0 / kParts);
+    if (key[1].is_number()) {
+        // Steps of 1, 2 or 5 times a power of ten, so that values stay short.
+        const double wanted = std::max(range / kParts, 1e-12);
+        const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+        const double step = wanted < 2.0 * power ? power : wanted < 5.0 * power ? 2.0 * power : 5.0 * power;
+        move.value = snap(key[1].get<double>(), move.value, step);
+    }
+    return move;
+}
+
+float toDisplay(float linear)
+{
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+float fromDisplay(float display)
+{
+    return display <= 0.04045f ? display / 12.92f : std::pow((display + 0.055f) / 1.055f, 2.4f);
+}
+
 size_t addKey(Json& ioKeys, double t)
 {
     t = rounded(std::clamp(t, 0.0, 1.0));

@@ -28,6 +28,22 @@ double curveAt(const Json& keys, double t, size_t channel = 0);
 void moveKeys(Json& ioKeys, const std::vector<size_t>& selected, double time, double value, double lowest,
               double highest);
 
+/// Way of keys that are dragged.
+struct KeyMove
+{
+    double time = 0.0;
+    double value = 0.0;
+};
+
+/// The nearest way that brings a key to a multiple of 1/20 of the time, and to a round value: steps of 1, 2
+/// or 5 times a power of ten, of at most 1/20 of the range.
+/// @param range of the values that are shown, > 0
+KeyMove snapped(const Json& key, KeyMove move, double range);
+
+/// A channel of a linear color as a value of sRGB, and back; beyond 0 to 1 too.
+float toDisplay(float linear);
+float fromDisplay(float display);
+
 /// Adds a key at `t` on the curve. @return its index
 size_t addKey(Json& ioKeys, double t);
 

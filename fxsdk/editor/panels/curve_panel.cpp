@@ -61,7 +61,11 @@ void drawCurve(const Canvas& canvas, const Json& keys)
         std::snprintf(label, sizeof label, "%.3g", value);
         const ImVec2 left = canvas.at(0.0, value);
         draw->AddLine(left, canvas.at(1.0, value), IM_COL32(255, 255, 255, 24));
-        draw->AddText({left.x + 4, left.y - (i == 0 ? 18.0f : 0.0f)}, IM_COL32(160, 165, 175, 255), label);
+        const float line = ImGui::GetFontSize();
+        if (i == 0 || i == 4 ||
+            canvas.size.y > 5.0f * line) // labels of a low curve would lie over each other
+            draw->AddText({left.x + 4, left.y - (i == 0 ? line + 2.0f : 0.0f)}, IM_COL32(160, 165, 175, 255),
+                          label);
         draw->AddLine(canvas.at(i / 4.0, canvas.lowest), canvas.at(i / 4.0, canvas.highest),
                       IM_COL32(255, 255, 255, 24));
     }
@@ -129,6 +133,8 @@ void editCanvas(PanelState& state, const Canvas& canvas, const Member& member, J
     }
     if (ImGui::IsItemActivated()) {
         ++state.gesture;
+        state.draggedKeys = keys;
+        state.draggedFrom = mouse;
         if (hit == keys.size())
             state.keys.clear();
         else if (!isSelected(state, hit)) {
@@ -138,10 +144,16 @@ void editCanvas(PanelState& state, const Canvas& canvas, const Member& member, J
         }
     }
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    if (!ImGui::IsItemActive() || state.keys.empty() || (moved.x == 0.0f && moved.y == 0.0f))
+    if (!ImGui::IsItemActive() || state.keys.empty() || (moved.x == 0.0f && moved.y == 0.0f) ||
+        state.draggedKeys.size() != keys.size())
         return;
-    const double value = -double(moved.y / canvas.size.y) * (canvas.highest - canvas.lowest);
-    moveKeys(keys, state.keys, moved.x / canvas.size.x, value, member.minimum.value_or(-1e9),
+    KeyMove move;
+    move.time = double((mouse.x - state.draggedFrom.x) / canvas.size.x);
+    move.value = -double((mouse.y - state.draggedFrom.y) / canvas.size.y) * (canvas.highest - canvas.lowest);
+    if (ImGui::GetIO().KeyCtrl)
+        move = snapped(state.draggedKeys[state.keys.front()], move, canvas.highest - canvas.lowest);
+    keys = state.draggedKeys; // the way from the beginning of the drag, so that limits do not add up
+    moveKeys(keys, state.keys, move.time, move.value, member.minimum.value_or(-1e9),
              member.maximum.value_or(1e9));
     commit(state, member, std::move(keys), state.gesture);
 }
@@ -151,7 +163,7 @@ void keyFields(PanelState& state, const Member& member, Json keys, bool isColor)
 {
     if (state.keys.size() != 1 || state.keys[0] >= keys.size()) {
         ImGui::TextDisabled(
-            "click: select   shift: several   drag: move   double click: add   right click: remove");
+            "click: select  shift: several  drag: move  ctrl: snap  double click: add  right click: remove");
         return;
     }
     Json& key = keys[state.keys[0]];
@@ -183,11 +195,23 @@ void keyFields(PanelState& state, const Member& member, Json keys, bool isColor)
     float color[3];
     for (size_t c = 0; c < 3; ++c)
         color[c] = key[1][c].get<float>();
-    ImGui::SetNextItemWidth(width * 3.0f);
+    ImGui::SetNextItemWidth(width * 1.9f);
     const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR;
-    const bool isChanged = ImGui::ColorEdit3("linear", color, flags);
-    const uint64_t gesture = state.dragOf();
+    bool isChanged = ImGui::ColorEdit3("linear", color, flags);
+    uint64_t gesture = state.dragOf();
     state.mark("curve/color");
+    sameLineIfItFits("000000000000000000000 display");
+    ImGui::SetNextItemWidth(width * 1.9f);
+    float shown[3] = {toDisplay(color[0]), toDisplay(color[1]), toDisplay(color[2])};
+    if (ImGui::ColorEdit3("display", shown, flags)) {
+        for (size_t c = 0; c < 3; ++c)
+            color[c] = fromDisplay(shown[c]);
+        isChanged = true;
+    }
+    gesture = std::max(gesture, state.dragOf());
+    state.mark("curve/display color");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("The same color as values of sRGB");
     if (!isChanged)
         return;
     for (size_t c = 0; c < 3; ++c)
@@ -210,7 +234,7 @@ void presetButtons(PanelState& state, const Member& member, const Json& keys, bo
     bool isFirst = true;
     for (const std::string& name : curvePresetNames()) {
         if (!isFirst)
-            ImGui::SameLine();
+            sameLineIfItFits(name.c_str());
         isFirst = false;
         if (button(state, name.c_str(), "curve/" + name)) {
             state.keys.clear();

@@ -52,6 +52,7 @@ void lowerTabs(PanelState& state)
     tab(state, "Curve", curvePanel);
     tab(state, "Findings", findingsPanel);
     tab(state, "Changes", changesPanel);
+    tab(state, "Budget", budgetPanel);
     tab(state, "Running games", gamesPanel);
     ImGui::EndTabBar();
 }

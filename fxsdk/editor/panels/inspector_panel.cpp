@@ -113,8 +113,8 @@ void rows(PanelState& state, const std::vector<Member>& members)
         if (!isOpen && !(isOpen = ImGui::BeginTable("members", 4, ImGuiTableFlags_SizingStretchProp)))
             return;
         if (ImGui::TableGetColumnCount() == 4 && ImGui::TableGetRowIndex() < 0) {
-            ImGui::TableSetupColumn("title", ImGuiTableColumnFlags_WidthStretch, 0.46f);
-            ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.54f);
+            ImGui::TableSetupColumn("title", ImGuiTableColumnFlags_WidthStretch, 0.455f);
+            ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.545f);
             ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 3.6f);
             ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 1.6f);
         }

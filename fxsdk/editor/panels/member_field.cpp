@@ -96,6 +96,8 @@ int numbersField(PanelState& state, const Member& member, std::span<double> io, 
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - gap * float(io.size() - 1)) / float(io.size());
     int changed = -1;
+    if (io.size() > 2) // narrow fields
+        ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f, ImGui::GetStyle().FramePadding.y});
     for (size_t i = 0; i < io.size(); ++i) {
         if (i > 0)
             ImGui::SameLine(0.0f, gap);
@@ -106,6 +108,8 @@ int numbersField(PanelState& state, const Member& member, std::span<double> io, 
             changed = int(i);
         }
     }
+    if (io.size() > 2)
+        ImGui::PopStyleVar();
     return changed;
 }
 

@@ -11,7 +11,11 @@ namespace fx::editor {
 
 namespace {
 
-constexpr float kHandleWidth = 18.0f; // [pixel]
+/// Width [pixel] of the handle of a field: of a narrow one the number needs the room.
+float handleWidth(float width)
+{
+    return std::clamp(0.2f * width, 0.65f * ImGui::GetFontSize(), 1.1f * ImGui::GetFontSize());
+}
 
 /// Change [unit of the member] of a drag by one pixel.
 double dragSpeed(double value, const Member& member)
@@ -63,9 +67,9 @@ std::optional<NumberEdit> numberField(PanelState& state, const std::string& name
                                       const Member& member, float width)
 {
     std::optional<NumberEdit> edit =
-        typedNumber(state, name, value, member, std::max(width - kHandleWidth, 30.0f));
+        typedNumber(state, name, value, member, std::max(width - handleWidth(width), 30.0f));
     ImGui::SameLine(0.0f, 1.0f);
-    ImGui::SetNextItemWidth(kHandleWidth);
+    ImGui::SetNextItemWidth(handleWidth(width));
     double dragged = value;
     const std::string handle = "##drag " + name;
     if (ImGui::DragScalar(handle.c_str(), ImGuiDataType_Double, &dragged, float(dragSpeed(value, member)),

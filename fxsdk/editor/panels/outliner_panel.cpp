@@ -1,6 +1,8 @@
 #include "fxsdk/editor/inspector/member.h"
 #include "fxsdk/editor/panels/panels.h"
 
+#include <cstdio>
+
 namespace fx::editor {
 
 namespace {
@@ -12,6 +14,21 @@ void toggle(PanelState& state, const char* label, const std::string& name, bool 
     if (button(state, (std::string(label) + "##" + element).c_str(), name + element))
         (state.session.*set)(element, !isOn);
     ImGui::PopStyleColor();
+}
+
+/// Particles of the element in the picture, and what drawing them has cost.
+std::string costText(const PanelState& state, const std::string& pointer)
+{
+    std::string text;
+    if (const auto found = state.picture.elements.find(pointer); found != state.picture.elements.end())
+        text = std::to_string(found->second);
+    for (const ElementCost& element : state.budget.report.elements)
+        if (element.pointer == pointer && !state.budget.isOld) {
+            char part[32];
+            std::snprintf(part, sizeof part, "  %.3g ms", element.drawing);
+            text += part;
+        }
+    return text;
 }
 
 void row(PanelState& state, const std::string& pointer)
@@ -31,11 +48,19 @@ void row(PanelState& state, const std::string& pointer)
     if (!choice.isShown(pointer))
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     const bool wasShown = choice.isShown(pointer);
+    const std::string cost = costText(state, pointer);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float costWidth = ImGui::CalcTextSize(cost.c_str()).x;
     ImGui::AlignTextToFramePadding();
     if (ImGui::Selectable((elementTitle(session.document, pointer) + "##" + pointer).c_str(),
-                          session.selection == pointer))
+                          session.selection == pointer, 0, {room - costWidth - 6.0f, 0.0f}))
         session.selection = pointer;
     state.mark("select" + pointer);
+    ImGui::SameLine(0.0f, 6.0f);
+    ImGui::TextDisabled("%s", cost.c_str());
+    state.mark("cost" + pointer);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Particles in the picture; drawing in ms where \"Budget\" has measured it");
     if (!wasShown)
         ImGui::PopStyleColor();
 }
@@ -58,22 +83,23 @@ void elementButtons(PanelState& state)
         session.run(session.document.duplicate(array, index));
         go(index + 1);
     }
-    ImGui::SameLine();
+    sameLineIfItFits("up");
     if (button(state, "up", "outliner/up") && index > 0) {
         session.run(session.document.move(array, index, index - 1));
         go(index - 1);
     }
-    ImGui::SameLine();
+    sameLineIfItFits("down");
     if (button(state, "down", "outliner/down") && index + 1 < count) {
         session.run(session.document.move(array, index, index + 1));
         go(index + 1);
     }
-    ImGui::SameLine();
+    sameLineIfItFits("remove");
     if (button(state, "remove", "outliner/remove"))
         session.run(session.document.erase(session.selection));
+    sameLineIfItFits("copy");
     if (button(state, "copy", "outliner/copy") && document.contains(at))
         ImGui::SetClipboardText(document.at(at).dump(2).c_str());
-    ImGui::SameLine();
+    sameLineIfItFits("paste");
     if (button(state, "paste", "outliner/paste")) {
         const char* const text = ImGui::GetClipboardText();
         Json pasted = Json::parse(text ? text : "", nullptr, false);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "fxsdk/editor/document/text_difference.h"
+#include "fxsdk/editor/session/budget_report.h"
+#include "fxsdk/editor/session/render_request.h"
 #include "fxsdk/editor/session/session.h"
 #include "fxsdk/livelink/client/live_edit.h"
 
@@ -18,12 +20,13 @@ namespace fx::editor {
 /// What the host of the panels tells them about the picture.
 struct PictureState
 {
-    uint32_t texture = 0;       ///< GL name; 0: no picture
-    uint32_t particles = 0;     ///< alive
-    double milliseconds = 0.0;  ///< [ms] of the last picture: seek and drawing
-    float exposureEv100 = 0.0f; ///< [EV100] of the scene
-    std::string failure;        ///< why the picture does not show the document; empty: it does
-    EffectPlacement placement;  ///< of the effect of a preset
+    uint32_t texture = 0;                     ///< GL name; 0: no picture
+    uint32_t particles = 0;                   ///< alive
+    std::map<std::string, uint32_t> elements; ///< particles alive by the pointer of their element
+    double milliseconds = 0.0;                ///< [ms] of the last picture: seek and drawing
+    float exposureEv100 = 0.0f;               ///< [EV100] of the scene
+    std::string failure;                      ///< why the picture does not show the document; empty: it does
+    EffectPlacement placement;                ///< of the effect of a preset
     OverlayData overlays;
     uint32_t beforeTexture = 0; ///< GL name of the picture of before; 0: none
     std::string beforeFailure;  ///< why there is no picture of before; empty: there is one
@@ -39,6 +42,28 @@ struct ErrorState
     uint32_t texture = 0;  ///< GL name of the error as a picture, upper row first; 0: none
     bool isShown = false;  ///< over the picture
     std::string text;      ///< mean, p99 and largest error, or the cause of a failure
+};
+
+/// What the host tells of the measured budget.
+struct BudgetState
+{
+    bool isAsked = false;   ///< the host shall begin
+    bool isStopped = false; ///< the host shall stop
+    bool isRunning = false;
+    bool isOld = true;     ///< the document has changed since
+    double progress = 0.0; ///< [0, 1]
+    BudgetReport report;
+    std::string failure; ///< empty: none
+};
+
+/// What the host tells of the pictures that it writes.
+struct RenderState
+{
+    RenderRequest request;
+    bool isAsked = false;   ///< the host shall begin
+    bool isStopped = false; ///< the host shall cancel
+    bool isRunning = false;
+    double progress = 0.0; ///< [0, 1]
 };
 
 /// A rectangle on the screen [pixel].
@@ -100,6 +125,8 @@ struct PanelState
     Session& session;
     PictureState picture;
     ErrorState error;
+    BudgetState budget;
+    RenderState render;
     /// Places of the widgets of this frame by name, for scripts and tests.
     std::map<std::string, Place> places;
     std::string scrolledTo;             ///< name of a widget that its panel scrolls to; empty: none
@@ -112,11 +139,12 @@ struct PanelState
     std::string typed;         ///< its text
     uint64_t gesture = 0;      ///< number of the last drag
     std::vector<size_t> keys;  ///< selected keys of the curve
+    Json draggedKeys;          ///< of the curve when the drag began
+    ImVec2 draggedFrom;        ///< [pixel] where the drag began
     double curveHighest = 1.0; ///< upper end of the scale of the curve
     std::string search;        ///< text of the search over members
     std::string saveAs;        ///< name in the dialog "save as"
     bool wantsClose = false;
-    std::string renderTo; ///< file to which the host shall write the picture; empty: none
     bool asksWhy = false; ///< the host shall answer "why is nothing visible"
     std::string why;      ///< the answer
     ShownDifference difference;

@@ -16,7 +16,9 @@ void timelinePanel(PanelState& state);  ///< play, scrub, marks of bursts
 void curvePanel(PanelState& state);     ///< keys of the curve or gradient that is edited
 void findingsPanel(PanelState& state);  ///< errors and warnings with remedies
 void changesPanel(PanelState& state);   ///< A and B, and the difference as text
-void gamesPanel(PanelState& state);     ///< running games with a live link, and the one that shows the edits
+void budgetPanel(PanelState& state); ///< particles and time of elements, stages and qualities on this machine
+void renderMenu(PanelState& state);  ///< button that writes a picture, a sequence, a turntable or a video
+void gamesPanel(PanelState& state);  ///< running games with a live link, and the one that shows the edits
 
 /// Questions that must be answered first: recovery after a crash, a file that has changed outside.
 void questionPanel(PanelState& state);
@@ -39,5 +41,8 @@ bool viewportHandles(PanelState& state, const ViewProjection& view, ImVec2 low, 
 
 /// A button with a place. @return true when it was clicked
 bool button(PanelState& state, const char* label, const std::string& name);
+
+/// Puts the next button into the line of the last one if there is room for its label.
+void sameLineIfItFits(const char* label);
 
 } // namespace fx::editor

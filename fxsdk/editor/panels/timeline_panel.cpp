@@ -26,22 +26,22 @@ void transport(PanelState& state)
     ImGui::SameLine();
     ImGui::Checkbox("loop", &playback.isLooping);
     state.mark("timeline/loop");
-    const float width = ImGui::GetFontSize() * 4.5f;
+    const float width = ImGui::GetFontSize() * 4.2f;
     Member seconds;
     seconds.kind = MemberKind::Number;
     seconds.unit = "s";
     const auto field = [&](const char* label, const char* name, double value) {
-        ImGui::SameLine(0.0f, 10.0f);
+        ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(label);
         ImGui::SameLine();
         return numberField(state, name, value, seconds, width);
     };
-    if (const auto edit = field("time s", "timeline/time", playback.time()))
+    if (const auto edit = field("at", "timeline/time", playback.time()))
         playback.scrub(edit->value);
-    if (const auto edit = field("end s", "timeline/end", playback.end))
+    if (const auto edit = field("of", "timeline/end", playback.end))
         playback.end = std::clamp(edit->value, 0.1, 3600.0);
-    if (const auto edit = field("speed", "timeline/speed", playback.speed))
+    if (const auto edit = field("s, speed", "timeline/speed", playback.speed))
         playback.speed = std::clamp(edit->value, 0.0, 16.0);
 }
 

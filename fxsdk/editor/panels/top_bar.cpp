@@ -2,6 +2,7 @@
 #include "fxsdk/editor/panels/panels.h"
 
 #include <cstdio>
+#include <filesystem>
 
 namespace fx::editor {
 
@@ -10,6 +11,15 @@ bool button(PanelState& state, const char* label, const std::string& name)
     const bool isClicked = ImGui::Button(label);
     state.mark(name);
     return isClicked;
+}
+
+void sameLineIfItFits(const char* label)
+{
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float width = ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x;
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= right)
+        ImGui::SameLine();
 }
 
 namespace {
@@ -65,13 +75,15 @@ void topBar(PanelState& state)
     if (const auto edit = numberField(state, "exposure", present, exposure, ImGui::GetFontSize() * 5.5f))
         session.exposureEv100 = float(limited(exposure, edit->value).get<double>());
     ImGui::SameLine(0.0f, 16.0f);
-    if (button(state, "Render picture", "render"))
-        state.renderTo = "picture.png";
+    renderMenu(state);
     ImGui::SameLine(0.0f, 16.0f);
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(session.document.isDirty() ? ImVec4(1.0f, 0.80f, 0.42f, 1.0f)
                                                   : ImVec4(0.62f, 0.65f, 0.70f, 1.0f),
-                       "%s%s", session.name().c_str(), session.document.isDirty() ? " (not saved)" : "");
+                       "%s%s", std::filesystem::path(session.name()).filename().string().c_str(),
+                       session.document.isDirty() ? " (not saved)" : "");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", session.name().c_str());
     ImGui::SameLine(0.0f, 16.0f);
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(session.message.c_str());

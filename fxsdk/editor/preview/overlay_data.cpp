@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <utility>
 
 namespace fx::editor {
 
@@ -138,6 +140,24 @@ void addParticleWires(const fxsdk::Scene& scene, const OverlayChoice& choice, Ov
             io.lines.push_back({place, place + kArrowSeconds * velocity, WireKind::Velocity});
         }
     });
+}
+
+std::vector<uint32_t> countsBySolver(const fxsdk::Scene& scene, size_t solvers)
+{
+    std::map<std::pair<uint64_t, uint32_t>, uint32_t> most; // of the kinds of one solver of one instance
+    forEachGroup(scene, [&](const Group& g) {
+        uint32_t alive = g.group.count;
+        if (g.radii) // a row without a radius is empty
+            alive = uint32_t(
+                std::count_if(g.radii, g.radii + g.group.count, [](float radius) { return radius > 0.0f; }));
+        uint32_t& count = most[{g.group.instance.bits, g.group.solver}];
+        count = std::max(count, alive);
+    });
+    std::vector<uint32_t> counts(solvers);
+    for (const auto& [key, count] : most)
+        if (key.second < solvers)
+            counts[key.second] += count;
+    return counts;
 }
 
 OverdrawMap overdrawOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height)

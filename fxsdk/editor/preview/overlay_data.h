@@ -13,6 +13,10 @@ namespace fx::editor {
 /// particles evenly spread over each group.
 void addParticleWires(const fxsdk::Scene& scene, const OverlayChoice& choice, OverlayData& io);
 
+/// Elements of the newest step by the index of their solver, of all instances. A solver that publishes
+/// several kinds for its particles counts once.
+std::vector<uint32_t> countsBySolver(const fxsdk::Scene& scene, size_t solvers);
+
 /// Counts the disks of the particles on a grid of cells of 8 pixels over the picture that `view` projects to.
 /// @param width, height [pixel] of the picture, whose upper left corner is 0, 0
 OverdrawMap overdrawOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height);

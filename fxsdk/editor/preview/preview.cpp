@@ -8,12 +8,14 @@
 #include "fxsdk/cli/scene/view_settings.h"
 #include "fxsdk/editor/preview/overlay_data.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "fxsdk/techniques.h"
 
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <memory_resource>
 
 namespace fx::editor {
@@ -37,6 +39,31 @@ std::string stageKeyOf(const std::string& text, DocumentKind kind)
         return text;
     const Json preset = Json::parse(text, nullptr, false);
     return preset.is_object() && preset.contains("preview") ? preset["preview"].dump() : std::string("none");
+}
+
+/// Pointers of the elements of a preset in the order in which they become solvers.
+std::vector<std::string> elementsOf(const std::string& text)
+{
+    const Json preset = Json::parse(text, nullptr, false);
+    std::vector<std::string> elements;
+    for (const preset::Technique& technique : preset::techniques()) {
+        const std::string name(technique.presetMember);
+        const size_t count = preset.is_object() && preset.contains(name) ? preset[name].size() : 0;
+        for (size_t i = 0; i < count; ++i)
+            elements.push_back("/" + name + "/" + std::to_string(i));
+    }
+    return elements;
+}
+
+double medianOf(std::array<double, 3> values)
+{
+    std::sort(values.begin(), values.end());
+    return values[1];
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// Puts an instance where its motion brings it by a scene time [s], and takes away what is not played.
@@ -203,6 +230,7 @@ base::Status Preview::show(const std::string& text, const std::string& name, Doc
         isFirst_ = false;
     }
     file_.presets = std::move(presets);
+    elements_ = kind == DocumentKind::Preset ? elementsOf(text) : std::vector<std::string>();
     for (const Shown& shown : shown_)
         if (shown.id && fxScene_->isValid(*shown.id))
             fxScene_->destroy(*shown.id);
@@ -216,7 +244,8 @@ base::Status Preview::show(const std::string& text, const std::string& name, Doc
 void Preview::create(size_t index)
 {
     const scene_file::SceneInstance& instance = file_.instances[index];
-    const FxInstanceDef def = cli::instanceDefinition(instance, presets_[instance.preset], instance.start);
+    FxInstanceDef def = cli::instanceDefinition(instance, presets_[instance.preset], instance.start);
+    def.quality = simulationQuality_;
     shown_[index] = {fxScene_->create(def), -1.0};
 }
 
@@ -269,11 +298,59 @@ uint32_t Preview::particles()
     return sum;
 }
 
+std::map<std::string, uint32_t> Preview::elementCounts() const
+{
+    std::map<std::string, uint32_t> counts;
+    if (isFirst_ || elements_.empty())
+        return counts;
+    const std::vector<uint32_t> bySolver = countsBySolver(*fxScene_, elements_.size());
+    for (size_t i = 0; i < elements_.size(); ++i)
+        counts[elements_[i]] = bySolver[i];
+    return counts;
+}
+
+base::Status Preview::measureStep(double& outMilliseconds)
+{
+    std::array<double, 3> laps{};
+    try {
+        for (double& lap : laps) {
+            const auto start = std::chrono::steady_clock::now();
+            fxScene_->update(kStep);
+            lap = millisecondsSince(start);
+        }
+    } catch (const fxsdk::Error& error) {
+        return statusOf(error);
+    }
+    outMilliseconds = medianOf(laps);
+    for (Shown& shown : shown_)
+        shown.at = -1.0; // it is elsewhere now
+    return {};
+}
+
+base::Status Preview::measure(const PreviewFrame& frame, StageTimes& outTimes)
+{
+    if (base::Status status = renderStages(frame, nullptr); !status) // makes textures
+        return status;
+    std::array<StageTimes, 3> laps;
+    for (StageTimes& lap : laps)
+        if (base::Status status = renderStages(frame, &lap); !status)
+            return status;
+    for (double StageTimes::*member : {&StageTimes::lights, &StageTimes::stage, &StageTimes::effects})
+        outTimes.*member = medianOf({laps[0].*member, laps[1].*member, laps[2].*member});
+    return measureStep(outTimes.simulation);
+}
+
 FxViewSettings Preview::settingsOf(const PreviewFrame& frame) const
 {
     FxViewSettings settings = cli::toApi(file_.view);
     settings.exposureEv100 = frame.exposureEv100.value_or(settings.exposureEv100);
     settings.toneMap = frame.isLinear ? 0 : 1;
+    if (frame.quality != PreviewQuality::High) {
+        settings.billboardForm = FX_BILLBOARD_CONSTANT;
+        settings.detail = 0;
+    }
+    if (frame.quality == PreviewQuality::Low)
+        settings.shimmerStrength = 0.0f;
     if (frame.isLinear) {
         settings.shimmerStrength = 0.0f;
         settings.dazzle = 0;
@@ -373,17 +450,33 @@ std::span<const render::SceneLight> Preview::shownLights(const scene_file::Scene
 
 base::Status Preview::render(const PreviewFrame& frame)
 {
+    return renderStages(frame, nullptr);
+}
+
+/// @param outTimes receives the time of each stage, for which the GPU finishes it; null: nobody measures
+base::Status Preview::renderStages(const PreviewFrame& frame, StageTimes* outTimes)
+{
     const render::CameraView camera = cameraOf(frame);
     const FxViewSettings settings = settingsOf(frame);
     FxFrameDef def = frameOf(camera, frame);
+    auto start = std::chrono::steady_clock::now();
+    const auto lap = [&](double StageTimes::*member) {
+        if (!outTimes)
+            return;
+        device_->gl.Finish();
+        outTimes->*member = millisecondsSince(start);
+        start = std::chrono::steady_clock::now();
+    };
     try {
         view_->setSettings(settings);
         if (base::Status status = lightStage(def); !status)
             return status;
+        lap(&StageTimes::lights);
         if (base::Status status =
                 stage_->render(camera, lit_.lighting(), settings.exposureEv100, frame.width, frame.height);
             !status)
             return status;
+        lap(&StageTimes::stage);
         def.colorTexture = stage_->colorTexture();
         def.depthTexture = stage_->depthTexture();
         const render::HostShadowMap map = stage_->sunShadow(camera.origin);
@@ -391,6 +484,7 @@ base::Status Preview::render(const PreviewFrame& frame)
         std::copy_n(glm::value_ptr(map.fromWorld), 16, def.sunShadowMatrix);
         def.sunShadowEdge = map.edge;
         view_->render(def);
+        lap(&StageTimes::effects);
     } catch (const fxsdk::Error& error) {
         return statusOf(error);
     }

@@ -7,6 +7,7 @@
 #include "foundation/result/status.h"
 #include "fxsdk/cli/scene/lit_stage.h"
 #include "fxsdk/editor/document/schema_tree.h"
+#include "fxsdk/editor/session/budget_report.h"
 #include "fxsdk/editor/session/overlays.h"
 #include "fxsdk/fxsdk.hpp"
 #include "fxsdk/scene_file/scene_file.h"
@@ -14,6 +15,7 @@
 #include "rendering/stage/stage_camera.h"
 #include "rendering/stage/stage_renderer.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +23,14 @@
 #include <vector>
 
 namespace fx::editor {
+
+/// How effects are drawn, as by fx render --quality.
+enum class PreviewQuality : uint8_t
+{
+    Low,    ///< homogeneous balls, no detail, no shimmer
+    Medium, ///< homogeneous balls, no detail
+    High    ///< as the document states
+};
 
 /// Camera and size of a picture.
 struct PreviewFrame
@@ -33,6 +43,7 @@ struct PreviewFrame
     /// True: scene-linear and exposed, with light that is scattered once, and without glare and shimmer: as
     /// the reference renderer computes it.
     bool isLinear = false;
+    PreviewQuality quality = PreviewQuality::High;
 };
 
 class Preview
@@ -54,6 +65,14 @@ public:
     /// Draws stage and effects. @return an error of GL
     base::Status render(const PreviewFrame& frame);
 
+    /// Draws some frames of the present moment and steps beyond it, and takes the time. The next picture
+    /// needs a seek().
+    base::Status measure(const PreviewFrame& frame, StageTimes& outTimes);
+    /// Time [ms] of a step of 1/60 s. The next picture needs a seek().
+    base::Status measureStep(double& outMilliseconds);
+    /// Quality of the simulation from the next show() on. @param quality FxQuality
+    void setSimulationQuality(uint32_t quality) { simulationQuality_ = quality; }
+
     /// What overlays show of the last picture.
     OverlayData overlays(const OverlayChoice& choice, const PreviewFrame& frame);
     /// From the coordinates of a preset to the world; that of the first instance.
@@ -69,6 +88,8 @@ public:
     std::vector<std::string> causes(const PreviewFrame& frame);
     /// Particles alive of all instances.
     uint32_t particles();
+    /// Elements that are shown, by the pointers of a preset such as "/emitters/0"; empty for a scene.
+    std::map<std::string, uint32_t> elementCounts() const;
     FxViewStatistics statistics() { return view_->statistics(); }
     render::GlDevice& device() { return *device_; }
 
@@ -91,6 +112,7 @@ private:
     void create(size_t index);
     static render::CameraView cameraOf(const PreviewFrame& frame);
     static FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame);
+    base::Status renderStages(const PreviewFrame& frame, StageTimes* outTimes);
     base::Status lightStage(const FxFrameDef& frame);
     static std::span<const render::SceneLight> shownLights(const scene_file::SceneFile& file);
     FxViewSettings settingsOf(const PreviewFrame& frame) const;
@@ -104,9 +126,11 @@ private:
     std::unique_ptr<fxsdk::Scene> fxScene_;
     std::unique_ptr<fxsdk::View> view_;
     scene_file::SceneFile file_;
-    std::string stageKey_;    ///< the part of the text by which stage and camera were made
-    std::string assetText_;   ///< the preset that the context is about to read
-    std::string assetFolder_; ///< folder of its files
+    std::string stageKey_;              ///< the part of the text by which stage and camera were made
+    std::string assetText_;             ///< the preset that the context is about to read
+    std::string assetFolder_;           ///< folder of its files
+    std::vector<std::string> elements_; ///< pointers of a preset's elements in the order of its solvers
+    uint32_t simulationQuality_ = FX_QUALITY_DEFAULT;
     std::vector<FxPresetId> presets_;
     std::vector<Shown> shown_;
     double time_ = 0.0;

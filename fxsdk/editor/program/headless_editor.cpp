@@ -94,6 +94,10 @@ public:
             return waitForGame();
         if (verb == "compared")
             return waitForReference();
+        if (verb == "measured")
+            return waitForBudget();
+        if (verb == "rendered")
+            return waitForPictures();
         return input(verb, words, line);
     }
 
@@ -217,6 +221,40 @@ private:
         if (status.ok())
             std::printf("%s\n", error.text.c_str());
         return status.ok() ? frames(2) : status;
+    }
+
+    base::Status waitForBudget()
+    {
+        base::Status status = frames(1);
+        while (status.ok() && host_.state().budget.isRunning)
+            status = frames(1);
+        if (!status.ok())
+            return status;
+        const BudgetState& budget = host_.state().budget;
+        if (!budget.failure.empty())
+            std::printf("%s\n", budget.failure.c_str());
+        for (const QualityCost& of : budget.report.qualities)
+            std::printf(
+                "quality %s: %u particles, simulation %.3f, lights %.3f, stage %.3f, effects %.3f ms\n",
+                of.name.c_str(), of.particles, of.times.simulation, of.times.lights, of.times.stage,
+                of.times.effects);
+        for (const ElementCost& of : budget.report.elements)
+            std::printf("%s: %u particles, drawing %.3f ms\n", of.pointer.c_str(),
+                        host_.state().picture.elements[of.pointer], of.drawing);
+        for (const MomentCost& of : budget.report.moments)
+            std::printf("at %.2f s: %u particles, simulation %.3f ms\n", of.time, of.particles,
+                        of.simulation);
+        std::printf("%s\n", budget.isOld ? "before the last change" : "of the present document");
+        return frames(2);
+    }
+
+    base::Status waitForPictures()
+    {
+        base::Status status = frames(1);
+        while (status.ok() && host_.state().render.isRunning)
+            status = frames(1);
+        std::printf("%s\n", host_.session().message.c_str());
+        return status;
     }
 
     base::Status input(const std::string& verb, std::istringstream& words, const std::string& line)

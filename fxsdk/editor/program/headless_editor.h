@@ -15,6 +15,8 @@
 ///   time SECONDS          scrubs
 ///   places                prints the names of all widgets
 ///   compared              waits for the comparison with the reference renderer, and prints its result
+///   measured                waits for the budget, and prints it
+///   rendered                waits for the pictures of the button "Render", and prints the message
 ///   linked                waits until the running game has answered to the last edit, and prints the answer
 #pragma once
 

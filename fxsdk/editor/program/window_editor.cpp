@@ -10,6 +10,7 @@
 #include <imgui_impl_glfw.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -40,6 +41,16 @@ private:
     bool isListening_ = false;
 };
 
+/// Such as "torch.fx.json, 3 edits, not saved - fx edit".
+std::string titleOf(const Session& session)
+{
+    const size_t edits = session.document.history().done();
+    std::string title = std::filesystem::path(session.name()).filename().string();
+    if (edits > 0)
+        title += ", " + std::to_string(edits) + (edits == 1 ? " edit" : " edits");
+    return title + (session.document.isDirty() ? ", not saved" : "") + " - fx edit";
+}
+
 } // namespace
 
 base::Status runWindow(std::unique_ptr<Session> session, const WindowOptions& options)
@@ -66,11 +77,16 @@ base::Status runWindow(std::unique_ptr<Session> session, const WindowOptions& op
         return host.status();
     if (options.isLinked)
         (*host)->session().run((*host)->link(options.link));
+    std::string title;
     while (!(*context)->closeRequested() && !cli::interruptRequested()) {
         ImGui_ImplGlfw_NewFrame();
         if (base::Status status = (*host)->frame(double(ImGui::GetIO().DeltaTime), 0); !status)
             return status;
         (*context)->swapBuffers();
+        if (std::string present = titleOf((*host)->session()); present != title) {
+            title = std::move(present);
+            glfwSetWindowTitle(window, title.c_str());
+        }
     }
     if (!(*host)->session().document.isDirty())
         (*host)->session().close(); // otherwise the next start offers what was not saved

@@ -96,6 +96,7 @@ public:
                  memberOf(element, "originRadius", 0.2));
         if (const auto forces = element.find("forces"); forces != element.end() && forces->is_object())
             fields(*forces);
+        list(element, "collisions", element_ + "/", &Builder::obstacle);
         return std::move(wires_);
     }
 
@@ -272,20 +273,69 @@ private:
         position(at + "/position", center, glm::dvec3(0.0));
     }
 
+    /// What the field is in its file is not known here: arms show 1 m of the grid.
+    void vectorField(const Json& field, const std::string& at)
+    {
+        const glm::dvec3 center = vectorOf(field, "position", glm::dvec3(0.0));
+        const double scale = memberOf(field, "scale", 1.0);
+        cross(center, scale);
+        position(at + "/position", center, glm::dvec3(0.0));
+        length(at + "/scale", HandleKind::Length, center, {1.0, 0.0, 0.0}, scale);
+    }
+
+    /// Of a plane, which has no end, a square of 4 m.
+    void plane(const std::string& at, const glm::dvec3& center, const Axes& axes)
+    {
+        constexpr double kHalf = 2.0; // [m]
+        for (int i = -2; i <= 2; ++i) {
+            const double way = kHalf * i / 2.0;
+            line(center - kHalf * axes.x + way * axes.z, center + kHalf * axes.x + way * axes.z);
+            line(center - kHalf * axes.z + way * axes.x, center + kHalf * axes.z + way * axes.x);
+        }
+        axis(at + "/axis", center, axes, kArrow);
+    }
+
+    void obstacle(const Json& obstacle, const std::string& at)
+    {
+        const Json kind = obstacle.value("shape", Json());
+        const std::string shape = kind.is_string() ? kind.get<std::string>() : std::string();
+        if (shape != "plane" && shape != "sphere" && shape != "box" && shape != "mesh" && shape != "heights")
+            return; // the ground and what belongs to the host
+        const glm::dvec3 center = vectorOf(obstacle, "position", glm::dvec3(0.0));
+        const Axes axes = axesAlong(vectorOf(obstacle, "axis", {0.0, 1.0, 0.0}));
+        const glm::dvec3 size = extentOf(obstacle, "size", 1.0);
+        position(at + "/position", center, glm::dvec3(0.0));
+        if (shape == "plane") {
+            plane(at, center, axes);
+        } else if (shape == "sphere") {
+            ball(at + "/size", HandleKind::Length, center, size.x);
+        } else if (shape == "box") {
+            box(at + "/size", center, axes, size);
+            axis(at + "/axis", center, axes, 1.5 * size.y);
+        } else {
+            cross(center, 0.5);
+        }
+    }
+
+    using Build = void (Builder::*)(const Json&, const std::string&);
+    /// Builds each object of a list of `holder`. @param at pointer of the holder, with "/" at its end
+    void list(const Json& holder, const char* name, const std::string& at, Build add)
+    {
+        const auto found = holder.find(name);
+        if (found == holder.end() || !found->is_array())
+            return;
+        for (size_t i = 0; i < found->size(); ++i)
+            if ((*found)[i].is_object())
+                (this->*add)((*found)[i], at + name + "/" + std::to_string(i));
+    }
+
     void fields(const Json& forces)
     {
-        using Build = void (Builder::*)(const Json&, const std::string&);
-        constexpr std::array<std::pair<const char*, Build>, 3> kFields{{{"vortices", &Builder::vortex},
-                                                                        {"attractors", &Builder::attractor},
-                                                                        {"conform", &Builder::conform}}};
-        for (const auto& [name, build] : kFields) {
-            const auto list = forces.find(name);
-            if (list == forces.end() || !list->is_array())
-                continue;
-            for (size_t i = 0; i < list->size(); ++i)
-                if ((*list)[i].is_object())
-                    (this->*build)((*list)[i], element_ + "/forces/" + name + "/" + std::to_string(i));
-        }
+        const std::string at = element_ + "/forces/";
+        list(forces, "vortices", at, &Builder::vortex);
+        list(forces, "attractors", at, &Builder::attractor);
+        list(forces, "conform", at, &Builder::conform);
+        list(forces, "vectorFields", at, &Builder::vectorField);
     }
 
     const Document& document_;
