@@ -153,6 +153,62 @@ TEST_F(PreviewTest, anEffectWithMotionStandsWhereItsHandlesAre)
     EXPECT_TRUE(preview_->scene().instances[0].play.isEmpty()); // the reference renderer gets the same
 }
 
+TEST_F(PreviewTest, motionIsPlayedExactlyInBothDirections)
+{
+    const std::string dust = R"({"version": 1, "emitters": [{"maxParticles": 60, "emission": {"rate": 40},
+        "lifetime": 1, "radius": 0.2, "speed": 0.1, "space": "world", "opticalDepth": 3, "forces": {"gravity": 0}}]})";
+    preview_->setMotion({MotionKind::Circle, 1.5, 3.0});
+    show(*preview_, dust);
+    const double turn = 2.0 * 3.14159265358979 * 1.5 / 3.0; // [s]
+    ASSERT_TRUE(preview_->seek(std::round(0.25 * turn * 60.0) / 60.0).ok());
+    const glm::dvec3 quarter = preview_->placement().position;
+    EXPECT_NEAR(quarter.x, 0.0, 0.05);
+    EXPECT_NEAR(quarter.z, -1.5, 0.05);
+    const std::vector<float> before = picture(*preview_);
+    EXPECT_GT(preview_->particles(), 10u);
+    ASSERT_TRUE(preview_->seek(1.5).ok());
+    EXPECT_NE(picture(*preview_), before);
+    ASSERT_TRUE(preview_->seek(std::round(0.25 * turn * 60.0) / 60.0).ok()); // from the beginning
+    EXPECT_EQ(picture(*preview_), before);
+    preview_->setMotion({MotionKind::Throw, 1.0, 9.81});
+    show(*preview_, dust);
+    ASSERT_TRUE(preview_->seek(0.5).ok());
+    EXPECT_NEAR(preview_->placement().position.x, 0.5 * 9.81 * std::sqrt(0.5), 0.01);
+    EXPECT_NEAR(preview_->placement().position.y, 0.5 * 9.81 * std::sqrt(0.5) - 0.125 * 9.81, 0.01);
+    preview_->setMotion({});
+    show(*preview_, dust);
+    EXPECT_EQ(preview_->placement().position, glm::dvec3(0.0));
+}
+
+TEST_F(PreviewTest, triggersOfTheDocumentArePlayed)
+{
+    const std::string sparks =
+        R"({"version": 1, "emitters": [{"name": "hit", "maxParticles": 50, "lifetime": 3,
+        "radius": 0.1, "speed": 1, "opticalDepth": 1}, {"maxParticles": 4, "emission": {"rate": 1}, "lifetime": 1,
+        "radius": 0.1, "events": [{"on": "host", "name": "bang", "emit": "hit", "count": 20}]}],
+        "preview": {"instance": {"triggers": [{"time": 1, "name": "bang"}]}}})";
+    preview_->setMotion({MotionKind::Document});
+    show(*preview_, sparks);
+    ASSERT_TRUE(preview_->seek(0.9).ok());
+    EXPECT_LT(preview_->particles(), 5u);
+    ASSERT_TRUE(preview_->seek(1.2).ok());
+    EXPECT_GE(preview_->particles(), 20u);
+    ASSERT_TRUE(preview_->seek(0.9).ok());
+    EXPECT_LT(preview_->particles(), 5u);
+}
+
+TEST_F(PreviewTest, elementsAreCountedByTheirPointers)
+{
+    show(
+        *preview_,
+        R"({"version": 1, "emitters": [{"maxParticles": 60, "emission": {"bursts": [{"time": 0, "count": 7}]},
+        "lifetime": 2, "radius": 0.2}, {"maxParticles": 60, "emission": {"bursts": [{"time": 0, "count": 12}]},
+        "lifetime": 2, "radius": 0.2, "light": {"intensity": 1}}]})");
+    ASSERT_TRUE(preview_->seek(0.5).ok());
+    EXPECT_EQ(preview_->elementCounts(),
+              (std::map<std::string, uint32_t>{{"/emitters/0", 7u}, {"/emitters/1", 12u}}));
+}
+
 TEST_F(PreviewTest, firesLightTheGroundAndSmokeDarkensIt)
 {
     const auto groundOf = [&](const std::string& emitter, const std::string& preview, int row) {

@@ -190,6 +190,7 @@ class Editor(unittest.TestCase):
         preset = shutil.copy(ROOT / "fxsdk/presets/library/campfire.fx.json", game)
         out = run(game / "build/game", preset, folder / "recovery", cwd=folder)
         self.assertRegex(out, r"^\d+ particles, \d+ bright pixels, 0 pixels of the margin, \d+ pixels of the inspector, error 0")
+        self.assertRegex(out, r"two editors: \d+ and \d+ particles, \d+ and \d+ pixels, error 0")
         self.assertFalse(list(folder.glob("sdk/share/fxsdk/editor/fxsdk/editor/program")))  # windows stay outside
 
 

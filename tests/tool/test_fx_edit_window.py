@@ -16,6 +16,7 @@ STEPS = int(os.environ.get("FX_EDIT_STEPS", "50"))
 SHOTS = os.environ.get("FX_EDIT_SHOTS")
 SIZE = ("--width", 960, "--height", 640, "--scale", 1)
 LEAST = 0.12 # [s] in which an editor on an idle machine draws several frames
+PAUSE = 1.5  # [s] in which it draws a frame on a machine that is busy
 
 # A picture that is soon drawn.
 PRESET = """{"version": 1,
@@ -108,11 +109,14 @@ class Window:
         self.wait_for_edits(edits) if edits is not None else self.rest(3)
 
     def drag(self, name, x, y):
+        """Drags with pauses at both ends: the way counts from the frame that sees the button until the one that sees it no
+        more."""
         self.press(name)
+        time.sleep(max(PAUSE, 3 * self.pace))
         for _ in range(4):
-            self.rest()
             self.xdotool("mousemove_relative", "--", x // 4, y // 4)
-        self.rest(3)
+            self.rest()
+        time.sleep(max(PAUSE, 3 * self.pace))
         self.xdotool("mouseup", 1)
         self.rest(3)
 

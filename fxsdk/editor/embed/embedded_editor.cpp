@@ -78,6 +78,7 @@ EmbeddedEditor::~EmbeddedEditor()
 void EmbeddedEditor::showDocument(uint64_t revision)
 {
     const bool hadScene = preview_->hasScene();
+    preview_->setMotion(session_->motion());
     const base::Status status =
         preview_->show(session_->shownText(), session_->name(), session_->document.kind());
     shownRevision_ = revision;
@@ -177,6 +178,7 @@ void EmbeddedEditor::updateBefore()
     if (beforeState_ != session_->stateBefore() || beforeChoice_ != choice || !before_->hasScene()) {
         beforeState_ = session_->stateBefore();
         beforeChoice_ = choice;
+        before_->setMotion(session_->motion());
         const base::Status status =
             before_->show(session_->textOf(beforeState_), session_->name(), session_->document.kind());
         picture.beforeFailure =
@@ -287,6 +289,7 @@ base::Status EmbeddedEditor::startBudget()
     subject.time = session.playback.time();
     subject.end = session.playback.end;
     subject.frame = frameOf(session, state_->pictureSize);
+    subject.motion = session.motion();
     if (subject.kind == DocumentKind::Preset) {
         const Json& schema = session.document.schema();
         const auto textWith = [&](const SoloMute& choice) {
@@ -339,7 +342,7 @@ base::Status EmbeddedEditor::startRender()
     const Session& session = *session_;
     auto run = RenderRun::create(loader_, {state_->render.request, session.shownText(), session.name(),
                                            session.document.kind(), session.camera, session.exposureEv100,
-                                           session.playback.time(), session.playback.end});
+                                           session.playback.time(), session.playback.end, session.motion()});
     if (run)
         render_ = std::move(*run);
     return run.status();

@@ -115,6 +115,39 @@ void overlayPopup(PanelState& state)
     ImGui::EndPopup();
 }
 
+void motionPopup(PanelState& state)
+{
+    if (!ImGui::BeginPopup("motion popup"))
+        return;
+    closeByEscape();
+    MotionChoice motion = state.session.motion();
+    const auto choose = [&](const char* label, const char* name, MotionKind kind) {
+        if (ImGui::RadioButton(label, motion.kind == kind))
+            motion.kind = kind;
+        state.mark(name);
+    };
+    choose("still", "motion/still", MotionKind::Still);
+    choose("as in the document: keys, speed, triggers, jumps", "motion/document", MotionKind::Document);
+    choose("circle", "motion/circle", MotionKind::Circle);
+    choose("throw, 45 degrees upwards along +X", "motion/throw", MotionKind::Throw);
+    const auto field = [&](const char* label, const char* name, double& io, double high) {
+        Member member;
+        member.kind = MemberKind::Number;
+        member.minimum = 0.01;
+        member.maximum = high;
+        if (const auto edit = numberField(state, name, io, member, ImGui::GetFontSize() * 6.0f))
+            io = limited(member, edit->value).get<double>();
+        ImGui::SameLine();
+        ImGui::TextUnformatted(label);
+    };
+    if (motion.kind == MotionKind::Circle)
+        field("radius [m]", "motion/radius", motion.radius, 1000.0);
+    if (motion.kind == MotionKind::Circle || motion.kind == MotionKind::Throw)
+        field("speed [m/s]", "motion/speed", motion.speed, 1000.0);
+    state.session.setMotion(motion);
+    ImGui::EndPopup();
+}
+
 void errorButtons(PanelState& state)
 {
     ErrorState& error = state.error;
@@ -153,6 +186,10 @@ void viewportBar(PanelState& state)
     if (button(state, session.comparison.isShown ? "One picture###compare" : "Before | now###compare",
                "compare"))
         session.comparison.isShown = !session.comparison.isShown;
+    ImGui::SameLine();
+    if (button(state, "Motion", "motion"))
+        ImGui::OpenPopup("motion popup");
+    motionPopup(state);
     ImGui::SameLine();
     errorButtons(state);
 }

@@ -41,6 +41,7 @@ BudgetRun::BudgetRun(std::unique_ptr<Preview> preview, BudgetSubject subject)
     : preview_(std::move(preview)), subject_(std::move(subject)),
       pieces_((subject_.elements.empty() ? 0 : 1 + subject_.elements.size()) + kLevels.size() + kMoments)
 {
+    preview_->setMotion(subject_.motion);
     report_.time = subject_.time;
     report_.width = subject_.frame.width;
     report_.height = subject_.frame.height;

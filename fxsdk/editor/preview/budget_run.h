@@ -26,6 +26,7 @@ struct BudgetSubject
     double time = 0.0; ///< [s] of the picture
     double end = 5.0;  ///< [s] of the timeline
     PreviewFrame frame;
+    MotionChoice motion;
 };
 
 class BudgetRun

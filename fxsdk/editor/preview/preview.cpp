@@ -6,6 +6,7 @@
 #include "fxsdk/cli/scene/default_stage.h"
 #include "fxsdk/cli/scene/instance_definition.h"
 #include "fxsdk/cli/scene/view_settings.h"
+#include "fxsdk/editor/preview/instance_motion.h"
 #include "fxsdk/editor/preview/overlay_data.h"
 #include "fxsdk/presets/preset_loader.h"
 #include "fxsdk/techniques.h"
@@ -15,7 +16,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <cmath>
 #include <memory_resource>
 
 namespace fx::editor {
@@ -55,27 +56,10 @@ std::vector<std::string> elementsOf(const std::string& text)
     return elements;
 }
 
-double medianOf(std::array<double, 3> values)
+std::string motionKeyOf(const MotionChoice& motion)
 {
-    std::sort(values.begin(), values.end());
-    return values[1];
-}
-
-double millisecondsSince(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Puts an instance where its motion brings it by a scene time [s], and takes away what is not played.
-void holdStill(scene_file::SceneInstance& io, double time)
-{
-    const base::Placement place = io.placementAt(time);
-    io.position = place.position;
-    io.rotation = place.rotation;
-    const bool emits = scene_file::valueAt(io.play.emitting, io.start, 1.0) > 0.0;
-    io.play = {};
-    if (!emits)
-        io.play.emitting = {{0.0, 0.0}};
+    return std::to_string(int(motion.kind)) + " " + std::to_string(motion.radius) + " " +
+           std::to_string(motion.speed) + " ";
 }
 
 } // namespace
@@ -110,14 +94,19 @@ base::Status Preview::start(const render::GlLoader& loader)
         def.flags = FX_CONTEXT_PLACEHOLDERS;
         context_ = std::make_unique<fxsdk::Context>(def);
         context_->warmUp();
-        FxSceneDef sceneDef = fxDefaultSceneDef();
-        sceneDef.workBudget = 0; // a seek ends before the picture
-        fxScene_ = std::make_unique<fxsdk::Scene>(*context_, sceneDef);
+        fxScene_ = newScene();
         view_ = std::make_unique<fxsdk::View>(*context_, *fxScene_);
     } catch (const fxsdk::Error& error) {
         return statusOf(error);
     }
     return {};
+}
+
+std::unique_ptr<fxsdk::Scene> Preview::newScene() const
+{
+    FxSceneDef def = fxDefaultSceneDef();
+    def.workBudget = 0; // a seek ends before the picture
+    return std::make_unique<fxsdk::Scene>(*context_, def);
 }
 
 const void* Preview::openAsset(void* user, const char* name, size_t* outSize)
@@ -140,7 +129,8 @@ void Preview::closeAsset(void*, const void* data, size_t)
 }
 
 /// Reads stage, camera and instances, and places the camera of a preset without one. Instances stay where
-/// they are at their start, that of a preset where it is at the time of its preview, which its camera shows.
+/// they are at their start, that of a preset where it is at the time of its preview, which its camera shows,
+/// unless another motion is chosen.
 base::Result<scene_file::SceneFile> Preview::readScene(const std::string& text, const std::string& name,
                                                        DocumentKind kind, bool& outHasCamera) const
 {
@@ -155,7 +145,7 @@ base::Result<scene_file::SceneFile> Preview::readScene(const std::string& text, 
     if (!outHasCamera && isFirst_) // reads the file, which may be gone: the camera then stays where it is
         (void)cli::frameEffect(*file, base::toTicks(kFramedSeconds), {});
     for (scene_file::SceneInstance& instance : file->instances)
-        holdStill(instance, preview.time.value_or(instance.start));
+        editor::setMotion(motion_, preview.time.value_or(instance.start), instance);
     file->view.composition = render::Composition::Automatic;
     file->view.slices.automatic = true;
     return file;
@@ -202,7 +192,7 @@ void Preview::unload(const std::vector<FxPresetId>& presets)
 /// All that can fail comes first, so that stage, presets and instances always belong to one text.
 base::Status Preview::show(const std::string& text, const std::string& name, DocumentKind kind)
 {
-    std::string key = stageKeyOf(text, kind);
+    std::string key = motionKeyOf(motion_) + stageKeyOf(text, kind);
     std::optional<scene_file::SceneFile> file; // empty: only the preset differs
     bool hasCamera = hasCamera_;
     if (key != stageKey_ || isFirst_) {
@@ -237,6 +227,7 @@ base::Status Preview::show(const std::string& text, const std::string& name, Doc
     unload(presets_);
     presets_ = std::move(*loaded);
     shown_.assign(file_.instances.size(), {});
+    director_.reset();
     return seek(time_);
 }
 
@@ -267,10 +258,46 @@ void Preview::place(size_t index, double seconds)
     }
 }
 
+/// Begins a scene anew: its clock cannot go back.
+void Preview::restart()
+{
+    std::unique_ptr<fxsdk::Scene> scene = newScene();
+    view_->setScene(*scene);
+    fxScene_ = std::move(scene);
+    director_ = std::make_unique<cli::InstanceDirector>();
+    step_ = 0;
+    for (size_t i = 0; i < shown_.size(); ++i) {
+        const scene_file::SceneInstance& instance = file_.instances[i];
+        FxInstanceDef def = cli::instanceDefinition(instance, presets_[instance.preset], instance.start);
+        def.startTick = base::toTicks(instance.start);
+        def.quality = simulationQuality_;
+        shown_[i] = {fxScene_->create(def), -1.0};
+        director_->add(instance, *shown_[i].id);
+    }
+}
+
+/// Plays the steps up to a time as fx render does; back in time from the beginning.
+base::Status Preview::seekPlayed(double seconds)
+{
+    const int64_t target = std::llround(seconds / kStep) + 1; // the picture is between the last two steps
+    if (!director_ || step_ > target)
+        restart();
+    constexpr base::Ticks kTicks = base::kTicksPerSecond / 60;
+    for (; step_ < target; ++step_) {
+        const base::Ticks from = step_ * kTicks;
+        if (base::Status status = director_->beforeStep(fxScene_->get(), from, from + kTicks); !status)
+            return status;
+        fxScene_->update(kStep);
+    }
+    return {};
+}
+
 base::Status Preview::seek(double seconds)
 {
     time_ = seconds;
     try {
+        if (isPlayed(file_))
+            return seekPlayed(seconds);
         for (size_t i = 0; i < shown_.size(); ++i) {
             const double local = seconds - file_.instances[i].start;
             if (local < 0.0 && shown_[i].id) {
@@ -309,37 +336,6 @@ std::map<std::string, uint32_t> Preview::elementCounts() const
     return counts;
 }
 
-base::Status Preview::measureStep(double& outMilliseconds)
-{
-    std::array<double, 3> laps{};
-    try {
-        for (double& lap : laps) {
-            const auto start = std::chrono::steady_clock::now();
-            fxScene_->update(kStep);
-            lap = millisecondsSince(start);
-        }
-    } catch (const fxsdk::Error& error) {
-        return statusOf(error);
-    }
-    outMilliseconds = medianOf(laps);
-    for (Shown& shown : shown_)
-        shown.at = -1.0; // it is elsewhere now
-    return {};
-}
-
-base::Status Preview::measure(const PreviewFrame& frame, StageTimes& outTimes)
-{
-    if (base::Status status = renderStages(frame, nullptr); !status) // makes textures
-        return status;
-    std::array<StageTimes, 3> laps;
-    for (StageTimes& lap : laps)
-        if (base::Status status = renderStages(frame, &lap); !status)
-            return status;
-    for (double StageTimes::*member : {&StageTimes::lights, &StageTimes::stage, &StageTimes::effects})
-        outTimes.*member = medianOf({laps[0].*member, laps[1].*member, laps[2].*member});
-    return measureStep(outTimes.simulation);
-}
-
 FxViewSettings Preview::settingsOf(const PreviewFrame& frame) const
 {
     FxViewSettings settings = cli::toApi(file_.view);
@@ -365,7 +361,8 @@ EffectPlacement Preview::placement() const
     if (file_.instances.empty())
         return {};
     const scene_file::SceneInstance& instance = file_.instances.front();
-    return {instance.position, glm::dquat(instance.rotation), double(instance.scale)};
+    const base::Placement place = instance.placementAt(time_);
+    return {place.position, glm::dquat(place.rotation), double(instance.scale)};
 }
 
 OverlayData Preview::overlays(const OverlayChoice& choice, const PreviewFrame& frame)
@@ -451,44 +448,6 @@ std::span<const render::SceneLight> Preview::shownLights(const scene_file::Scene
 base::Status Preview::render(const PreviewFrame& frame)
 {
     return renderStages(frame, nullptr);
-}
-
-/// @param outTimes receives the time of each stage, for which the GPU finishes it; null: nobody measures
-base::Status Preview::renderStages(const PreviewFrame& frame, StageTimes* outTimes)
-{
-    const render::CameraView camera = cameraOf(frame);
-    const FxViewSettings settings = settingsOf(frame);
-    FxFrameDef def = frameOf(camera, frame);
-    auto start = std::chrono::steady_clock::now();
-    const auto lap = [&](double StageTimes::*member) {
-        if (!outTimes)
-            return;
-        device_->gl.Finish();
-        outTimes->*member = millisecondsSince(start);
-        start = std::chrono::steady_clock::now();
-    };
-    try {
-        view_->setSettings(settings);
-        if (base::Status status = lightStage(def); !status)
-            return status;
-        lap(&StageTimes::lights);
-        if (base::Status status =
-                stage_->render(camera, lit_.lighting(), settings.exposureEv100, frame.width, frame.height);
-            !status)
-            return status;
-        lap(&StageTimes::stage);
-        def.colorTexture = stage_->colorTexture();
-        def.depthTexture = stage_->depthTexture();
-        const render::HostShadowMap map = stage_->sunShadow(camera.origin);
-        def.sunShadowTexture = map.texture;
-        std::copy_n(glm::value_ptr(map.fromWorld), 16, def.sunShadowMatrix);
-        def.sunShadowEdge = map.edge;
-        view_->render(def);
-        lap(&StageTimes::effects);
-    } catch (const fxsdk::Error& error) {
-        return statusOf(error);
-    }
-    return {};
 }
 
 } // namespace fx::editor

@@ -5,9 +5,11 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "fxsdk/cli/scene/instance_director.h"
 #include "fxsdk/cli/scene/lit_stage.h"
 #include "fxsdk/editor/document/schema_tree.h"
 #include "fxsdk/editor/session/budget_report.h"
+#include "fxsdk/editor/session/motion_choice.h"
 #include "fxsdk/editor/session/overlays.h"
 #include "fxsdk/fxsdk.hpp"
 #include "fxsdk/scene_file/scene_file.h"
@@ -70,6 +72,9 @@ public:
     base::Status measure(const PreviewFrame& frame, StageTimes& outTimes);
     /// Time [ms] of a step of 1/60 s. The next picture needs a seek().
     base::Status measureStep(double& outMilliseconds);
+    /// Motion of the instances from the next show() on. What is played is exact too: it is played from the
+    /// beginning wherever the time goes back.
+    void setMotion(const MotionChoice& motion) { motion_ = motion; }
     /// Quality of the simulation from the next show() on. @param quality FxQuality
     void setSimulationQuality(uint32_t quality) { simulationQuality_ = quality; }
 
@@ -80,7 +85,7 @@ public:
 
     /// GL name of the picture, display-referred RGBA32F, lower row first; 0 before the first picture.
     uint32_t texture() const { return stage_ ? stage_->colorTexture() : 0; }
-    /// The scene of the picture, in which no instance moves.
+    /// The scene of the picture, whose instances have the motion that is shown.
     const scene_file::SceneFile& scene() const { return file_; }
     /// Whether the preset states its camera; otherwise scene().camera shows the effect at several moments.
     bool hasCamera() const { return hasCamera_; }
@@ -110,6 +115,9 @@ private:
     void unload(const std::vector<FxPresetId>& presets);
     void place(size_t index, double seconds);
     void create(size_t index);
+    std::unique_ptr<fxsdk::Scene> newScene() const;
+    base::Status seekPlayed(double seconds);
+    void restart();
     static render::CameraView cameraOf(const PreviewFrame& frame);
     static FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame);
     base::Status renderStages(const PreviewFrame& frame, StageTimes* outTimes);
@@ -133,6 +141,10 @@ private:
     uint32_t simulationQuality_ = FX_QUALITY_DEFAULT;
     std::vector<FxPresetId> presets_;
     std::vector<Shown> shown_;
+    MotionChoice motion_;
+    /// While instances are played in order; otherwise each one is sought on its own.
+    std::unique_ptr<cli::InstanceDirector> director_;
+    int64_t step_ = 0; ///< steps that the director has played
     double time_ = 0.0;
     bool hasCamera_ = false;
     bool isFirst_ = true;

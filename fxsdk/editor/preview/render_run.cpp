@@ -59,6 +59,7 @@ base::Result<std::unique_ptr<RenderRun>> RenderRun::create(const render::GlLoade
     std::unique_ptr<RenderRun> run(
         new RenderRun(std::move(*preview), std::move(subject), std::move(*target)));
     const RenderSubject& of = run->subject_;
+    run->preview_->setMotion(of.motion);
     base::Status status = run->preview_->show(of.text, of.name, of.kind);
     if (status.ok() && run->target_.kind == cli::OutputKind::Mp4)
         status = run->video_.start(run->target_.path, of.request.width, of.request.height,

@@ -28,6 +28,7 @@ struct RenderSubject
     std::optional<float> exposureEv100; ///< [EV100] empty: that of the document
     double time = 0.0;                  ///< [s] of picture and turntable
     double end = 5.0;                   ///< [s] of sequence and video
+    MotionChoice motion;
 };
 
 class RenderRun

@@ -45,6 +45,8 @@ Session::Session(Document opened, std::string name, std::filesystem::path recove
     : document(std::move(opened)), name_(std::move(name)), recoveryFolder_(std::move(recovery)),
       autosave_(name_, recoveryFolder_), watch_(document.path()), recovery_(autosave_.recoverable())
 {
+    if (document.kind() == DocumentKind::Scene)
+        motion_.kind = MotionKind::Document;
     playback.end = timelineOf(document.json());
     playback.scrub(0.2 * playback.end);
     const Json::json_pointer still("/preview/time");
@@ -81,6 +83,14 @@ void Session::setStage(StageChoice choice)
     if (choice == stage_)
         return;
     stage_ = std::move(choice);
+    ++choice_;
+}
+
+void Session::setMotion(const MotionChoice& motion)
+{
+    if (motion == motion_)
+        return;
+    motion_ = motion;
     ++choice_;
 }
 

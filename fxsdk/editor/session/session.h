@@ -8,6 +8,7 @@
 #include "fxsdk/editor/document/file_watch.h"
 #include "fxsdk/editor/document/snapshots.h"
 #include "fxsdk/editor/document/solo_mute.h"
+#include "fxsdk/editor/session/motion_choice.h"
 #include "fxsdk/editor/session/orbit_camera.h"
 #include "fxsdk/editor/session/overlays.h"
 #include "fxsdk/editor/session/playback.h"
@@ -59,13 +60,17 @@ public:
 
     /// The state of before that is compared: A where it is kept, otherwise the saved one.
     const Json& stateBefore() const;
-    /// Changes with solo, mute and stage, which both pictures have.
+    /// Changes with solo, mute, stage and motion, which both pictures have.
     uint64_t choiceRevision() const { return choice_; }
 
     const StageChoice& stage() const { return stage_; }
     void setStage(StageChoice choice);
     /// Writes stage and exposure of the picture into the document, as one edit.
     void keepStage();
+
+    /// Motion of the picture; of a scene at first that of the document.
+    const MotionChoice& motion() const { return motion_; }
+    void setMotion(const MotionChoice& motion);
 
     /// Runs a command, keeps its failure as message(), and mends the selection.
     void run(const base::Status& status);
@@ -76,7 +81,7 @@ public:
 
     /// Name of the document for people and messages.
     const std::string& name() const { return name_; }
-    /// Changes with what is to be shown: document, solo, mute and stage.
+    /// Changes with what is to be shown: document, solo, mute, stage and motion.
     uint64_t shownRevision() const { return document.revision() + choice_; }
     /// Text to be shown instead of the document.
     std::string shownText() const;
@@ -112,7 +117,8 @@ private:
     std::filesystem::path recoveryFolder_;
     SoloMute soloMute_;
     StageChoice stage_;
-    uint64_t choice_ = 0; ///< changes of solo, mute and stage
+    MotionChoice motion_;
+    uint64_t choice_ = 0; ///< changes of solo, mute, stage and motion
     Autosave autosave_;
     FileWatch watch_;
     std::optional<std::string> conflict_;

@@ -1,0 +1,106 @@
+/// @file preview_measure.cpp
+/// Frames of a preview, and the time that their stages take.
+
+#include "fxsdk/editor/preview/preview.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace fx::editor {
+
+namespace {
+
+constexpr double kStep = 1.0 / 60.0; // [s] of the scene
+
+base::Status statusOf(const fxsdk::Error& error)
+{
+    return {base::Code(error.code()), error.what()};
+}
+
+double medianOf(std::array<double, 3> values)
+{
+    std::sort(values.begin(), values.end());
+    return values[1];
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+base::Status Preview::measureStep(double& outMilliseconds)
+{
+    std::array<double, 3> laps{};
+    try {
+        for (double& lap : laps) {
+            const auto start = std::chrono::steady_clock::now();
+            fxScene_->update(kStep);
+            lap = millisecondsSince(start);
+        }
+    } catch (const fxsdk::Error& error) {
+        return statusOf(error);
+    }
+    outMilliseconds = medianOf(laps);
+    for (Shown& shown : shown_)
+        shown.at = -1.0; // it is elsewhere now
+    director_.reset();
+    return {};
+}
+
+base::Status Preview::measure(const PreviewFrame& frame, StageTimes& outTimes)
+{
+    if (base::Status status = renderStages(frame, nullptr); !status) // makes textures
+        return status;
+    std::array<StageTimes, 3> laps;
+    for (StageTimes& lap : laps)
+        if (base::Status status = renderStages(frame, &lap); !status)
+            return status;
+    for (double StageTimes::*member : {&StageTimes::lights, &StageTimes::stage, &StageTimes::effects})
+        outTimes.*member = medianOf({laps[0].*member, laps[1].*member, laps[2].*member});
+    return measureStep(outTimes.simulation);
+}
+
+/// @param outTimes receives the time of each stage, for which the GPU finishes it; null: nobody measures
+base::Status Preview::renderStages(const PreviewFrame& frame, StageTimes* outTimes)
+{
+    const render::CameraView camera = cameraOf(frame);
+    const FxViewSettings settings = settingsOf(frame);
+    FxFrameDef def = frameOf(camera, frame);
+    auto start = std::chrono::steady_clock::now();
+    const auto lap = [&](double StageTimes::*member) {
+        if (!outTimes)
+            return;
+        device_->gl.Finish();
+        outTimes->*member = millisecondsSince(start);
+        start = std::chrono::steady_clock::now();
+    };
+    try {
+        view_->setSettings(settings);
+        if (base::Status status = lightStage(def); !status)
+            return status;
+        lap(&StageTimes::lights);
+        if (base::Status status =
+                stage_->render(camera, lit_.lighting(), settings.exposureEv100, frame.width, frame.height);
+            !status)
+            return status;
+        lap(&StageTimes::stage);
+        def.colorTexture = stage_->colorTexture();
+        def.depthTexture = stage_->depthTexture();
+        const render::HostShadowMap map = stage_->sunShadow(camera.origin);
+        def.sunShadowTexture = map.texture;
+        std::copy_n(glm::value_ptr(map.fromWorld), 16, def.sunShadowMatrix);
+        def.sunShadowEdge = map.edge;
+        view_->render(def);
+        lap(&StageTimes::effects);
+    } catch (const fxsdk::Error& error) {
+        return statusOf(error);
+    }
+    return {};
+}
+
+} // namespace fx::editor
