@@ -5,6 +5,8 @@
 #include "rendering/volumes/escape_depth.h"
 #include "rendering/voxelization/medium_grid.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +22,11 @@ constexpr double kSummedSamples = 32.0;   // per radius, up to which the weights
 constexpr int kPadded = kBlockSide + 2;   // a block and one voxel more on each side
 constexpr int kMaxAlong = 24;             // samples along an axis that reach into one block
 constexpr int kPaddedVoxels = kPadded * kPadded * kPadded;
-constexpr uint32_t kMinBalls = 256; // of a task
+constexpr uint32_t kMinBalls = 256;   // of a task
+constexpr int kOpacitySteps = 32;     // of the integral over the disc of a ball
+constexpr int kOwnSamples = 16;       // of a ball along an axis
+constexpr double kWholeShare = 0.999; // from which a ball counts as seen in voxels as it is
+constexpr double kLeastDepth = 1e-9;  // of others around a ball
 
 double samplesAlongVoxel(double radius)
 {
@@ -147,6 +153,36 @@ double densityOf(const VoxelBall& ball, double norm, double voxelSize)
     return ball.crossSection * norm / (voxelSize * voxelSize * voxelSize); // (3)
 }
 
+/// Of a ball over its disc: formula widened-ball (1) with s = q^2.
+double meanOpacity(double depth)
+{
+    double sum = 0.0;
+    for (int i = 0; i < kOpacitySteps; ++i) {
+        const double q = (i + 0.5) / kOpacitySteps;
+        sum -= 2.0 * q * double(std::expm1(-depth * q * q * q * q * q));
+    }
+    return sum / kOpacitySteps;
+}
+
+/// In the middle of a ball between its voxels, over sigma / h^3.
+double ownDensity(const glm::dvec3& center, double radius)
+{
+    double density = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double above = center[axis] - std::floor(center[axis]);
+        double sum = 0.0, weights = 0.0;
+        for (int i = 0; i < kOwnSamples; ++i) {
+            const double x = (2.0 * i + 1.0) / kOwnSamples - 1.0, place = above + radius * x;
+            const double weight = (1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x); // (2) along one axis
+            sum += weight * ((1.0 - above) * std::max(1.0 - std::abs(place), 0.0) +
+                             above * std::max(1.0 - std::abs(place - 1.0), 0.0));
+            weights += weight;
+        }
+        density *= sum / weights;
+    }
+    return density;
+}
+
 /// Calls add(k, weight, seen) for the voxels of a block.
 /// @param seen whether samples are weighted with what leaves the medium
 template <class Add>
@@ -166,8 +202,9 @@ void forVoxels(const BallWeights& weights, bool seen, const Add& add)
 class BlockSums
 {
 public:
-    /// @param density densityOf() the ball  @param red [cd/m2] of its light
-    void add(const VoxelBall& ball, double density, double red, const BallWeights& weights, bool hasDepths)
+    /// @param density densityOf() the ball  @param luminance, red [cd/m2] of its light
+    void add(const VoxelBall& ball, double density, double luminance, double red, const BallWeights& weights,
+             bool hasDepths)
     {
         const std::array<double, kMeans> values{
             density,
@@ -181,7 +218,7 @@ public:
         };
         for (size_t s = 0; s < kMeans; ++s)
             forVoxels(weights, false, [&](size_t v, double weight) { means_[s][v] += values[s] * weight; });
-        const std::array<double, kLights> lights{density, density * ball.luminance, density * red};
+        const std::array<double, kLights> lights{density, density * luminance, density * red};
         for (size_t s = 0; s < kLights; ++s)
             if (lights[s] > 0.0)
                 forVoxels(weights, hasDepths,
@@ -251,27 +288,53 @@ double sampleNormalization(double radius)
     return 1.0 / (8.0 * octant);
 }
 
+SpreadBall spreadBall(double section, double radius)
+{
+    const double square = radius * radius, wide = square + 3.0; // (5)
+    const double depth = 3.5 * std::numbers::inv_pi * section;  // times the radius squared
+    const double spread = wide * meanOpacity(depth / wide);
+    SpreadBall ball;
+    if (spread > 0.0)
+        ball.share = std::min(square * meanOpacity(depth / square) / spread, 1.0); // (6)
+    ball.depth = depth / wide;
+    return ball;
+}
+
 BallVoxelizer::BallVoxelizer(std::span<const VoxelBall> balls, const BlockPlan& plan, base::TaskRunner& tasks)
-    : balls_(balls), plan_(plan), tasks_(tasks), normalization_(balls.size()), red_(balls.size())
+    : balls_(balls), plan_(plan), tasks_(tasks), normalization_(balls.size()), luminance_(balls.size()),
+      red_(balls.size())
 {
     tasks_.parallelFor(uint32_t(balls.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
             normalization_[i] = sampleNormalization(balls_[i].radius / plan_.voxelSize());
-            red_[i] = balls_[i].luminance * double(blackBodyColor(float(balls_[i].temperature)).x);
+            luminance_[i] = balls_[i].luminance;
+            red_[i] = luminance_[i] * double(blackBodyColor(float(balls_[i].temperature)).x);
         }
     });
 }
 
-void BallVoxelizer::fillDensity(size_t block, std::span<float> out) const
+std::vector<float> BallVoxelizer::densities(std::span<const double> factors) const
+{
+    std::vector<float> out(plan_.voxels());
+    tasks_.parallelFor(uint32_t(plan_.blocks().size()), 1, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t b = begin; b < end; ++b)
+            fillDensity(b, factors, std::span(out).subspan(b * size_t(kBlockVoxels), kBlockVoxels));
+    });
+    return out;
+}
+
+void BallVoxelizer::fillDensity(size_t block, std::span<const double> factors, std::span<float> out) const
 {
     const auto weights = std::make_unique<BallWeights>();
     const BlockPlan::Block& own = plan_.blocks()[block];
     std::array<double, kBlockVoxels> sums{};
-    for (const uint32_t ball : plan_.balls().subspan(own.first, own.count))
-        if (weights->assign(balls_[ball], plan_.voxelSize(), own.origin, nullptr)) {
-            const double density = densityOf(balls_[ball], normalization_[ball], plan_.voxelSize());
+    for (const uint32_t ball : plan_.balls().subspan(own.first, own.count)) {
+        const double factor = factors.empty() ? 1.0 : factors[ball];
+        if (factor > 0.0 && weights->assign(balls_[ball], plan_.voxelSize(), own.origin, nullptr)) {
+            const double density = factor * densityOf(balls_[ball], normalization_[ball], plan_.voxelSize());
             forVoxels(*weights, false, [&](size_t v, double weight) { sums[v] += density * weight; });
         }
+    }
     std::ranges::transform(sums, out.begin(), [](double density) { return float(density); });
 }
 
@@ -279,17 +342,59 @@ void BallVoxelizer::findEscapeDepths()
 {
     if (std::ranges::none_of(balls_, [](const VoxelBall& ball) { return ball.luminance > 0.0; }))
         return;
-    const size_t blocks = plan_.blocks().size();
-    std::vector<float> density(plan_.voxels());
-    tasks_.parallelFor(uint32_t(blocks), 1, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t b = begin; b < end; ++b)
-            fillDensity(b, std::span(density).subspan(b * size_t(kBlockVoxels), kBlockVoxels));
-    });
     places_.clear();
     for (const BlockPlan::Block& block : plan_.blocks())
         places_.push_back(block.origin / kBlockSide); // multiples of it
     escapeDepths_ =
-        escapeDepths({places_, {kBlockSide * kBlockSide, kBlockSide, 1}, density, plan_.voxelSize()});
+        escapeDepths({places_, {kBlockSide * kBlockSide, kBlockSide, 1}, densities({}), plan_.voxelSize()});
+    dimSmallBalls();
+}
+
+void BallVoxelizer::dimSmallBalls()
+{
+    const double side = plan_.voxelSize();
+    std::vector<SpreadBall> spread(balls_.size());
+    std::vector<double> lost(balls_.size(), 0.0);
+    tasks_.parallelFor(uint32_t(balls_.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t i = begin; i < end; ++i)
+            if (luminance_[i] > 0.0) {
+                spread[i] = spreadBall(balls_[i].crossSection / (side * side), balls_[i].radius / side);
+                if (spread[i].share < kWholeShare)
+                    lost[i] = (1.0 - spread[i].share) * luminance_[i];
+            }
+    });
+    const std::vector<float> sums = densities(lost);
+    tasks_.parallelFor(uint32_t(balls_.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t i = begin; i < end; ++i) {
+            if (!(lost[i] > 0.0))
+                continue;
+            const double own = lost[i] * balls_[i].crossSection / (side * side * side) *
+                               ownDensity(balls_[i].center / side, balls_[i].radius / side);
+            const double all = between(sums, balls_[i].center / side);
+            const double others = own > 0.0 ? spread[i].depth * std::max(all / own - 1.0, 0.0) : 0.0;
+            const double share = others > kLeastDepth
+                                     ? std::expm1(-spread[i].share * others) / std::expm1(-others) // (7)
+                                     : spread[i].share;
+            luminance_[i] *= share;
+            red_[i] *= share;
+        }
+    });
+}
+
+double BallVoxelizer::between(std::span<const float> values, const glm::dvec3& place) const
+{
+    const glm::dvec3 below = glm::floor(place), above = place - below;
+    double sum = 0.0;
+    for (int k = 0; k < 8; ++k) {
+        const glm::ivec3 corner(k / 4, k / 2 % 2, k % 2), voxel = glm::ivec3(below) + corner;
+        const size_t block = findBlock(places_, {voxel.x >> 3, voxel.y >> 3, voxel.z >> 3});
+        const glm::dvec3 shares = glm::mix(1.0 - above, above, glm::dvec3(corner));
+        if (block != kNoBlock)
+            sum += shares.x * shares.y * shares.z *
+                   double(values[block * size_t(kBlockVoxels) +
+                                 voxelInBlock(voxel.x & 7, voxel.y & 7, voxel.z & 7)]);
+    }
+    return sum;
 }
 
 void BallVoxelizer::fill(size_t first, size_t count, std::vector<VoxelBlock>& out) const
@@ -311,7 +416,7 @@ void BallVoxelizer::fill(size_t first, size_t count, std::vector<VoxelBlock>& ou
                 if (weights->assign(balls_[ball], plan_.voxelSize(), block.origin,
                                     hasDepths ? depths.get() : nullptr))
                     sums->add(balls_[ball], densityOf(balls_[ball], normalization_[ball], plan_.voxelSize()),
-                              red_[ball], *weights, hasDepths);
+                              luminance_[ball], red_[ball], *weights, hasDepths);
             out[i].origin = block.origin;
             sums->write(out[i]);
         }

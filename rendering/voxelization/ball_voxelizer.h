@@ -24,6 +24,11 @@ namespace fx::render {
 ///   x_a     1      place of sample a in voxels; a are three whole numbers
 ///   w_a     1      weight of the sample
 ///   rho_i   1/m    extinction of the voxel with the index i, three whole numbers
+///   t       1      optical depth through the middle of the ball
+///   W       1      radius in voxels of a ball that is as wide as the ball in voxels
+///   F       1      mean opacity over the disc of a ball, of formula widened-ball
+///   u, v    1      depth of the ball in voxels, and of others around it
+///   g, G    1      factor of the light of a ball alone, and of one among others
 ///
 /// @derivation
 ///   The samples are those points inside the ball of a lattice that is symmetric around its center:
@@ -38,8 +43,20 @@ namespace fx::render {
 ///   Means of temperature, velocity and albedo are sums over the balls weighted with (3), as is the emitted
 ///   light where no escape depths are given. Otherwise the samples of a voxel that emits have in addition the
 ///   weight exp(-t(x_a)) of formula escape-depth, of which (3) is the light of the voxel.
+///   These depths do not know what a ball smaller than a voxel hides of its own light, because its medium is
+///   spread. The tent, and the linear interpolation of voxels, each add 1/6 to the second moment of the ball
+///   along each axis, R^2 / 9. So the ball is as wide as one with
+///       W^2 = R^2 + 3                                                                         (5)
+///   and the depth t R^2 / W^2. A ball of depth t gives light with F(t) of its disc, a spread one hence with
+///       g = F(t) R^2 / (F(u) W^2),  t = 7 sigma / (2 pi h^2 R^2),  u = t R^2 / W^2            (6)
+///   of the light that voxels would give. Where balls that are spread overlap, they hide each other too. With
+///   the sum L of what they lose, sigma (1 - g) times the emitted light, as densities by (3), and the share
+///   L_0 of the ball itself in it, others have the depth v, and of v only g v is real
+///       v = u (L / L_0 - 1),  G = (1 - exp(-g v)) / (1 - exp(-v))                             (7)
+///   G is the factor of the light of the ball: g of one alone, 1 among many.
 /// @source    textbook; (3) is the assignment "cloud in cell" of particle-mesh methods
-/// @deviation for n R > 32, N is the integral of the kernel, 32 pi/105 (n R)^3, instead of the sum
+/// @deviation for n R > 32, N is the integral of the kernel, 32 pi/105 (n R)^3, instead of the sum; F by the
+///            midpoint rule, within 2e-3; L_0 of the product of the kernel's densities along the axes
 /// @valid     R > 0; |c| + R < 2^30
 /// @accuracy  mass of one ball within 1e-6 (floats), of the integral instead of (4) 4e-7; center of mass
 /// within
@@ -48,6 +65,16 @@ namespace fx::render {
 
 /// Reciprocal of the sum (4) for a ball with a radius of `radius` voxels.
 double sampleNormalization(double radius);
+
+/// What voxels hold of a ball.
+struct SpreadBall
+{
+    double share = 1.0; ///< g of (6)
+    double depth = 0.0; ///< u of (6)
+};
+
+/// @param section sigma / h^2, > 0  @param radius R, > 0
+SpreadBall spreadBall(double section, double radius);
 
 class BallVoxelizer
 {
@@ -58,18 +85,24 @@ public:
     /// Fills `out` with the blocks [first, first + count) of the plan.
     void fill(size_t first, size_t count, std::vector<VoxelBlock>& out) const;
 
-    /// Sets the light of thick voxels to that of their sides that are seen from outside. Without a call of
-    /// this function, the light of a voxel is the mean of what the balls emit. Does nothing if no ball emits.
+    /// Sets the light of thick voxels to that of their sides that are seen from outside, and that of thick
+    /// balls smaller than a voxel to what leaves the ball. Without a call of this function, the light of a
+    /// voxel is the mean of what the balls emit. Does nothing if no ball emits.
     void findEscapeDepths();
 
 private:
-    void fillDensity(size_t block, std::span<float> out) const;
+    /// @param factors of the density of each ball; empty: 1. Balls with 0 are left out
+    std::vector<float> densities(std::span<const double> factors) const;
+    void fillDensity(size_t block, std::span<const double> factors, std::span<float> out) const;
+    void dimSmallBalls();
+    double between(std::span<const float> values, const glm::dvec3& place) const;
 
     std::span<const VoxelBall> balls_;
     const BlockPlan& plan_;
     base::TaskRunner& tasks_;
     std::vector<double> normalization_; ///< sampleNormalization() of each ball
-    std::vector<double> red_;           ///< [cd/m2] of the light of each ball
+    std::vector<double> luminance_;     ///< [cd/m2] of the light of each ball
+    std::vector<double> red_;           ///< [cd/m2] the same of its red
     std::vector<float> escapeDepths_;   ///< of the voxels of all blocks; empty: not found
     std::vector<glm::ivec3> places_;    ///< [block] coordinates of the blocks
 };
