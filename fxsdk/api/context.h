@@ -50,6 +50,9 @@ struct TechniqueLists
 
 base::AllocatorHooks toHooks(const FxAllocator& allocator);
 
+inline constexpr const char* kWithoutGl =
+    "the context was created without getProcAddress; set gl.getProcAddress of FxContextDef to "
+    "fxGetGlProcAddress, or to the loader of the window library, before fxCreateContext";
 } // namespace fx::api
 
 struct FxContext

@@ -72,7 +72,7 @@ FxResult onGlThread(const char* function, FxContext* context, Body&& body)
         if (!context)
             return fx::api::invalid("context is null");
         if (!context->device)
-            return {Code::NoGl, "the context was created without getProcAddress"};
+            return {Code::NoGl, fx::api::kWithoutGl};
         const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
         return scope ? body() : scope.status();
     });
@@ -264,7 +264,7 @@ FxResult fxContext_AdoptGlThread(FxContext* context)
         if (!context)
             return fx::api::invalid("context is null");
         if (!context->device)
-            return {Code::NoGl, "the context was created without getProcAddress"};
+            return {Code::NoGl, fx::api::kWithoutGl};
         if (context->gl.busy())
             return {Code::ReEntrant, "a call is inside a view; adopt the thread when that has returned"};
         context->gl.thread.adopt();

@@ -148,12 +148,12 @@ FxResult fxGetPresetPreview(FxContext* context, FxPresetId preset, FxPresetPrevi
         out.hasCamera = preview.hasCamera ? 1 : 0;
         out.fovY = glm::radians(preview.fovYDegrees);
         for (int k = 0; k < 3; ++k) {
-            out.sunDirection[k] = preview.sunDirection[k];
             out.sunIlluminance[k] = preview.sunIlluminance[k];
             out.skyLuminance[k] = preview.skyLuminance[k];
-            out.cameraPosition[k] = preview.cameraPosition[k];
-            out.cameraTarget[k] = preview.cameraTarget[k];
         }
+        context->world.writeDirection(preview.sunDirection, out.sunDirection);
+        context->world.writePosition(preview.cameraPosition, out.cameraPosition);
+        context->world.writePosition(preview.cameraTarget, out.cameraTarget);
         return fx::api::writeStruct(out, ioPreview, "ioPreview");
     });
 }

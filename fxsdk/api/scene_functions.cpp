@@ -178,6 +178,18 @@ namespace {
             "or the return value 0 for a free way"};
 }
 
+/// Says once that an update was asked for more time than it simulates.
+[[gnu::noinline]] void reportLong(FxScene& scene, double seconds)
+{
+    scene.isLongReported = true;
+    fx::api::logMessage(*scene.context, FX_LOG_WARNING,
+                        ("an update of " + std::to_string(std::min(seconds, 1e9)) + " s was shortened to " +
+                         std::to_string(scene.longestFrame) +
+                         " s, FxSceneDef::maxFrameTicks: call fxScene_Update more often, or raise it "
+                         "(this is said once)")
+                            .c_str());
+}
+
 /// Says when updates begin to leave steps to the next ones.
 void reportDebt(FxScene& scene)
 {
@@ -197,11 +209,15 @@ FxResult fxScene_Update(FxScene* scene, double dtSeconds)
         const uint64_t before = scene->context->memory.allocationCount();
         scene->scene.setGpuParticles(scene->computesOnGpu());
         const bool accepted = scene->scene.update(dtSeconds);
-        scene->catchingUp.store(dtSeconds > scene->longestFrame);
+        const bool isLong = dtSeconds > scene->longestFrame;
+        scene->catchingUp.store(isLong);
+        if (isLong && accepted && !scene->isLongReported)
+            reportLong(*scene, dtSeconds);
         reportDebt(*scene);
         scene->updateAllocations = scene->context->memory.allocationCount() - before;
         if (!accepted)
-            return fx::api::invalid("dtSeconds is negative or not finite");
+            return fx::api::invalid("dtSeconds is " + std::to_string(dtSeconds) +
+                                    "; needed is a time of at least 0 s");
         const uint64_t faults = scene->scene.takeContactFaults();
         return faults > 0 ? contactFault(faults) : Status();
     });

@@ -48,7 +48,8 @@ struct FxScene
     double longestFrame;                                 ///< [s] longest time that one update simulates
     std::atomic<bool> catchingUp{false}; ///< whether the time of the last update exceeded longestFrame
 
-    bool isBehind = false; ///< whether the last update left steps for the next one
+    bool isBehind = false;       ///< whether the last update left steps for the next one
+    bool isLongReported = false; ///< whether the log says that an update was shortened
 
     // Number of updates during which gpuSeen and rowsWanted remain above 0 after they were set.
     static constexpr uint32_t kRemembered = 240;

@@ -125,7 +125,8 @@ void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
     check.range(given.height, 1, kWidest, "frame.height");
     check.flag(given.holdQuality, "frame.holdQuality");
     check.range(given.deltaTime, 0.0, 1e6, "frame.deltaTime");
-    check.that(given.target != FX_TARGET_TEXTURE || given.colorTexture != 0, "frame.colorTexture is 0");
+    check.that(given.target != FX_TARGET_TEXTURE || given.colorTexture != 0,
+               "frame.colorTexture is 0; set it to a texture, or frame.target to FX_TARGET_FRAMEBUFFER");
     check.range(given.targetEncoding, 0u, uint32_t(FX_TARGET_DISPLAY_GAMMA), "frame.targetEncoding");
     check.flag(given.depthFromFramebuffer, "frame.depthFromFramebuffer");
     check.that(given.depthFromFramebuffer == 0 || given.depthTexture == 0,

@@ -23,7 +23,7 @@ Status checkCreate(const FxContext* context, const FxScene* scene, FxView** outV
     if (!check.status())
         return check.status();
     if (!context->device)
-        return {Code::NoGl, "the context was created without getProcAddress"};
+        return {Code::NoGl, fx::api::kWithoutGl};
     return scene->context == context ? Status() : fx::api::invalid("scene belongs to another context");
 }
 

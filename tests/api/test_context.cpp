@@ -1,6 +1,7 @@
 #include "tests/api/api_fixture.h"
 
 #include <cstring>
+#include <string>
 #include <vector>
 
 using fx::test::fountainPreset;
@@ -163,4 +164,27 @@ TEST(Log, aFailureIsReportedToTheHostOfTheObject)
     EXPECT_EQ(loggedErrors, std::vector<FxResult>{FX_ERROR_STALE_ID});
     EXPECT_EQ(fxDestroyContext(context), FX_OK);
     EXPECT_EQ(loggedErrors.size(), 1u);
+}
+
+TEST(Log, anUpdateThatIsShortenedIsSaidOnce)
+{
+    static std::vector<std::string> warnings;
+    warnings.clear();
+    FxContextDef def = fxDefaultContextDef();
+    def.log.write = [](void*, FxLogLevel level, FxResult, const char* message) {
+        if (level == FX_LOG_WARNING)
+            warnings.emplace_back(message);
+    };
+    FxContext* context = nullptr;
+    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
+    FxScene* scene = nullptr;
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    ASSERT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
+    EXPECT_EQ(fxScene_Update(scene, 1.0 / 60.0), FX_OK);
+    EXPECT_TRUE(warnings.empty());
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(fxScene_Update(scene, 5.0), FX_OK);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("5.000000 s was shortened to 0.066667 s"), std::string::npos) << warnings[0];
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
 }
