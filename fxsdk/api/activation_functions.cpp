@@ -32,7 +32,8 @@ Status checkFocus(const HostWorld& world, const FxFocus& focus)
     check.range(focus.height, 1.0f, kMaxPixels, "foci.height");
     check.range3(focus.origin, -farthest, farthest, "foci.origin");
     check.noFault(fx::api::viewFault(glm::value_ptr(world.view(focus.view))), "foci.view");
-    check.noFault(fx::api::projectionFault(focus.projection), "foci.projection");
+    check.noFault(fx::api::projectionFault(glm::value_ptr(world.projection(focus.projection))),
+                  "foci.projection");
     check.range(focus.maxDistance, 0.0, farthest, "foci.maxDistance");
     check.range(focus.margin, 0.0f, world.fromMeters(1e6f), "foci.margin");
     check.range(focus.minPixels, 0.0f, kMaxPixels, "foci.minPixels");

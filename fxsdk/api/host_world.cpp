@@ -62,11 +62,8 @@ HostWorld::HostWorld(const FxContextDef& def)
     // The last sign is negated because the library's -Z is forward.
     const bool isCyclic = (axes_[0] + 1) % 3 == axes_[1];
     determinant_ = signs_[0] * signs_[1] * signs_[2] * (isCyclic ? 1.0f : -1.0f);
-}
-
-bool HostWorld::isLibraryWorld() const
-{
-    return unitsPerMeter_ == 1.0 && axes_ == std::array{0, 1, 2} && signs_ == std::array{1.0f, 1.0f, 1.0f};
+    isLibraryWorld_ =
+        unitsPerMeter_ == 1.0 && axes_ == std::array{0, 1, 2} && signs_ == std::array{1.0f, 1.0f, 1.0f};
 }
 
 glm::quat HostWorld::rotation(const float* xyzw) const
@@ -80,6 +77,8 @@ glm::quat HostWorld::rotation(const float* xyzw) const
 
 glm::mat4 HostWorld::view(const float* matrix) const
 {
+    if (isLibraryWorld_)
+        return glm::make_mat4(matrix);
     const glm::mat4 host = glm::make_mat4(matrix);
     glm::mat4 out(1.0f);
     for (int i = 0; i < 3; ++i)
@@ -90,6 +89,8 @@ glm::mat4 HostWorld::view(const float* matrix) const
 
 glm::mat4 HostWorld::projection(const float* matrix) const
 {
+    if (isLibraryWorld_)
+        return glm::make_mat4(matrix);
     glm::mat4 out = glm::make_mat4(matrix);
     const bool isPerspective = std::abs(matrix[11]) > std::abs(matrix[15]);
     if (isPerspective)
@@ -101,6 +102,8 @@ glm::mat4 HostWorld::projection(const float* matrix) const
 
 glm::mat4 HostWorld::ofWorld(const float* matrix) const
 {
+    if (isLibraryWorld_)
+        return glm::make_mat4(matrix);
     const glm::mat4 host = glm::make_mat4(matrix);
     glm::mat4 out = host;
     for (int i = 0; i < 3; ++i)

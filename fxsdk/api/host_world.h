@@ -52,7 +52,7 @@ public:
     static base::Status check(const FxContextDef& def);
 
     /// Whether conversions change nothing.
-    bool isLibraryWorld() const;
+    bool isLibraryWorld() const { return isLibraryWorld_; }
 
     double toMeters(double length) const { return length / unitsPerMeter_; }
     float toMeters(float length) const { return float(double(length) / unitsPerMeter_); }
@@ -101,6 +101,7 @@ private:
     std::array<int, 3> axes_{0, 1, 2};             ///< a_i
     std::array<float, 3> signs_{1.0f, 1.0f, 1.0f}; ///< s_i
     float determinant_ = 1.0f;                     ///< det(P), -1 if the host's axes are left-handed
+    bool isLibraryWorld_ = true;
 };
 
 } // namespace fx::api

@@ -42,7 +42,8 @@ void checkPlacement(const HostWorld& world, fx::api::Checks& check, const double
 {
     const double farthest = world.fromMeters(kFarthest);
     check.range3(position, -farthest, farthest, "position");
-    check.that(fx::api::isUnitQuaternion(rotation), "rotation is not a unit quaternion (x, y, z, w); 0, 0, 0, 1 turns nothing");
+    check.that(fx::api::isUnitQuaternion(rotation),
+               "rotation is not a unit quaternion (x, y, z, w); 0, 0, 0, 1 turns nothing");
     check.range(scale, kSmallestScale, kLargestScale, "scale");
 }
 

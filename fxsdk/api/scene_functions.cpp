@@ -14,14 +14,22 @@ using fx::base::Status;
 constexpr int64_t kLongestAbsence = 3600 * FX_TICKS_PER_SECOND;
 constexpr uint32_t kAllEvents = FX_EVENTS_FINISHED | FX_EVENTS_CUES | FX_EVENTS_UNNAMED;
 
+/// The default stands for gravity that points down in every world, see FxSceneDef::gravity.
+glm::vec3 toGravity(const fx::api::HostWorld& world, const FxSceneDef& def)
+{
+    const glm::vec3 given = glm::make_vec3(def.gravity);
+    const FxSceneDef defaults = fxDefaultSceneDef();
+    return given == glm::make_vec3(defaults.gravity) ? given : world.vector(def.gravity);
+}
+
 Status checkDef(const fx::api::HostWorld& world, const FxSceneDef& def)
 {
     fx::api::Checks check;
     check.range(def.maxInstances, 1u, uint32_t(fx::scene::kIdPartMask), "def.maxInstances");
     check.range(def.stepTicks, FX_TICKS_PER_SECOND / 1000, FX_TICKS_PER_SECOND, "def.stepTicks");
     check.range(def.maxFrameTicks, def.stepTicks, 60 * FX_TICKS_PER_SECOND, "def.maxFrameTicks");
-    const float strongest = world.fromMeters(1000.0f);
-    check.range3(def.gravity, -strongest, strongest, "def.gravity");
+    const glm::vec3 gravity = toGravity(world, def);
+    check.range3(glm::value_ptr(gravity), -1000.0f, 1000.0f, "def.gravity in m/s2");
     check.flag(def.hasGround, "def.hasGround");
     check.flag(def.shareInstances, "def.shareInstances");
     check.flag(def.disableCulling, "def.disableCulling");
@@ -34,14 +42,6 @@ Status checkDef(const fx::api::HostWorld& world, const FxSceneDef& def)
     check.range(def.eventKinds, 0u, kAllEvents, "def.eventKinds");
     fx::api::checkQuality(check, def.quality, "def.quality");
     return check.status();
-}
-
-/// The default stands for gravity that points down in every world, see FxSceneDef::gravity.
-glm::vec3 toGravity(const fx::api::HostWorld& world, const FxSceneDef& def)
-{
-    const glm::vec3 given = glm::make_vec3(def.gravity);
-    const FxSceneDef defaults = fxDefaultSceneDef();
-    return given == glm::make_vec3(defaults.gravity) ? given : world.vector(def.gravity);
 }
 
 FxSceneStatistics gatherStatistics(FxScene& object)

@@ -139,11 +139,11 @@ void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
 
 void checkRange(const HostWorld& world, fx::api::Checks& check, const FxFrameDef& given)
 {
-    const float farthest = std::max(world.fromMeters(float(kFarthest)), kAllDepths);
+    const float farthest = world.fromMeters(float(kFarthest));
     check.range(given.reserved, 0u, 0u, "frame.reserved");
     check.range(given.rangePart, uint32_t(FX_RANGE_ONLY), uint32_t(FX_RANGE_LAST), "frame.rangePart");
     check.range(given.rangeNear, 0.0f, farthest, "frame.rangeNear");
-    check.range(given.rangeFar, 0.0f, farthest, "frame.rangeFar");
+    check.range(given.rangeFar, 0.0f, std::max(farthest, kAllDepths), "frame.rangeFar");
     check.that(!(given.rangeFar <= given.rangeNear),
                "frame.rangeFar is not above frame.rangeNear: give the farther depth as rangeFar, or 1e9 for "
                "all effects behind rangeNear");
@@ -158,7 +158,7 @@ fx::render::DepthRange toRange(const HostWorld& world, const FxFrameDef& given)
     fx::render::DepthRange range;
     if (given.rangeNear > 0.0f)
         range.from = world.toMeters(given.rangeNear);
-    if (given.rangeFar < kAllDepths)
+    if (given.rangeFar != kAllDepths && given.rangeFar < world.fromMeters(float(kFarthest)))
         range.to = world.toMeters(given.rangeFar);
     range.isContinued = given.rangePart == FX_RANGE_NEXT || given.rangePart == FX_RANGE_LAST;
     range.isLast = given.rangePart == FX_RANGE_ONLY || given.rangePart == FX_RANGE_LAST;
@@ -236,23 +236,24 @@ fx::base::Status fx::api::convertFrame(const HostWorld& world, const FxFrameDef&
                                        render::FrameRequest& outRequest)
 {
     const double farthest = world.fromMeters(kFarthest);
-    const glm::mat4 view = world.view(given.view);
+    const glm::mat4 view = world.view(given.view), projection = world.projection(given.projection);
     Checks check;
     check.range3(given.origin, -farthest, farthest, "frame.origin");
     check.noFault(viewFault(glm::value_ptr(view)), "frame.view");
-    check.noFault(projectionFault(given.projection), "frame.projection");
+    check.noFault(projectionFault(glm::value_ptr(projection)), "frame.projection");
     checkTarget(check, given);
     checkSunShadow(world, check, given);
     checkRange(world, check, given);
-    check.noFault(frameProjectionFault(given.projection, given.depthConvention == FX_DEPTH_REVERSED),
-                  "frame.projection");
+    check.noFault(
+        frameProjectionFault(glm::value_ptr(projection), given.depthConvention == FX_DEPTH_REVERSED),
+        "frame.projection");
     if (!check.status())
         return check.status();
 
     render::CameraView& camera = outRequest.camera;
     camera.origin = world.position(given.origin);
     camera.view = view;
-    camera.projection = world.projection(given.projection);
+    camera.projection = projection;
     camera.depth = render::DepthConvention(given.depthConvention);
     camera.zeroToOne = given.zeroToOne != 0;
     camera.upperLeftOrigin = given.upperLeftOrigin != 0;

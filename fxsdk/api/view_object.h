@@ -139,8 +139,8 @@ struct FxView
     /// set by fxView_PrepareLights(), until the frame is rendered, and by the first of several ranges of a
     /// frame, until the last one is rendered
     std::optional<fx::api::ShownFrame> prepared;
-    /// [m] near end of the range that was rendered last; without a value, no frame awaits further ranges.
-    /// Meaningful only while there is `prepared`.
+    /// near end of the range that was rendered last, in units of the host; without a value, no frame awaits
+    /// further ranges. Meaningful only while there is `prepared`.
     std::optional<float> rangeEnd;
 };
 

@@ -250,3 +250,47 @@ TEST(HostWorld, aFrameIsConvertedAsAWhole)
         EXPECT_FLOAT_EQ(request.range.to, 5.0f);
     }
 }
+
+TEST(HostWorld, aProjectionIsCheckedInMeters)
+{
+    const auto convert = [](double unitsPerMeter, const glm::mat4& projection) {
+        const HostConvention host{"", unitsPerMeter, FX_AXIS_X, FX_AXIS_Y, FX_AXIS_NEGATIVE_Z};
+        FxFrameDef def = fxDefaultFrameDef();
+        std::copy_n(glm::value_ptr(projection), 16, def.projection);
+        def.colorTexture = 1;
+        def.width = def.height = 8;
+        fx::render::FrameRequest request;
+        return fx::api::convertFrame(worldOf(host), def, request);
+    };
+    const glm::mat4 wide = glm::ortho(-1e4f, 1e4f, -1e4f, 1e4f, 10.0f, 1e6f); // a square of 200 m in cm
+    EXPECT_TRUE(convert(100.0, wide).ok());
+    const glm::mat4 rolled = wide * glm::rotate(glm::mat4(1.0f), 0.7f, glm::vec3(0, 0, 1));
+    EXPECT_NE(convert(100.0, rolled).message().find("rolls or shears"), std::string::npos);
+    glm::mat4 offset = glm::perspective(1.0f, 1.5f, 1e-4f, 1.0f); // in kilometers
+    EXPECT_TRUE(convert(1e-3, offset).ok());
+    offset[3].x = 5e-5f; // 5 cm
+    EXPECT_NE(convert(1e-3, offset).message().find("moves the eye"), std::string::npos);
+}
+
+TEST(HostWorld, rangesEndWhereTheHostSaysInEveryUnit)
+{
+    const auto endOf = [](double unitsPerMeter, float rangeFar) {
+        const HostConvention host{"", unitsPerMeter, FX_AXIS_X, FX_AXIS_Y, FX_AXIS_NEGATIVE_Z};
+        FxFrameDef def = fxDefaultFrameDef();
+        const glm::mat4 projection = glm::perspective(1.0f, 1.5f, 0.1f, 77.0f);
+        std::copy_n(glm::value_ptr(projection), 16, def.projection);
+        def.rangeFar = rangeFar;
+        def.colorTexture = 1;
+        def.width = def.height = 8;
+        fx::render::FrameRequest request;
+        EXPECT_TRUE(fx::api::convertFrame(worldOf(host), def, request).ok());
+        return request.range.to;
+    };
+    const float all = fx::render::DepthRange().to;
+    EXPECT_FLOAT_EQ(endOf(1e6, 2e9f), 2000.0f); // micrometers
+    EXPECT_EQ(endOf(1e6, 1e9f), all);
+    EXPECT_EQ(endOf(1e6, 1e15f), all);
+    EXPECT_EQ(endOf(1.0, 1e9f), all);
+    EXPECT_EQ(endOf(1e-3, 1e9f), all);
+    EXPECT_FLOAT_EQ(endOf(1e-3, 2.0f), 2000.0f);
+}

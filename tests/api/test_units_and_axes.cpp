@@ -187,7 +187,9 @@ TEST(UnitsAndAxes, thePresentTransformAndWindAreThoseOfTheHost)
 
 TEST(UnitsAndAxes, withoutSettingsGravityPullsDownInEveryWorld)
 {
-    for (const HostConvention& host : kRoundedWorlds) {
+    std::vector<HostConvention> hosts(kRoundedWorlds.begin(), kRoundedWorlds.end());
+    hosts.push_back({"kilometers", 1e-3, FX_AXIS_X, FX_AXIS_Z, FX_AXIS_Y});
+    for (const HostConvention& host : hosts) {
         FxContext* context = nullptr;
         const FxContextDef contextDef = host.contextDef();
         ASSERT_EQ(fxCreateContext(&contextDef, &context), FX_OK) << fxGetLastErrorMessage();
@@ -434,6 +436,23 @@ TEST(UnitsAndAxes, anOlderHeaderHasTheWorldOfTheLibrary)
     ASSERT_EQ(fxCreateContext(&def, &context), FX_OK) << fxGetLastErrorMessage();
     EXPECT_TRUE(context->world.isLibraryWorld());
     EXPECT_EQ(fxDestroyContext(context), FX_OK);
+}
+
+TEST(UnitsAndAxes, previewsOfPresetsAreInTheWorldOfTheHost)
+{
+    for (const HostConvention& host : kExactWorlds) {
+        HostScene scene(host, false);
+        FxPresetPreview preview{};
+        preview.structSize = sizeof preview;
+        const FxPresetId preset = fx::test::loadText(
+            scene.context, R"({"version": 1, "emitters": [], "preview": {"camera": {"position": [1, 2, 3],
+            "target": [0, 0.5, -1]}, "lighting": {"sunDirection": [0, 3, 4]}}})");
+        ASSERT_EQ(fxGetPresetPreview(scene.context, preset, &preview), FX_OK) << fxGetLastErrorMessage();
+        EXPECT_EQ(glm::make_vec3(preview.cameraPosition), host.vector({1.0, 2.0, 3.0})) << host;
+        EXPECT_EQ(glm::make_vec3(preview.cameraTarget), host.vector({0.0, 0.5, -1.0})) << host;
+        const glm::dvec3 sun(glm::make_vec3(preview.sunDirection));
+        EXPECT_LT(farthest(sun, host.direction({0.0, 0.6, 0.8})), 1e-7) << host;
+    }
 }
 
 TEST(UserData, canBeChangedWhileTheInstanceRuns)

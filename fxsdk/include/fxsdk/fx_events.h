@@ -122,7 +122,7 @@ FX_API FxResult fxScene_GetEvents(FxScene* scene, FxEvent* ioEvents, uint32_t ca
 
 /// Changes FxInstanceDef::userData of an instance. Events that are recorded from now on have this number;
 /// simulation, culling and hashes do not depend on it. Saved states contain it. [scene thread]
-/// @return FX_OK, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_SetUserData(FxScene* scene, FxInstanceId instance, uint64_t userData);
 
 /// Reads FxInstanceDef::userData of an instance, or the last number of fxScene_SetUserData(). [scene thread]

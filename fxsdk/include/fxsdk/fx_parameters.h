@@ -118,7 +118,8 @@ FX_API FxResult fxGetParameterInfo(FxContext* context, FxPresetId preset, uint32
 FX_API FxResult fxScene_SetParameter(FxScene* scene, FxInstanceId instance, FxParameterId parameter,
                                      FxParameterType type, const void* value);
 
-/// Reads the value that the host has set last, or that of the definition of the instance. [scene thread]
+/// Reads the value that the host has set last, or that of the definition of the instance; with units of the
+/// host (FxContextDef) rounded to and from meters. [scene thread]
 /// @param type     type of `outValue`; must be that of the parameter
 /// @param outValue receives the value; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or another type), FX_ERROR_STALE_ID (instance or

@@ -56,8 +56,8 @@ typedef struct FxSceneDef
     /// (FxContextDef), the exact default stands for standard gravity, downwards along the host's up axis.
     float gravity[3];
 
-    /// 1 (default): the ground of a preset is the plane y = 0 of the local space of the instance. 0: no
-    /// preset has a ground.
+    /// 1 (default): the ground of a preset is the plane through the position of the instance, perpendicular
+    /// to its local up axis. 0: no preset has a ground.
     uint32_t hasGround;
 
     /// FxQuality of instances without a quality of their own; default FX_QUALITY_DEFAULT.
