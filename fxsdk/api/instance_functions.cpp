@@ -50,6 +50,10 @@ void checkPlacement(const HostWorld& world, fx::api::Checks& check, const double
 fx::base::Placement toPlacement(const HostWorld& world, const double* position, const float* rotation,
                                 float scale)
 {
+    if (world.isLibraryWorld()) // saves the conversion where many instances move
+        return {{position[0], position[1], position[2]},
+                glm::normalize(glm::quat(rotation[3], rotation[0], rotation[1], rotation[2])),
+                scale};
     return {world.position(position), glm::normalize(world.rotation(rotation)), scale};
 }
 

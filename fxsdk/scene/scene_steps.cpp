@@ -33,8 +33,11 @@ bool Scene::update(double dt)
     }
     if (marksWanted_.load(std::memory_order_relaxed) > 0)
         leaveMarks();
-    if (memoryFailed_)
+    if (memoryFailed_) {
+        if (events_) // the last step was dropped with the events that it has recorded
+            events_->lose(world_.readCues(active_.slots(), [](uint32_t, const sim::CueEvent&) {}));
         throw std::bad_alloc();
+    }
     return true;
 }
 
@@ -147,6 +150,8 @@ bool Scene::isShort() const
 [[gnu::always_inline]] inline void Scene::beginStep(base::Ticks from)
 {
     const base::Ticks to = from + clock_.stepTicks();
+    if (memoryFailed_ && events_) // the step before was dropped with the events that it has recorded
+        events_->lose(world_.readCues(active_.slots(), [](uint32_t, const sim::CueEvent&) {}));
     stepWork_ = 0;
     stepEnd_ = to;
     if (!dormant_.empty())

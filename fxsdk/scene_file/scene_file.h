@@ -32,7 +32,9 @@ struct SceneInstance
     double start = 0.0;                         ///< [s] scene time, >= 0
     uint64_t seed = 1;
     sim::InstanceParameters parameters;
-    InstancePlay play; ///< changes of the effect over time
+    int32_t layer = 0;   ///< see fxScene_SetLayer()
+    int32_t sortKey = 0; ///< see fxScene_SetLayer()
+    InstancePlay play;   ///< changes of the effect over time
 
     /// Returns the placement at a scene time [s].
     base::Placement placementAt(double time) const;

@@ -226,6 +226,11 @@ SceneInstance readInstance(const PresetValue& value)
     value.read("intensity", instance.parameters.intensity);
     value.read("wind", instance.parameters.wind);
     value.read("tint", instance.parameters.tint);
+    double layer = 0.0, sortKey = 0.0; // integers, by the schema
+    value.read("layer", layer);
+    value.read("sortKey", sortKey);
+    instance.layer = int32_t(layer);
+    instance.sortKey = int32_t(sortKey);
     instance.play = readPlay(value, instance.start);
     return instance;
 }

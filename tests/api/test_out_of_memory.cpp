@@ -1,4 +1,7 @@
-#include "tests/api/api_fixture.h"
+#include "tests/api/event_presets.h"
+
+#include <algorithm>
+#include <string>
 
 using fx::test::burstPreset;
 using fx::test::fountainPreset;
@@ -267,4 +270,44 @@ TEST_F(OutOfMemory, theEmitterThatDoesNotFitIsNamedWithItsBytesAndTheRemedy)
     const std::string message = fxGetLastErrorMessage();
     EXPECT_NE(message.find("\"embers\", whose maxParticles 100000 take"), std::string::npos) << message;
     EXPECT_NE(message.find("lower maxParticles or maxPoints of its trail"), std::string::npos) << message;
+}
+
+TEST_F(OutOfMemory, eventsOfAStepThatWasDroppedAreCountedAsLost)
+{
+    // the first instance has events in a step, in which the second one may find no memory
+    const auto play = [&](int frames, uint64_t failing, uint64_t& outLost) {
+        createContext();
+        FxSceneDef sceneDef = fxDefaultSceneDef();
+        sceneDef.eventCapacity = 2000;
+        EXPECT_EQ(fxCreateScene(context_, &sceneDef, &scene_), FX_OK);
+        FxInstanceDef def = fxDefaultInstanceDef();
+        for (const std::string& preset : {fx::test::kDrop, fx::test::kSparks}) {
+            def.preset = loadText(context_, preset);
+            FxInstanceId id{};
+            EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+        }
+        for (int frame = 1; frame < frames; ++frame)
+            EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+        memory_.failFrom(failing);
+        const FxResult result = fxScene_Update(scene_, kFrame);
+        memory_.failFrom(0);
+        EXPECT_TRUE(result == FX_OK || result == FX_ERROR_OUT_OF_MEMORY);
+        uint32_t count = 0;
+        EXPECT_EQ(fxScene_GetEvents(scene_, nullptr, 0, &count, &outLost), FX_OK);
+        EXPECT_EQ(fxDestroyContext(context_), FX_OK);
+        context_ = nullptr;
+        return count;
+    };
+    uint64_t mostLost = 0;
+    for (int frames = 1; frames < 40 && mostLost == 0; ++frames) {
+        uint64_t lost = 0, none = 0;
+        const uint32_t expected = play(frames, 0, none);
+        EXPECT_EQ(none, 0u);
+        for (uint64_t failing = 1; failing < 40 && lost == 0; ++failing) {
+            const uint32_t got = play(frames, failing, lost);
+            EXPECT_LE(got + lost, expected) << frames << " " << failing;
+        }
+        mostLost = lost;
+    }
+    EXPECT_GT(mostLost, 0u);
 }

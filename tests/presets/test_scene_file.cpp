@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace fx::scene_file;
 using fx::test::TempFolder;
@@ -24,7 +25,8 @@ constexpr const char* kScene = R"({
   "mesh": {"file": "m.obj", "position": [10, 0, 0], "scale": 2, "collide": true, "cellSize": 0.25},
   "instances": [
     {"preset": "sparks.fx.json", "position": [100000.25, 1, 2], "rotationDegrees": [0, 90, 0], "scale": 2,
-     "seed": 9007199254740991, "start": 1.5, "intensity": 3, "wind": [4, 5, 6], "tint": [1, 0.5, 0]},
+     "seed": 9007199254740991, "start": 1.5, "intensity": 3, "wind": [4, 5, 6], "tint": [1, 0.5, 0],
+     "layer": -16, "sortKey": -2147483648},
     {"preset": "library:explosion", "quaternion": [0, 0, 2, 0]},
     {"preset": "sparks.fx.json"}
   ],
@@ -201,6 +203,26 @@ TEST(SceneFile, readsInstancesAndEachPresetOnce)
     EXPECT_FLOAT_EQ(first.parameters.intensity, 3);
     EXPECT_EQ(first.parameters.wind, glm::vec3(4, 5, 6));
     EXPECT_EQ(first.parameters.tint, glm::vec3(1.0f, 0.5f, 0.0f));
+    EXPECT_EQ(first.layer, -16);
+    EXPECT_EQ(first.sortKey, std::numeric_limits<int32_t>::min());
+    EXPECT_EQ(scene.instances[2].layer, 0);
+}
+
+TEST(SceneFile, refusesALayerThatTheLibraryDoesNotHave)
+{
+    const auto faultOf = [](const std::string& members) {
+        const auto scene = loadSceneText(
+            R"({"version": 1, "camera": {}, "instances": [{"preset": "library:sparks", )" + members + "}]}",
+            "s.scene.json", fx::asset::AssetResolver("", {}));
+        return std::string(scene.status().message());
+    };
+    EXPECT_EQ(faultOf(R"("layer": 15, "sortKey": 2147483647)").find("/instances/0/layer"), std::string::npos);
+    for (const char* wrong : {"16", "-17", "0.5"}) {
+        const std::string fault = faultOf(R"("layer": )" + std::string(wrong));
+        EXPECT_NE(fault.find("/instances/0/layer"), std::string::npos) << fault;
+    }
+    const std::string fault = faultOf(R"("sortKey": 2147483648)");
+    EXPECT_NE(fault.find("/instances/0/sortKey"), std::string::npos) << fault;
 }
 
 TEST(SceneFile, rotatesAboutXThenYThenZAndNormalizesQuaternions)

@@ -18,6 +18,8 @@ FxInstanceDef instanceDefinition(const scene_file::SceneInstance& instance, FxPr
     def.rotation[2] = place.rotation.z;
     def.rotation[3] = place.rotation.w;
     def.seed = instance.seed;
+    def.layer = instance.layer;
+    def.sortKey = instance.sortKey;
     def.intensity = instance.parameters.intensity;
     def.emitting = scene_file::valueAt(instance.play.emitting, instance.start, 1.0) > 0.0 ? 1 : 0;
     return def;
