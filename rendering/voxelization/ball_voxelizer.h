@@ -6,6 +6,7 @@
 #include "foundation/tasks/task_runner.h"
 #include "rendering/voxelization/block_plan.h"
 #include "rendering/voxelization/voxel_ball.h"
+#include "rendering/voxelization/voxel_detail.h"
 
 #include <span>
 #include <vector>
@@ -85,6 +86,10 @@ public:
     /// Fills `out` with the blocks [first, first + count) of the plan.
     void fill(size_t first, size_t count, std::vector<VoxelBlock>& out) const;
 
+    /// Multiplies the medium of balls by their detail. Called before the others.
+    /// @param detail null: none; must outlive this object
+    void setDetail(const VoxelDetail* detail) { detail_ = detail; }
+
     /// Sets the light of thick voxels to that of their sides that are seen from outside, and that of thick
     /// balls smaller than a voxel to what leaves the ball. Without a call of this function, the light of a
     /// voxel is the mean of what the balls emit. Does nothing if no ball emits.
@@ -100,6 +105,7 @@ private:
     std::span<const VoxelBall> balls_;
     const BlockPlan& plan_;
     base::TaskRunner& tasks_;
+    const VoxelDetail* detail_ = nullptr;
     std::vector<double> normalization_; ///< sampleNormalization() of each ball
     std::vector<double> luminance_;     ///< [cd/m2] of the light of each ball
     std::vector<double> red_;           ///< [cd/m2] the same of its red

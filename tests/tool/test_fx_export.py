@@ -10,6 +10,7 @@ import sys
 import time
 import unittest
 
+from exr_planes import read_planes
 from fx_program import FX, FxTest, fx, wait_until_it_heeds_interrupts
 
 HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
@@ -160,6 +161,33 @@ class Export(FxTest):
                            check=True, capture_output=True)
             written.append((self.folder / "a.vdb").read_bytes())
         self.assertEqual(written[0], written[1])
+
+    def opacity(self, scene, time, *arguments):
+        path = self.folder / "a.exr"
+        outcome = fx("render", scene, "--renderer", "reference", "--size", "32x24", "--time", time, "--scattering", "none", "--view",
+                     "0,4,24,0,5,0,40", "-o", path, *arguments)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        planes = read_planes(path)[2]
+        return [sum(values) for values in zip(*(planes[f"{name}.A"] for name in ("smoke", "fire", "dust")))]
+
+    def test_detail_is_that_of_pictures(self):
+        exact = self.opacity("library:explosion", "0.6", "--detail", "on", "--samples", "4")
+        errors = []
+        for words in ((), ("--detail",)):
+            self.export("library:explosion", "-o", self.folder / "a.vdb", "--time", "0.6", "--voxels", "400000", *words)
+            outcome = fx("import", self.folder / "a.vdb", "-o", self.folder / "a.fx.json", "--bricks")
+            self.assertEqual(outcome.code, 0, outcome.err)
+            found = self.opacity(self.folder / "a.fx.json", "0", "--samples", "2")
+            errors.append((sum((a - b) ** 2 for a, b in zip(found, exact)) / sum(b * b for b in exact)) ** 0.5)
+        print(f"error of opacity without detail {errors[0]:.3f}, with detail {errors[1]:.3f}", flush=True)
+        self.assertGreater(errors[0], 0.3)
+        self.assertLess(errors[1], 0.1)
+
+    def test_balls_without_detail_are_the_same_with_it(self):
+        balls = self.list_of_balls()
+        for name, words in (("a.vdb", ()), ("b.vdb", ("--detail",))):
+            self.export(balls, "-o", self.folder / name, "--voxel-size", "0.2", *words)
+        self.assertEqual((self.folder / "a.vdb").read_bytes(), (self.folder / "b.vdb").read_bytes())
 
     def test_an_interruption_leaves_whole_files_only(self):
         process = subprocess.Popen([FX, "export", "library:campfire", "-o", str(self.folder / "a.%03d.vdb"), "--frames", "0:999",

@@ -12,14 +12,14 @@
 namespace fx::cli {
 namespace {
 
-constexpr glm::dvec3 kLuminance{0.2126, 0.7152,
-                                0.0722}; // of linear Rec. 709, as rendering/optics/black_body.h
-
-MomentBalls ballsOf(const std::vector<render::MediumBlob>& blobs)
+MomentBalls ballsOf(const std::vector<render::MediumBlob>& blobs, const render::MediumDetails& details = {})
 {
     MomentBalls moment;
     moment.balls.reserve(blobs.size());
-    for (const render::MediumBlob& blob : blobs) {
+    moment.details.groups = details.groups;
+    moment.details.octaves = details.octaves;
+    for (size_t i = 0; i < blobs.size(); ++i) {
+        const render::MediumBlob& blob = blobs[i];
         if (!base::isFinite(blob.velocity.x + blob.velocity.y + blob.velocity.z)) {
             ++moment.nonFinite;
             continue;
@@ -36,6 +36,8 @@ MomentBalls ballsOf(const std::vector<render::MediumBlob>& blobs)
         ball.albedo = blob.albedo;
         ball.id = blob.id;
         ball.instance = blob.instance;
+        if (details.isGiven())
+            moment.details.balls.push_back(details.balls[i]);
     }
     return moment;
 }
@@ -73,7 +75,7 @@ public:
         const auto frame = scene_->frameAt(tick);
         if (!frame.ok())
             return frame.status();
-        MomentBalls moment = ballsOf(frame->scene.blobs);
+        MomentBalls moment = ballsOf(frame->scene.blobs, frame->scene.details);
         moment.nonFinite += frame->nonFinite;
         return moment;
     }

@@ -5,7 +5,10 @@
 #include "foundation/result/status.h"
 #include "foundation/time/ticks.h"
 #include "fxsdk/cli/scene/effect_scene.h"
+#include "rendering/reference/render/medium_details.h"
 #include "rendering/voxelization/voxel_ball.h"
+
+#include <glm/vec3.hpp>
 
 #include <memory>
 #include <optional>
@@ -17,8 +20,12 @@ namespace fx::cli {
 struct MomentBalls
 {
     std::vector<render::VoxelBall> balls;
-    uint32_t nonFinite = 0; ///< number of balls omitted because a value was not finite
+    render::MediumDetails details; ///< of `balls`; without groups: none
+    uint32_t nonFinite = 0;        ///< number of balls omitted because a value was not finite
 };
+
+constexpr glm::dvec3 kLuminance{0.2126, 0.7152,
+                                0.0722}; ///< of linear Rec. 709, as rendering/optics/black_body.h
 
 /// A simulation of the scene from its start.
 class BallSource

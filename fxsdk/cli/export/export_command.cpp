@@ -58,7 +58,7 @@ public:
                                               " MiB, more than this machine has; give at most " +
                                               std::to_string(affordable)};
         options_ = {arguments_.voxelSize.value_or(0.0), std::min(plan_.maxVoxels, affordable),
-                    arguments_.half, arguments_.points};
+                    arguments_.half, arguments_.points, arguments_.detail};
         if (!arguments_.voxelSize)
             if (base::Status status = chooseVoxelSize(); !status)
                 return status;
@@ -125,7 +125,7 @@ private:
     {
         std::unique_ptr<Progress> blocks;
         const auto report =
-            writeVolume(moment.balls, options_, metadataOf(frame), plan_.output.frame(frame.number), *tasks_,
+            writeVolume(moment, options_, metadataOf(frame), plan_.output.frame(frame.number), *tasks_,
                         [&](uint64_t done, uint64_t total) {
                             if (showBlocks && !blocks)
                                 blocks = std::make_unique<Progress>("block", total, !arguments_.json);

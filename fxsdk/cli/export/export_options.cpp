@@ -64,6 +64,8 @@ void addExportOptions(CLI::App& command, ExportArguments& arguments)
                     "Most voxels of a frame, counted in blocks of 8x8x8 (default: 1000000; with "
                     "--voxel-size 64000000)")
         ->check(CLI::Range(render::kLeastVoxels, kMostVoxels));
+    command.add_flag("--detail", arguments.detail,
+                     "With the detail of fields, down to a voxel: lumps that fx render draws in them");
     command.add_flag("--half", arguments.half,
                      "Store values with 16 bits, except grids with values above 65504");
     command.add_flag("--points", arguments.points,

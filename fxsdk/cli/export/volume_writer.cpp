@@ -1,5 +1,6 @@
 #include "fxsdk/cli/export/volume_writer.h"
 
+#include "fxsdk/cli/export/field_voxel_detail.h"
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "rendering/voxelization/ball_voxelizer.h"
@@ -38,15 +39,19 @@ void sumUp(std::span<const render::VoxelBlock> blocks, double volume, VolumeRepo
 
 } // namespace
 
-base::Result<VolumeReport> writeVolume(std::span<const render::VoxelBall> balls, const VolumeOptions& options,
+base::Result<VolumeReport> writeVolume(const MomentBalls& moment, const VolumeOptions& options,
                                        const render::VdbMetadata& metadata, const std::filesystem::path& file,
                                        base::TaskRunner& tasks,
                                        const std::function<void(uint64_t, uint64_t)>& progress)
 {
+    const std::vector<render::VoxelBall>& balls = moment.balls;
     const auto plan = render::BlockPlan::create(balls, options.voxelSize, options.maxVoxels);
     if (!plan)
         return tooManyVoxels(balls, options);
     render::BallVoxelizer voxelizer(balls, *plan, tasks);
+    const FieldVoxelDetail detail(moment, options.voxelSize);
+    if (options.detail && moment.details.isGiven())
+        voxelizer.setDetail(&detail);
     voxelizer.findEscapeDepths();
     render::VdbVolume volume(options.voxelSize);
     VolumeReport report;

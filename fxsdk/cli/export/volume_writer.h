@@ -4,6 +4,7 @@
 
 #include "foundation/result/status.h"
 #include "foundation/tasks/task_runner.h"
+#include "fxsdk/cli/export/ball_source.h"
 #include "rendering/vdb/vdb_volume.h"
 #include "rendering/voxelization/block_plan.h"
 
@@ -19,6 +20,7 @@ struct VolumeOptions
     uint64_t maxVoxels = 0; ///< maximum number of voxels; each block counts with all of its voxels
     bool half = false;
     bool points = false;
+    bool detail = false; ///< of fields
 };
 
 struct VolumeReport
@@ -33,7 +35,7 @@ struct VolumeReport
 /// Writes a file atomically.
 /// @param progress called with the number of finished blocks and the number of all blocks
 /// @return TooLarge (the message states a voxel size that fits), Interrupted, Io, OutOfMemory
-base::Result<VolumeReport> writeVolume(std::span<const render::VoxelBall> balls, const VolumeOptions& options,
+base::Result<VolumeReport> writeVolume(const MomentBalls& moment, const VolumeOptions& options,
                                        const render::VdbMetadata& metadata, const std::filesystem::path& file,
                                        base::TaskRunner& tasks,
                                        const std::function<void(uint64_t, uint64_t)>& progress);

@@ -315,6 +315,51 @@ TEST(BallVoxelizer, aSparkSmallerThanAVoxelGivesTheLightThatLeavesIt)
     EXPECT_GE(spreadBall(1e30, 1e-30).share, 0.0);
 }
 
+/// Removes what is left of a plane, halves the rest, and doubles temperatures, of even balls.
+class HalfDetail final : public VoxelDetail
+{
+public:
+    size_t groups() const override { return 1; }
+    int32_t groupOf(uint32_t ball) const override { return ball % 2 == 0 ? 0 : -1; }
+    Values valuesOf(uint32_t ball) const override { return {double(ball), 0, 0, 0, 0, 0, 1.0}; }
+    Factors at(size_t, double extinction, const Values& means, const glm::dvec3& place) const override
+    {
+        EXPECT_GT(extinction, 0.0);
+        EXPECT_NEAR(means[6], 1.0, 1e-9);
+        return {place.x < 0.0 ? 0.0f : float(0.5 + means[0]), 2.0f};
+    }
+    double luminance(uint32_t, float temperature) const override { return 10.0 * double(temperature); }
+};
+
+TEST(BallVoxelizer, detailMultipliesExtinctionTemperatureAndLightOfItsBallsAtTheVoxel)
+{
+    const std::vector<VoxelBall> balls{ballOf({0.0, 0.0, 0.0}, 0.5), ballOf({0.0, 4.0, 0.0}, 0.5)};
+    const auto tasks = base::makeSerialRunner();
+    const auto plan = BlockPlan::create(balls, kVoxel, kManyVoxels);
+    const HalfDetail detail;
+    BallVoxelizer plain(balls, *plan, *tasks), detailed(balls, *plan, *tasks);
+    detailed.setDetail(&detail);
+    std::vector<VoxelBlock> from, to;
+    plain.fill(0, plan->blocks().size(), from);
+    detailed.fill(0, plan->blocks().size(), to);
+    for (size_t b = 0; b < from.size(); ++b)
+        for (size_t v = 0; v < size_t(kBlockVoxels); ++v) {
+            const glm::ivec3 at = from[b].origin + placeInBlock(v);
+            const bool isDetailed = at.y < 20;
+            const float share = !isDetailed ? 1.0f : at.x < 0 ? 0.0f : 0.5f;
+            EXPECT_FLOAT_EQ(to[b].density[v], share * from[b].density[v]);
+            if (to[b].density[v] == 0.0f)
+                continue;
+            // 20 instead of 40 cd/m2 where temperatures are doubled
+            EXPECT_NEAR(to[b].flame[v] / from[b].flame[v], isDetailed ? 0.25f : 1.0f, 1e-5f);
+            EXPECT_NEAR(to[b].temperature[v] / from[b].temperature[v], isDetailed ? 2.0f : 1.0f, 2e-3f);
+        }
+    detailed.findEscapeDepths(); // of the medium with detail
+    detailed.fill(0, plan->blocks().size(), to);
+    EXPECT_LT(leaving(to), leaving(voxelizeAsSeen(balls)));
+    EXPECT_GT(leaving(to), 0.0);
+}
+
 TEST(BallVoxelizer, anyNumberOfThreadsGivesTheSameBits)
 {
     const test::RealThreads threadsOfAnyMachine(5);

@@ -1,0 +1,64 @@
+#include "rendering/voxelization/block_detail.h"
+
+#include "rendering/optics/color_temperature.h"
+#include "rendering/voxelization/ball_weights.h"
+
+#include <memory>
+
+namespace fx::render {
+
+std::pair<double, double> DetailedBall::light(size_t voxel) const
+{
+    const float change = factors[voxel].temperature;
+    const double now = change == 1.0f ? 1.0 : detail.luminance(index, change) / ball.luminance;
+    return {now, now * double(blackBodyColor(float(ball.temperature) * change).x)};
+}
+
+void BlockDetail::find(const BlockPlan::Block& block, std::span<const uint32_t> list,
+                       std::span<const VoxelBall> balls, std::span<const double> normalization)
+{
+    if (!detail_)
+        return;
+    groups_.resize(detail_->groups());
+    for (Group& group : groups_)
+        group.isThere = false;
+    const auto weights = std::make_unique<BallWeights>();
+    for (const uint32_t ball : list) {
+        const int32_t own = detail_->groupOf(ball);
+        if (own < 0 || !weights->assign(balls[ball], voxelSize_, block.origin, nullptr))
+            continue;
+        Group& group = groups_[size_t(own)];
+        if (!group.isThere) {
+            group.isThere = true;
+            group.extinction.fill(0.0);
+            group.values.fill({});
+            group.factors.fill({});
+        }
+        const VoxelDetail::Values values = detail_->valuesOf(ball);
+        const double density = densityOf(balls[ball], normalization[ball], voxelSize_);
+        forVoxels(*weights, false, [&](size_t v, double weight) {
+            group.extinction[v] += density * weight;
+            for (size_t k = 0; k < values.size(); ++k)
+                group.values[v][k] += density * weight * values[k];
+        });
+    }
+    for (size_t g = 0; g < groups_.size(); ++g)
+        for (size_t v = 0; groups_[g].isThere && v < size_t(kBlockVoxels); ++v)
+            if (const double extinction = groups_[g].extinction[v]; extinction > 0.0) {
+                VoxelDetail::Values means = groups_[g].values[v];
+                for (double& mean : means)
+                    mean /= extinction;
+                const glm::ivec3 at = block.origin + glm::ivec3(int(v >> 6), int(v >> 3 & 7), int(v & 7));
+                groups_[g].factors[v] = detail_->at(g, extinction, means, voxelSize_ * glm::dvec3(at));
+            }
+}
+
+const DetailedBall* BlockDetail::of(uint32_t index, const VoxelBall& ball)
+{
+    const int32_t own = detail_ ? detail_->groupOf(index) : -1;
+    if (own < 0 || !groups_[size_t(own)].isThere)
+        return nullptr;
+    return &ball_.emplace(DetailedBall{*detail_, groups_[size_t(own)].factors, index, ball});
+}
+
+} // namespace fx::render
