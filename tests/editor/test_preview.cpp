@@ -306,6 +306,31 @@ TEST_F(PreviewTest, overdrawCountsDisksOnTheirPlace)
     EXPECT_EQ(map.counts[0], 0.0f);
 }
 
+TEST_F(PreviewTest, aSliceCutsBallsInDisks)
+{
+    // One ball of 0.5 m at the height 1 m, which does not move.
+    show(*preview_,
+         R"({"version": 1, "emitters": [{"maxParticles": 1, "emission": {"bursts": [{"time": 0, "count": 1}]},
+        "lifetime": 9, "radius": 0.5, "speed": 0, "position": [0, 1, 0], "forces": {"gravity": 0}}]})");
+    ASSERT_TRUE(preview_->seek(0.5).ok());
+    OverlayChoice choice;
+    choice.slice = true;
+    const auto areaAt = [&](double z) { // [cells]
+        PreviewFrame seen = frame();
+        seen.pose.position = {0.0, 1.0, z + 6.0};
+        seen.pose.target = {0.0, 1.0, z};
+        const OverlayData data = preview_->overlays(choice, seen);
+        double sum = 0.0;
+        for (const float count : data.slice.counts)
+            sum += double(count);
+        return sum;
+    };
+    const double middle = areaAt(0.0);
+    EXPECT_GT(middle, 1.0);
+    EXPECT_LT(areaAt(0.4), 0.7 * middle); // a disk of 0.3 m
+    EXPECT_EQ(areaAt(0.6), 0.0);
+}
+
 TEST_F(PreviewTest, theVolumeOfLightSlicesHoldsTheMedium)
 {
     show(

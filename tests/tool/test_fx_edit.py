@@ -163,7 +163,7 @@ text {folder}/undone.fx.json
         self.assertEqual(self.read("undone.fx.json"), SMALL)
 
     def test_each_overlay_is_drawn_and_taken_away(self):
-        names = ("bounds", "velocities", "overdraw", "slices", "shapes")
+        names = ("bounds", "velocities", "overdraw", "slice", "slices", "shapes")
         script = "time 1\nclick select/emitters/0\nplaces\nshot {folder}/plain.png\n"
         for name in names:
             toggle = f"click overlays\nclick overlay/{name}\nkey escape\n"

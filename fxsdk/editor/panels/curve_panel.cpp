@@ -63,7 +63,7 @@ void drawCurve(const Canvas& canvas, const Json& keys)
         draw->AddLine(left, canvas.at(1.0, value), IM_COL32(255, 255, 255, 24));
         const float line = ImGui::GetFontSize();
         if (i == 0 || i == 4 ||
-            canvas.size.y > 5.0f * line) // labels of a low curve would lie over each other
+            canvas.size.y > 8.0f * line) // labels of a low curve would lie over each other
             draw->AddText({left.x + 4, left.y - (i == 0 ? line + 2.0f : 0.0f)}, IM_COL32(160, 165, 175, 255),
                           label);
         draw->AddLine(canvas.at(i / 4.0, canvas.lowest), canvas.at(i / 4.0, canvas.highest),

@@ -111,6 +111,7 @@ void overlayPopup(PanelState& state)
     toggle("bounds", "overlay/bounds", overlays.bounds);
     toggle("velocities", "overlay/velocities", overlays.velocities);
     toggle("overdraw", "overlay/overdraw", overlays.overdraw);
+    toggle("slice through media at the target of the camera", "overlay/slice", overlays.slice);
     toggle("volume of the sun's light slices", "overlay/slices", overlays.lightSlices);
     ImGui::EndPopup();
 }

@@ -64,6 +64,8 @@ void drawOverlays(PanelState& state, const ViewProjection& view, ImVec2 low, ImV
     const bool isError = state.error.isShown && state.error.texture != 0;
     if (choice.overdraw && !isError)
         overdraw(draw, data.overdraw, low, high);
+    if (choice.slice && !isError)
+        overdraw(draw, data.slice, low, high);
     for (const WireLine& line : data.lines) {
         const auto ends = view.project(line.from, line.to);
         if (!ends)

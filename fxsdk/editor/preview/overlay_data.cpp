@@ -118,6 +118,27 @@ void cover(OverdrawMap& io, const glm::dvec2& center, double radius)
         }
 }
 
+OverdrawMap mapFor(int width, int height)
+{
+    OverdrawMap map;
+    map.columns = (width + kCell - 1) / kCell;
+    map.rows = (height + kCell - 1) / kCell;
+    map.counts.assign(size_t(map.columns) * size_t(map.rows), 0.0f);
+    return map;
+}
+
+/// Finds the mean of the covered cells, and the largest.
+void sumUp(OverdrawMap& io)
+{
+    size_t covered = 0;
+    for (const float count : io.counts) {
+        io.largest = std::max(io.largest, double(count));
+        io.mean += double(count);
+        covered += count > 0.0f ? 1 : 0;
+    }
+    io.mean /= double(std::max<size_t>(covered, 1));
+}
+
 } // namespace
 
 void addParticleWires(const fxsdk::Scene& scene, const OverlayChoice& choice, OverlayData& io)
@@ -162,10 +183,7 @@ std::vector<uint32_t> countsBySolver(const fxsdk::Scene& scene, size_t solvers)
 
 OverdrawMap overdrawOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height)
 {
-    OverdrawMap map;
-    map.columns = (width + kCell - 1) / kCell;
-    map.rows = (height + kCell - 1) / kCell;
-    map.counts.assign(size_t(map.columns) * size_t(map.rows), 0.0f);
+    OverdrawMap map = mapFor(width, height);
     forEachGroup(scene, [&](const Group& g) {
         if (!hasAll(g.places) || !g.radii)
             return;
@@ -176,13 +194,31 @@ OverdrawMap overdrawOf(const fxsdk::Scene& scene, const ViewProjection& view, in
                       std::min(view.scaleAt(place) * double(g.radii[i]) * g.scale, kLargestDisk));
         }
     });
-    size_t covered = 0;
-    for (const float count : map.counts) {
-        map.largest = std::max(map.largest, double(count));
-        map.mean += double(count);
-        covered += count > 0.0f ? 1 : 0;
-    }
-    map.mean /= double(std::max<size_t>(covered, 1));
+    sumUp(map);
+    return map;
+}
+
+OverdrawMap sliceOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height,
+                    const glm::dvec3& through)
+{
+    OverdrawMap map = mapFor(width, height);
+    forEachGroup(scene, [&](const Group& g) {
+        if (!hasAll(g.places) || !g.radii)
+            return;
+        for (uint32_t i = 0; i < g.group.count; ++i) {
+            const glm::dvec3 place = g.toWorld(Group::at(g.places, i));
+            const double away = glm::dot(place - through, view.forward());
+            const double radius = double(g.radii[i]) * g.scale;
+            if (!(std::abs(away) < radius))
+                continue;
+            const glm::dvec3 inSlice = place - away * view.forward();
+            if (const auto center = view.project(inSlice)) // the ball is cut in a disk
+                cover(map, *center,
+                      std::min(view.scaleAt(inSlice) * std::sqrt((radius - away) * (radius + away)),
+                               kLargestDisk));
+        }
+    });
+    sumUp(map);
     return map;
 }
 

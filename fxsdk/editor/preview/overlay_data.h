@@ -21,6 +21,11 @@ std::vector<uint32_t> countsBySolver(const fxsdk::Scene& scene, size_t solvers);
 /// @param width, height [pixel] of the picture, whose upper left corner is 0, 0
 OverdrawMap overdrawOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height);
 
+/// Counts the balls of the particles that hold the places of a slice, on the same grid.
+/// @param through [m] world position in the slice, which is parallel to the picture
+OverdrawMap sliceOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height,
+                    const glm::dvec3& through);
+
 /// Adds the volumes of the levels of the sun's light slices.
 /// @param origin [m] world position to which the block is relative
 void addLightSlices(const render::MediaShadowBlock& sun, const glm::dvec3& origin, OverlayData& io);

@@ -372,12 +372,15 @@ OverlayData Preview::overlays(const OverlayChoice& choice, const PreviewFrame& f
         return data;
     if (choice.bounds || choice.velocities)
         addParticleWires(*fxScene_, choice, data);
-    if (choice.overdraw) {
+    if (choice.overdraw || choice.slice) {
         OrbitCamera camera;
         camera.look(frame.pose.position, frame.pose.target);
         camera.fovYDegrees = frame.fovYDegrees;
         const ViewProjection view(camera, {0.0, 0.0}, {double(frame.width), double(frame.height)});
-        data.overdraw = overdrawOf(*fxScene_, view, frame.width, frame.height);
+        if (choice.overdraw)
+            data.overdraw = overdrawOf(*fxScene_, view, frame.width, frame.height);
+        if (choice.slice)
+            data.slice = sliceOf(*fxScene_, view, frame.width, frame.height, frame.pose.target);
     }
     if (choice.lightSlices)
         addLightSlices(lit_.lighting().sunShadow, cameraOf(frame).origin, data);

@@ -18,6 +18,8 @@ std::string overlayText(const OverlayChoice& choice, const OverlayData& data)
         add("%u of %u velocities", data.arrows, data.moving);
     if (choice.overdraw)
         add("overdraw: mean %.1f, largest %.0f", data.overdraw.mean, data.overdraw.largest);
+    if (choice.slice)
+        add("slice: mean %.1f balls, largest %.0f", data.slice.mean, data.slice.largest);
     if (choice.lightSlices)
         add(data.volumes > 0 ? "%u volumes of light slices" : "no light slices: no medium casts a shadow",
             data.volumes);

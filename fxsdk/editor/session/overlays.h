@@ -18,6 +18,7 @@ struct OverlayChoice
     bool velocities = false;
     bool overdraw = false;
     bool lightSlices = false;
+    bool slice = false; ///< through the media, parallel to the picture, at the target of the camera
 
     bool operator==(const OverlayChoice&) const = default;
 };
@@ -51,6 +52,7 @@ struct OverlayData
 {
     std::vector<WireLine> lines;
     OverdrawMap overdraw;
+    OverdrawMap slice;    ///< balls over each other at the places of the slice
     uint32_t bounded = 0; ///< elements whose bounds are drawn
     uint32_t arrows = 0;  ///< particles whose velocity is drawn
     uint32_t moving = 0;  ///< particles that have a velocity
