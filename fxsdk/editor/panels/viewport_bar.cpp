@@ -187,11 +187,11 @@ void viewportBar(PanelState& state)
     if (button(state, session.comparison.isShown ? "One picture###compare" : "Before | now###compare",
                "compare"))
         session.comparison.isShown = !session.comparison.isShown;
-    ImGui::SameLine();
+    sameLineIfItFits("Motion");
     if (button(state, "Motion", "motion"))
         ImGui::OpenPopup("motion popup");
     motionPopup(state);
-    ImGui::SameLine();
+    sameLineIfItFits("Error");
     errorButtons(state);
 }
 
