@@ -1,4 +1,5 @@
 #include "fxsdk/editor/document/document_findings.h"
+#include "fxsdk/editor/document/emitter_starters.h"
 
 #include "fxsdk/presets/preset_loader.h"
 
@@ -54,6 +55,47 @@ TEST(DocumentFindings, aFindingStatesItsPointerAndLine)
     EXPECT_EQ(findings[0].diagnostic.pointer, "/duration");
     EXPECT_EQ(findings[0].diagnostic.line, 3);
     EXPECT_FALSE(findings[0].diagnostic.warning);
+}
+
+TEST(DocumentFindings, whatAnotherKindOrShapeLeavesIsTakenOutByItsRemedy)
+{
+    Document document = documentOf(R"({"version": 1, "emitters": [{"emission": {"rate": 5}, "shape": "point",
+        "angleDegrees": 10, "size": 1, "opticalDepth": 2, "detailAmount": 1, "albedoOverLife": [0.9, 0.9, 0.9],
+        "appearance": {"kind": "sprite"}}]})");
+    EXPECT_GE(findingsOf(document).size(), 5u);
+    EXPECT_EQ(findingsAfterRemedies(document), 0u);
+    EXPECT_FALSE(document.json()["emitters"][0].contains("detailAmount"));
+    EXPECT_TRUE(document.json()["emitters"][0].contains("appearance"));
+}
+
+TEST(DocumentFindings, absentMembersOfOtherKindsAreUnused)
+{
+    const Document sprite =
+        documentOf(R"({"version": 1, "emitters": [{"emission": {"rate": 5}, "opticalDepth": 2,
+        "appearance": {"kind": "sprite"}}]})");
+    const auto unused = unusedMembersOf(sprite, "/emitters/0");
+    ASSERT_TRUE(unused.contains("/emitters/0/detailAmount"));
+    EXPECT_EQ(unused.at("/emitters/0/detailAmount"),
+              "has no effect on the kind \"sprite\", it is of the kind \"medium\"");
+    EXPECT_TRUE(unused.contains("/emitters/0/angleDegrees"));  // of cones
+    EXPECT_FALSE(unused.contains("/emitters/0/opticalDepth")); // a finding has it
+    EXPECT_FALSE(unused.contains("/emitters/0/lifetime"));
+    const Document medium =
+        documentOf(R"({"version": 1, "emitters": [{"emission": {"rate": 5}, "appearance": {}}]})");
+    const auto ofMedium = unusedMembersOf(medium, "/emitters/0");
+    EXPECT_FALSE(ofMedium.contains("/emitters/0/detailAmount"));
+    EXPECT_TRUE(ofMedium.contains("/emitters/0/appearance/luminance"));
+}
+
+TEST(EmitterStarters, areValidWithoutWarnings)
+{
+    Document document = documentOf(R"({"version": 1, "emitters": []})");
+    size_t count = 0;
+    for (const EmitterStarter& starter : emitterStarters())
+        ASSERT_TRUE(document.insert("/emitters", count++, starterEmitter(starter, document.json())).ok());
+    EXPECT_GE(count, 5u);
+    for (const DocumentFinding& finding : findingsOf(document))
+        ADD_FAILURE() << toString(finding.diagnostic);
 }
 
 TEST(DocumentFindings, theLibraryHasNoErrors)

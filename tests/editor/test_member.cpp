@@ -1,4 +1,5 @@
 #include "fxsdk/editor/inspector/member.h"
+#include "fxsdk/editor/inspector/new_element.h"
 
 #include <gtest/gtest.h>
 
@@ -51,6 +52,50 @@ TEST(Member, valuesOutOfTheSchemaAreRefused)
     EXPECT_FALSE(check(*lifetime, "text").ok());
     EXPECT_EQ(limited(*lifetime, 9999), Json(3600.0));
     EXPECT_EQ(limited(*memberAt(document, "/emitters/0/maxParticles"), 12.6), Json(13));
+}
+
+TEST(Member, theFirstNumberOfTheLightKeepsTheOthers)
+{
+    Document document = documentOf(R"({"version": 1, "emitters": [{}]})");
+    const auto sun = memberAt(document, "/preview/lighting/sunIlluminance");
+    ASSERT_TRUE(sun.has_value());
+    EXPECT_EQ(valueOf(document, *sun), Json::array({40000, 34500, 27000}));
+    EXPECT_TRUE(hasValue(document, *sun));
+    ASSERT_TRUE(setMember(document, sun->pointer, Json::array({1, 2, 3})).ok());
+    const Json& lighting = document.json()["preview"]["lighting"];
+    EXPECT_EQ(lighting["sunIlluminance"], Json::array({1, 2, 3}));
+    EXPECT_EQ(lighting["skyLuminance"], Json::array({2500, 3150, 4200}));
+    EXPECT_TRUE(document.undo());
+    EXPECT_FALSE(document.json().contains("preview"));
+    ASSERT_TRUE(document.set("/preview", Json{{"lighting", {{"sunIlluminance", 5}}}}).ok());
+    EXPECT_EQ(valueOf(document, *memberAt(document, "/preview/lighting/skyLuminance")), Json(0)); // as drawn
+}
+
+TEST(Member, placesWithoutADefaultBeginAtTheOriginAndHaveNoValue)
+{
+    const Document document =
+        documentOf(R"({"version": 1, "preview": {"instance": {"keys": [{"time": 0}]}}})");
+    const auto position = memberAt(document, "/preview/instance/keys/0/position");
+    ASSERT_TRUE(position.has_value());
+    EXPECT_EQ(valueOf(document, *position), Json::array({0, 0, 0}));
+    EXPECT_FALSE(hasValue(document, *position));
+}
+
+TEST(NewElement, isLaterThanTheLastAndValid)
+{
+    Document document = documentOf(R"({"version": 1, "emitters": [{"name": "a"}, {"name": "b"}], "preview":
+        {"instance": {"keys": [{"time": 2, "position": [1, 2, 3]}]}}})");
+    const auto keys = memberAt(document, "/preview/instance/keys");
+    ASSERT_TRUE(keys.has_value());
+    EXPECT_EQ(*newElement(document, *keys), (Json{{"time", 3.0}, {"position", {1, 2, 3}}}));
+    const auto events = memberAt(document, "/emitters/0/events");
+    EXPECT_EQ((*newElement(document, *events))["emit"], "b");
+    const auto triggers = memberAt(document, "/preview/instance/triggers");
+    EXPECT_NE(newElement(document, *triggers).status().message().find("\"host\""), std::string::npos);
+    ASSERT_TRUE(
+        document.set("/emitters/0/events", Json::array({{{"on", "host"}, {"name", "go"}, {"cue", "c"}}}))
+            .ok());
+    EXPECT_EQ((*newElement(document, *triggers))["name"], "go");
 }
 
 TEST(Member, unknownMembersAreListed)

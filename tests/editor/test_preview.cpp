@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 
 namespace fx::editor {
 namespace {
@@ -93,6 +94,9 @@ TEST_F(PreviewTest, aTextThatIsWrongLeavesThePicture)
     EXPECT_FALSE(status.ok());
     EXPECT_NE(status.message().find("maxParticles"), std::string::npos) << status.message();
     EXPECT_EQ(picture(*preview_), before);
+    EXPECT_NE(status.message().find("a.fx.json"), std::string::npos) << status.message();
+    for (const char* internal : {"edited-text", "fxLoadPresetFile"})
+        EXPECT_EQ(status.message().find(internal), std::string::npos) << status.message();
 }
 
 TEST_F(PreviewTest, aSceneWhosePresetCannotBeLoadedLeavesTheSceneBefore)
@@ -128,29 +132,59 @@ TEST_F(PreviewTest, aSceneWhosePresetCannotBeLoadedLeavesTheSceneBefore)
     EXPECT_EQ(preview_->particles(), particles / 3);
 }
 
-TEST_F(PreviewTest, anEffectWithMotionStandsWhereItsHandlesAre)
+TEST_F(PreviewTest, anEffectBeginsAfterItsPrewarm)
 {
-    const std::string moving = R"({"version": 1, "emitters": [{"maxParticles": 60, "emission": {"rate": 40},
-        "lifetime": 2, "radius": 0.05, "speed": 0, "forces": {"gravity": 0}}],
-        "preview": {"time": 1.5, "instance": {"keys": [{"time": 0, "position": [-4, 1, 0]},
-        {"time": 1.5, "position": [1, 2, 0]}, {"time": 2, "position": [2, 3, 0]}], "triggers": []}}})";
-    const auto middle = [&] {
+    show(*preview_, kPreset);
+    ASSERT_TRUE(preview_->seek(2.0).ok());
+    const std::vector<float> later = picture(*preview_);
+    const uint32_t particles = preview_->particles();
+    std::string warm = kPreset;
+    warm.insert(1, R"("prewarm": 1.5, )");
+    show(*preview_, warm);
+    ASSERT_TRUE(preview_->seek(0.5).ok());
+    EXPECT_EQ(preview_->particles(), particles);
+    EXPECT_EQ(picture(*preview_), later);
+    ASSERT_TRUE(preview_->seek(0.0).ok());
+    EXPECT_GT(preview_->particles(), 40u);
+}
+
+TEST_F(PreviewTest, anEffectMovesAsItsPreviewStates)
+{
+    const std::string moving = R"({"version": 1, "emitters": [{"maxParticles": 400, "emission": {"rate": 90},
+        "space": "world", "lifetime": 4, "radius": 0.05, "speed": 0, "size": 0, "forces": {"gravity": 0}}],
+        "preview": {"time": 1.5, "instance": {"keys": [{"time": 0, "position": [-2, 1, 0]},
+        {"time": 2, "position": [2, 1, 0]},
+        {"time": 3, "position": [2, 2, 0]}], "triggers": []}}})";
+    const auto bounds = [&] {
         OverlayChoice choice;
         choice.bounds = true;
-        const OverlayData data = preview_->overlays(choice, frame());
-        glm::dvec3 sum(0.0);
-        for (const WireLine& line : data.lines)
-            sum += line.from + line.to;
-        return sum / (2.0 * double(std::max(data.lines.size(), size_t(1))));
+        std::pair<glm::dvec3, glm::dvec3> ends{glm::dvec3(1e9), glm::dvec3(-1e9)};
+        for (const WireLine& line : preview_->overlays(choice, frame()).lines)
+            for (const glm::dvec3& p : {line.from, line.to})
+                ends = {glm::min(ends.first, p), glm::max(ends.second, p)};
+        return ends;
     };
-    for (const double shownAt : {0.0, 0.5, 1.5}) { // the time at which it was shown first has no influence
-        ASSERT_TRUE(preview_->seek(shownAt).ok());
-        show(*preview_, moving + std::string(size_t(2.0 * shownAt), ' '));
-        ASSERT_TRUE(preview_->seek(1.0).ok());
-        EXPECT_EQ(preview_->placement().position, glm::dvec3(1.0, 2.0, 0.0));
-        EXPECT_NEAR(glm::length(middle() - preview_->placement().position), 0.0, 0.02) << shownAt;
+    show(*preview_, moving);
+    std::map<double, std::vector<float>> pictures;
+    for (const double time : {0.0, 1.0, 3.0, 1.0, 0.0}) { // forwards and backwards
+        ASSERT_TRUE(preview_->seek(time).ok());
+        std::vector<float> now = picture(*preview_);
+        const glm::dvec3 place = preview_->placement().position;
+        EXPECT_EQ(place, preview_->scene().instances[0].placementAt(time).position);
+        if (time > 0.0) { // particles stay where the effect was when they were born
+            EXPECT_NEAR(bounds().first.x, -2.05, 0.1) << time;
+            EXPECT_GT(bounds().second.x, place.x - 0.15) << time;
+            EXPECT_NEAR(bounds().second.y, place.y, 0.15) << time;
+        }
+        if (pictures.contains(time)) {
+            EXPECT_EQ(now, pictures[time]) << time;
+        }
+        pictures[time] = std::move(now);
     }
-    EXPECT_TRUE(preview_->scene().instances[0].play.isEmpty()); // the reference renderer gets the same
+    EXPECT_NE(pictures[0.0], pictures[1.0]);
+    ASSERT_TRUE(preview_->seek(1.0).ok()); // an edit is shown at the same time
+    show(*preview_, moving + " ");
+    EXPECT_EQ(picture(*preview_), pictures[1.0]);
 }
 
 TEST_F(PreviewTest, motionIsPlayedExactlyInBothDirections)
@@ -193,6 +227,14 @@ TEST_F(PreviewTest, triggersOfTheDocumentArePlayed)
     EXPECT_LT(preview_->particles(), 5u);
     ASSERT_TRUE(preview_->seek(1.2).ok());
     EXPECT_GE(preview_->particles(), 20u);
+    ASSERT_TRUE(preview_->seek(0.9).ok());
+    EXPECT_LT(preview_->particles(), 5u);
+    ASSERT_TRUE(preview_->seek(1.2).ok());
+    const std::vector<float> before = picture(*preview_);
+    std::string renamed = sparks;
+    renamed.replace(renamed.find(R"("bang", "emit")"), 6, R"("boom")"); // the trigger names none now
+    EXPECT_FALSE(preview_->show(renamed, "a.fx.json", DocumentKind::Preset).ok());
+    EXPECT_EQ(picture(*preview_), before);
     ASSERT_TRUE(preview_->seek(0.9).ok());
     EXPECT_LT(preview_->particles(), 5u);
 }

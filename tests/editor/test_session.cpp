@@ -53,6 +53,51 @@ TEST(Session, whatASessionDidNotSaveIsOfferedToTheNext)
     EXPECT_FALSE((*Session::open(path, folder / "state"))->recovery().has_value());
 }
 
+TEST(Session, theTimelineFollowsTheTimeOfThePreview)
+{
+    test::TemporaryFolder folder;
+    const std::string path = (folder / "a.fx.json").string();
+    test::writeText(path, R"({"version": 1, "preview": {"time": 2}})");
+    auto session = Session::open(path, folder / "state");
+    ASSERT_TRUE(session.ok());
+    Session& open = **session;
+    open.playback.scrub(1.0);
+    EXPECT_FALSE(open.followPreview());
+    EXPECT_EQ(open.playback.time(), 1.0); // nothing has changed
+    open.run(open.document.set("/preview/time", 7));
+    EXPECT_FALSE(open.followPreview());
+    EXPECT_EQ(open.playback.time(), 7.0);
+    EXPECT_GE(open.playback.end, 7.0);
+    open.camera.look({0.0, 2.0, 8.0}, {0.0, 1.0, 0.0});
+    open.keepCamera();
+    EXPECT_TRUE(open.followPreview());
+    EXPECT_EQ(open.document.json()["preview"]["camera"]["target"], Json::array({0.0, 1.0, 0.0}));
+    open.undo();
+    EXPECT_FALSE(open.document.json()["preview"].contains("camera"));
+}
+
+TEST(Session, anEndWithoutSavingKeepsWhatWasEdited)
+{
+    test::TemporaryFolder folder;
+    const std::string path = (folder / "a.fx.json").string();
+    test::writeText(path, kText);
+    {
+        auto session = Session::open(path, folder / "state");
+        ASSERT_TRUE(session.ok());
+        EXPECT_EQ((*session)->keepForRecovery(), ""); // nothing was edited
+        (*session)->run((*session)->document.set("/name", "mine"));
+        EXPECT_TRUE(std::filesystem::exists((*session)->keepForRecovery()));
+    }
+    {
+        auto unanswered = Session::open(path, folder / "state");
+        ASSERT_TRUE(unanswered.ok());
+        (*unanswered)->close();
+    }
+    auto next = Session::open(path, folder / "state");
+    ASSERT_TRUE(next.ok());
+    EXPECT_TRUE((*next)->recovery().has_value());
+}
+
 TEST(Playback, timesAreWholeSteps)
 {
     Playback playback;

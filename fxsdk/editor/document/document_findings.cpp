@@ -13,14 +13,12 @@ namespace fx::editor {
 
 namespace {
 
-std::vector<preset::Diagnostic> validate(const Document& document)
+std::vector<preset::Diagnostic> validate(const std::string& text, const std::string& name, DocumentKind kind)
 {
     std::vector<preset::Diagnostic> diagnostics;
-    const std::string& name = document.path();
     const std::string folder = preset::folderOf(name);
     const asset::AssetResolver resolver(folder.empty() ? "." : folder, preset::libraryFiles());
-    const std::string text = document.text();
-    if (document.kind() == DocumentKind::Scene) {
+    if (kind == DocumentKind::Scene) {
         (void)scene_file::loadSceneText(text, name, resolver, &diagnostics);
         return diagnostics;
     }
@@ -66,7 +64,47 @@ std::optional<Remedy> nearestInRange(const Json& schema, const Json& value, cons
     return std::nullopt;
 }
 
+/// Whether a message says that the member can go.
+bool saysRemove(const std::string& message)
+{
+    constexpr std::array<std::string_view, 3> kWords{"remove it", "take it out", "has no effect"};
+    return std::any_of(kWords.begin(), kWords.end(),
+                       [&](std::string_view words) { return message.find(words) != std::string::npos; });
+}
+
+/// Adds the defaults of absent members, which changes nothing of an effect.
+void addDefaults(const Json& schema, Json& io)
+{
+    const Json& part = decided(schema, io);
+    if (!io.is_object() || !part.contains("properties"))
+        return;
+    const Json& properties = part["properties"];
+    for (auto it = properties.begin(); it != properties.end(); ++it)
+        if (!io.contains(it.key())) {
+            if (it->contains("default"))
+                io[it.key()] = (*it)["default"];
+        } else
+            addDefaults(*it, io[it.key()]);
+}
+
 } // namespace
+
+std::map<std::string, std::string> unusedMembersOf(const Document& document, const std::string& pointer)
+{
+    std::map<std::string, std::string> unused;
+    const Json::json_pointer at(pointer);
+    const Json* const schema = schemaAt(document.schema(), document.json(), at);
+    if (!schema || !document.json().contains(at) || document.kind() != DocumentKind::Preset || at.empty())
+        return unused;
+    Json probe = document.json();
+    addDefaults(*schema, probe[at]);
+    for (const preset::Diagnostic& found : validate(probe.dump(), document.path(), document.kind()))
+        if (found.warning && saysRemove(found.message) && found.pointer.starts_with(pointer + "/") &&
+            !document.json().contains(Json::json_pointer(found.pointer)))
+            unused[found.pointer] =
+                found.message.substr(0, std::min(found.message.find(": take"), found.message.find("; ")));
+    return unused;
+}
 
 std::optional<Remedy> remedyFor(const Document& document, const std::string& pointer)
 {
@@ -86,12 +124,12 @@ std::optional<Remedy> remedyFor(const Document& document, const std::string& poi
 std::vector<DocumentFinding> findingsOf(const Document& document)
 {
     std::vector<DocumentFinding> findings;
-    for (preset::Diagnostic& diagnostic : validate(document)) {
+    for (preset::Diagnostic& diagnostic : validate(document.text(), document.path(), document.kind())) {
         std::optional<Remedy> remedy = remedyFor(document, diagnostic.pointer);
-        const bool isRemovable = diagnostic.warning && !diagnostic.pointer.empty() &&
-                                 document.json().contains(Json::json_pointer(diagnostic.pointer));
-        if (!remedy && isRemovable && diagnostic.message.find("remove it") != std::string::npos)
-            remedy = Remedy{"remove", diagnostic.pointer, std::nullopt};
+        const bool isRemovable =
+            !diagnostic.pointer.empty() && document.json().contains(Json::json_pointer(diagnostic.pointer));
+        if (!remedy && isRemovable && saysRemove(diagnostic.message))
+            remedy = Remedy{"take it out", diagnostic.pointer, std::nullopt};
         findings.push_back({std::move(diagnostic), std::move(remedy)});
     }
     return findings;

@@ -5,6 +5,7 @@
 #include "fxsdk/editor/document/document.h"
 #include "fxsdk/presets/diagnostic.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ struct DocumentFinding
 
 /// Validates the document as hosts would load it. Files that it names are searched in its folder.
 std::vector<DocumentFinding> findingsOf(const Document& document);
+
+/// Absent members of the object at `pointer` and of the objects in it that would have no effect, such as
+/// those of media in an emitter of sprites: pointers with the reason. Empty while the document has errors.
+std::map<std::string, std::string> unusedMembersOf(const Document& document, const std::string& pointer);
 
 /// Proposes a remedy for the value at `pointer`: the nearest value of its range or of its enumeration, or its
 /// removal if the schema does not know it.

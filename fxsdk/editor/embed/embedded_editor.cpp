@@ -74,7 +74,7 @@ EmbeddedEditor::~EmbeddedEditor()
         preview_->device().gl.DeleteTextures(1, &errorTexture_);
 }
 
-/// Shows the document; the first that is valid also places the camera.
+/// Shows the document. The first that is valid also places the camera, and so does an edit of the camera.
 void EmbeddedEditor::showDocument(uint64_t revision)
 {
     const bool hadScene = preview_->hasScene();
@@ -87,12 +87,13 @@ void EmbeddedEditor::showDocument(uint64_t revision)
         state_->picture.failure =
             (hadScene ? "The picture shows the last valid state. " : "There is no picture yet. ") +
             status.message();
+    const bool hasNewCamera = status.ok() && session_->followPreview() && preview_->hasCamera();
     const bool hasNewStage = shownStage_ != session_->stage().name;
     shownStage_ = session_->stage().name;
     const scene_file::Stage* const stage = scene_file::findStage(shownStage_);
     const bool isInside =
         stage && Json::parse(stage->members).contains("camera"); // other places see it from outside
-    if (preview_->hasScene() && (!hadScene || (hasNewStage && isInside)))
+    if (preview_->hasScene() && (!hadScene || hasNewCamera || (hasNewStage && isInside)))
         takeCamera();
 }
 
@@ -426,6 +427,8 @@ void EmbeddedEditor::answerRequests()
 {
     if (state_->asksWhy)
         answerWhy();
+    if (std::exchange(state_->asksCamera, false) && preview_->hasScene())
+        takeCamera();
 }
 
 void EmbeddedEditor::draw(double seconds, ImVec2 low, ImVec2 size)

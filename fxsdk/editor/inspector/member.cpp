@@ -2,6 +2,7 @@
 
 #include "fxsdk/presets/schema_explainer.h"
 #include "fxsdk/presets/schema_validator.h"
+#include "fxsdk/scene_file/stages.h"
 
 #include <algorithm>
 #include <array>
@@ -124,9 +125,13 @@ Json startValue(const Json& schema)
             elements.push_back(startValue(schema["items"].is_array() ? schema["items"][i] : schema["items"]));
         return elements;
     }
+    case MemberKind::Vector: // a place or angles
+        if (boundOf(schema, "minimum").value_or(0.0) <= 0.0 &&
+            boundOf(schema, "maximum").value_or(0.0) >= 0.0)
+            return Json::array({0, 0, 0});
+        [[fallthrough]];
     case MemberKind::Color:
-    case MemberKind::ColorCurve:
-    case MemberKind::Vector: {
+    case MemberKind::ColorCurve: {
         const Json number = startNumber(schema);
         return Json::array({number, number, number});
     }
@@ -194,11 +199,48 @@ std::vector<std::string> unknownMembersOf(const Document& document, const std::s
     return unknown;
 }
 
+std::optional<Json> impliedValue(const Document& document, const std::string& pointer)
+{
+    static const Json stage = Json::parse(scene_file::stages()[0].members);
+    constexpr std::string_view kPreview = "/preview";
+    if (document.kind() != DocumentKind::Preset || !pointer.starts_with(std::string(kPreview) + "/"))
+        return std::nullopt;
+    const Pointer at(pointer.substr(kPreview.size()));
+    Pointer outermost = at;
+    while (outermost.parent_pointer() != Pointer())
+        outermost.pop_back();
+    const bool isStated = document.json().contains(Pointer(std::string(kPreview) + outermost.to_string()));
+    return !isStated && stage.contains(at) ? std::optional<Json>(stage.at(at)) : std::nullopt;
+}
+
+bool hasValue(const Document& document, const Member& member)
+{
+    return member.isPresent || member.defaultValue || impliedValue(document, member.pointer);
+}
+
+base::Status setMember(Document& io, const std::string& pointer, Json value, uint64_t gesture)
+{
+    Pointer around(pointer);
+    const std::string name = around.back();
+    around.pop_back();
+    if (around.empty() || io.json().contains(around))
+        return io.set(pointer, std::move(value), gesture);
+    const Json* const schema = schemaAt(io.schema(), io.json(), around);
+    const auto implied = impliedValue(io, around.to_string());
+    Json object = implied && implied->is_object()                   ? *implied
+                  : schema && kindOf(*schema) == MemberKind::Object ? startObject(*schema)
+                                                                    : Json::object();
+    object[name] = std::move(value);
+    return io.set(around.to_string(), std::move(object), gesture);
+}
+
 Json valueOf(const Document& document, const Member& member)
 {
     const Pointer at(member.pointer);
     if (document.json().contains(at))
         return document.json().at(at);
+    if (auto implied = impliedValue(document, member.pointer))
+        return *implied;
     return member.schema ? startValue(*member.schema) : Json();
 }
 

@@ -64,8 +64,20 @@ std::optional<Member> memberAt(const Document& document, const std::string& poin
 /// Names of members at `pointer` that the schema does not define.
 std::vector<std::string> unknownMembersOf(const Document& document, const std::string& pointer);
 
-/// Value of a member: that of the document, otherwise the default, otherwise startValue().
+/// Value that an absent member of the preview of a preset has because the object around it is absent, such as
+/// the sun of the stage on which effects stand; empty: none.
+std::optional<Json> impliedValue(const Document& document, const std::string& pointer);
+
+/// Value of a member: that of the document, otherwise that which holds without the member, otherwise
+/// startValue().
 Json valueOf(const Document& document, const Member& member);
+
+/// Whether valueOf() is what holds, not only a value to begin with.
+bool hasValue(const Document& document, const Member& member);
+
+/// Sets a member. An object around it that is absent gets its required members and the values that held
+/// without it, so that one number does not change the others. @return as Document::set()
+base::Status setMember(Document& io, const std::string& pointer, Json value, uint64_t gesture = 0);
 
 /// A valid value for a member without a default, such as the smallest number of its range.
 Json startValue(const Json& schema);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 
 namespace fx::editor {
 
@@ -158,6 +160,53 @@ void editCanvas(PanelState& state, const Canvas& canvas, const Member& member, J
     commit(state, member, std::move(keys), state.gesture);
 }
 
+/// The selected color, as three numbers, as one for all three, and as it is displayed.
+void colorFields(PanelState& state, const Member& member, Json keys)
+{
+    Json& key = keys[state.keys[0]];
+    float color[3];
+    for (size_t c = 0; c < 3; ++c)
+        color[c] = key[1][c].get<float>();
+    Member part = member;
+    part.kind = MemberKind::Number;
+    const float width = ImGui::GetFontSize() * 4.2f;
+    std::optional<NumberEdit> edit;
+    const auto field = [&](const std::string& name, double value, size_t from, size_t to) {
+        if (const auto changed = numberField(state, name, value, part, width)) {
+            edit = changed;
+            for (size_t c = from; c < to; ++c)
+                color[c] = float(limited(part, changed->value).get<double>());
+        }
+        ImGui::SameLine(0.0f, 2.0f);
+    };
+    for (size_t c = 0; c < 3; ++c)
+        field("curve/color/" + std::to_string(c), double(color[c]), c, c + 1);
+    ImGui::TextUnformatted("linear");
+    sameLineIfItFits("all 000000000");
+    ImGui::TextUnformatted("all");
+    ImGui::SameLine(0.0f, 2.0f);
+    const bool isGray = color[0] == color[1] && color[1] == color[2];
+    field("curve/color/all", isGray ? double(color[0]) : std::numeric_limits<double>::quiet_NaN(), 0, 3);
+    ImGui::NewLine();
+    sameLineIfItFits("000000000000000000000 display");
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 13.0f);
+    float shown[3] = {toDisplay(color[0]), toDisplay(color[1]), toDisplay(color[2])};
+    if (ImGui::ColorEdit3("display", shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
+        for (size_t c = 0; c < 3; ++c)
+            color[c] = fromDisplay(shown[c]);
+        edit = NumberEdit{0.0, state.dragOf()};
+    } else
+        (void)state.dragOf();
+    state.mark("curve/display color");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("The same color as values of sRGB");
+    if (!edit)
+        return;
+    for (size_t c = 0; c < 3; ++c)
+        key[1][c] = std::strtod(numberText(double(color[c])).c_str(), nullptr);
+    commit(state, member, std::move(keys), edit->gesture);
+}
+
 /// Time and value of the selected key as numbers.
 void keyFields(PanelState& state, const Member& member, Json keys, bool isColor)
 {
@@ -192,31 +241,7 @@ void keyFields(PanelState& state, const Member& member, Json keys, bool isColor)
         }
         return;
     }
-    float color[3];
-    for (size_t c = 0; c < 3; ++c)
-        color[c] = key[1][c].get<float>();
-    ImGui::SetNextItemWidth(width * 1.9f);
-    const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR;
-    bool isChanged = ImGui::ColorEdit3("linear", color, flags);
-    uint64_t gesture = state.dragOf();
-    state.mark("curve/color");
-    sameLineIfItFits("000000000000000000000 display");
-    ImGui::SetNextItemWidth(width * 1.9f);
-    float shown[3] = {toDisplay(color[0]), toDisplay(color[1]), toDisplay(color[2])};
-    if (ImGui::ColorEdit3("display", shown, flags)) {
-        for (size_t c = 0; c < 3; ++c)
-            color[c] = fromDisplay(shown[c]);
-        isChanged = true;
-    }
-    gesture = std::max(gesture, state.dragOf());
-    state.mark("curve/display color");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("The same color as values of sRGB");
-    if (!isChanged)
-        return;
-    for (size_t c = 0; c < 3; ++c)
-        key[1][c] = std::strtod(numberText(color[c]).c_str(), nullptr);
-    commit(state, member, std::move(keys), gesture);
+    colorFields(state, member, std::move(keys));
 }
 
 void presetButtons(PanelState& state, const Member& member, const Json& keys, bool isColor)

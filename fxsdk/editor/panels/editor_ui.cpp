@@ -108,6 +108,7 @@ void applyStyle(float scale)
 void drawEditor(PanelState& state, ImVec2 low, ImVec2 size)
 {
     state.places.clear();
+    state.closedHeaders.clear();
     const float line = ImGui::GetFontSize();
     const float top = line * 2.3f;
     const float left = std::min(size.x * 0.22f, line * 18.0f);

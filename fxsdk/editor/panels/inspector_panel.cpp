@@ -1,4 +1,5 @@
 #include "fxsdk/editor/inspector/member.h"
+#include "fxsdk/editor/inspector/new_element.h"
 #include "fxsdk/editor/panels/member_field.h"
 #include "fxsdk/editor/panels/panels.h"
 
@@ -13,6 +14,7 @@ namespace {
 const ImVec4 kChanged(1.0f, 0.80f, 0.42f, 1.0f);
 const ImVec4 kDim(0.62f, 0.65f, 0.70f, 1.0f);
 const ImVec4 kError(1.0f, 0.45f, 0.40f, 1.0f);
+constexpr float kUnused = 0.45f; // opacity of a member that would have no effect
 
 bool contains(std::string text, std::string part)
 {
@@ -35,7 +37,8 @@ std::string boundsText(const Member& member)
     return text;
 }
 
-void helpOf(const Member& member)
+/// @param unused why the member would have no effect; empty: it has one
+void helpOf(const Member& member, const std::string& unused = {})
 {
     if (!ImGui::IsItemHovered())
         return;
@@ -43,6 +46,8 @@ void helpOf(const Member& member)
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
     ImGui::TextUnformatted((member.title + " (" + member.name + ")").c_str());
     ImGui::TextUnformatted(member.help.c_str());
+    if (!unused.empty())
+        ImGui::TextColored(kChanged, "%s", unused.c_str());
     if (const std::string bounds = boundsText(member); !bounds.empty())
         ImGui::TextColored(kDim, "%s", bounds.c_str());
     if (member.defaultValue)
@@ -77,17 +82,47 @@ void warnAt(PanelState& state, const Member& member)
         state.session.run(applyRemedy(state.session.document, *finding->remedy));
 }
 
+/// Whether a title is the name of the member in words.
+bool isNamed(const Member& member)
+{
+    std::string title;
+    for (const char c : member.title)
+        if (c != ' ' && c != '-')
+            title += c;
+    return contains(title, member.name) && title.size() == member.name.size();
+}
+
+/// The name in the file beside a title that says something else, where there is room.
+void nameBeside(const Member& member)
+{
+    constexpr float kGap = 6.0f; // [pixel]
+    const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+    const float end = ImGui::GetItemRectMax().x + kGap + ImGui::CalcTextSize(member.name.c_str()).x;
+    if (isNamed(member) || end > right)
+        return;
+    ImGui::SameLine(0.0f, kGap);
+    ImGui::TextDisabled("%s", member.name.c_str());
+}
+
 void leafRow(PanelState& state, const Member& member)
 {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     const bool isChanged = differsFromDefault(state.session.document, member);
+    const auto& unused = state.session.unusedMembers();
+    const auto reason = unused.find(member.pointer);
+    const bool isUnused = reason != unused.end();
+    if (isUnused)
+        ImGui::PushStyleVar(ImGuiStyleVar_Alpha, kUnused);
     ImGui::TextColored(isChanged ? kChanged : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s",
                        member.title.c_str());
-    helpOf(member);
+    helpOf(member, isUnused ? reason->second : std::string());
+    nameBeside(member);
     ImGui::TableNextColumn();
     memberField(state, member);
+    if (isUnused)
+        ImGui::PopStyleVar();
     warnAt(state, member);
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
@@ -126,13 +161,24 @@ void rows(PanelState& state, const std::vector<Member>& members)
 
 void object(PanelState& state, const std::string& pointer, int depth);
 
+void markHeader(PanelState& state, const std::string& pointer, bool isOpen)
+{
+    state.mark(pointer);
+    if (!isOpen)
+        state.closedHeaders.push_back(pointer);
+}
+
 void element(PanelState& state, const Member& member, size_t index, const std::string& array, int depth)
 {
     ImGui::PushID(int(index));
     const bool isObject = member.kind == MemberKind::Object;
-    if (!isObject || ImGui::TreeNodeEx(elementTitle(state.session.document, member.pointer).c_str(),
-                                       ImGuiTreeNodeFlags_DefaultOpen))
-    {
+    state.openIfAsked(member.pointer);
+    const bool isOpen =
+        !isObject || ImGui::TreeNodeEx(elementTitle(state.session.document, member.pointer).c_str(),
+                                       ImGuiTreeNodeFlags_DefaultOpen);
+    if (isObject)
+        markHeader(state, member.pointer, isOpen);
+    if (isOpen) {
         if (button(state, "remove", "remove" + member.pointer))
             state.session.run(state.session.document.erase(array + "/" + std::to_string(index)));
         else if (isObject)
@@ -153,8 +199,9 @@ void group(PanelState& state, const Member& member, int depth)
         return; // in the outliner
     const ImGuiTreeNodeFlags flags =
         member.isPresent ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
+    state.openIfAsked(member.pointer);
     const bool isOpen = ImGui::CollapsingHeader((member.title + "##" + member.pointer).c_str(), flags);
-    state.mark(member.pointer);
+    markHeader(state, member.pointer, isOpen);
     helpOf(member);
     if (!isOpen)
         return;
@@ -166,9 +213,9 @@ void group(PanelState& state, const Member& member, int depth)
         for (const Member& inner : elementsOf(state.session.document, member.pointer))
             element(state, inner, index++, member.pointer, depth);
         if (button(state, ("add##" + member.pointer).c_str(), "add" + member.pointer)) {
-            const Json& items = (*member.schema)["items"];
-            state.session.run(state.session.document.insert(member.pointer, index,
-                                                            startValue(items.is_array() ? items[0] : items)));
+            auto added = newElement(state.session.document, member);
+            state.session.run(added ? state.session.document.insert(member.pointer, index, std::move(*added))
+                                    : added.status());
         }
     }
     ImGui::Unindent(8.0f);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -14,8 +16,10 @@ namespace {
 
 void set(PanelState& state, const Member& member, Json value, uint64_t gesture = 0)
 {
-    state.session.run(state.session.document.set(member.pointer, std::move(value), gesture));
+    state.session.run(setMember(state.session.document, member.pointer, std::move(value), gesture));
 }
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN(); // of a number that nothing states
 
 double numberOf(const Json& value)
 {
@@ -115,7 +119,7 @@ int numbersField(PanelState& state, const Member& member, std::span<double> io, 
 
 void plainNumberField(PanelState& state, const Member& member, const Json& value)
 {
-    std::array<double, 1> numbers{numberOf(value)};
+    std::array<double, 1> numbers{hasValue(state.session.document, member) ? numberOf(value) : kNone};
     uint64_t gesture = 0;
     if (numbersField(state, member, numbers, gesture) >= 0)
         set(state, member, limited(member, numbers[0]), gesture);
@@ -126,11 +130,13 @@ void rangeField(PanelState& state, const Member& member, const Json& value)
     const bool isRange = value.is_object();
     std::array<double, 2> ends{isRange ? numberOf(value.value("min", Json(0))) : numberOf(value),
                                isRange ? numberOf(value.value("max", Json(0))) : numberOf(value)};
+    if (!hasValue(state.session.document, member))
+        ends = {kNone, kNone};
     uint64_t gesture = 0;
     const int changed = numbersField(state, member, ends, gesture);
     if (changed < 0)
         return;
-    if (ends[0] > ends[1])
+    if (!(ends[0] <= ends[1])) // also where the other one is none
         ends[size_t(1 - changed)] = ends[size_t(changed)];
     const Json low = limited(member, ends[0]);
     const Json high = limited(member, ends[1]);
@@ -142,9 +148,14 @@ void vectorField(PanelState& state, const Member& member, const Json& value)
     std::array<double, 3> axes{};
     for (size_t i = 0; i < 3; ++i)
         axes[i] = value.is_array() && i < value.size() ? numberOf(value[i]) : numberOf(value);
+    const std::array<double, 3> start = axes;
+    if (!hasValue(state.session.document, member))
+        axes = {kNone, kNone, kNone};
     uint64_t gesture = 0;
     if (numbersField(state, member, axes, gesture) < 0)
         return;
+    for (size_t i = 0; i < 3; ++i)
+        axes[i] = std::isnan(axes[i]) ? start[i] : axes[i];
     Json array = Json::array();
     for (const double axis : axes)
         array.push_back(limited(member, axis));

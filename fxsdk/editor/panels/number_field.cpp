@@ -31,10 +31,11 @@ std::optional<NumberEdit> typedNumber(PanelState& state, const std::string& name
     const std::string label = "##" + name;
     const ImGuiID id = ImGui::GetID(label.c_str());
     char buffer[256];
-    const std::string text = state.typedField == id ? state.typed : numberText(value);
+    const std::string shown = std::isnan(value) ? std::string() : numberText(value);
+    const std::string text = state.typedField == id ? state.typed : shown;
     std::snprintf(buffer, sizeof buffer, "%s", text.c_str());
     ImGui::SetNextItemWidth(width);
-    ImGui::InputText(label.c_str(), buffer, sizeof buffer, ImGuiInputTextFlags_AutoSelectAll);
+    ImGui::InputTextWithHint(label.c_str(), "none", buffer, sizeof buffer, ImGuiInputTextFlags_AutoSelectAll);
     state.mark(name);
     if (ImGui::IsItemActive()) {
         state.typedField = id;
@@ -70,9 +71,9 @@ std::optional<NumberEdit> numberField(PanelState& state, const std::string& name
         typedNumber(state, name, value, member, std::max(width - handleWidth(width), 30.0f));
     ImGui::SameLine(0.0f, 1.0f);
     ImGui::SetNextItemWidth(handleWidth(width));
-    double dragged = value;
+    double dragged = std::isnan(value) ? std::max(member.minimum.value_or(0.0), 0.0) : value;
     const std::string handle = "##drag " + name;
-    if (ImGui::DragScalar(handle.c_str(), ImGuiDataType_Double, &dragged, float(dragSpeed(value, member)),
+    if (ImGui::DragScalar(handle.c_str(), ImGuiDataType_Double, &dragged, float(dragSpeed(dragged, member)),
                           nullptr, nullptr, "\xC2\xB7", ImGuiSliderFlags_NoInput))
     {
         const uint64_t gesture = state.dragOf();

@@ -17,7 +17,7 @@ struct NumberEdit
     uint64_t gesture; ///< 0: typed
 };
 
-/// Draws a field. @param name unique in its window, and the name of its place
+/// Draws a field. @param value NaN: none @param name unique in its window, and the name of its place
 /// @param width [pixel] @return the new number when it has changed
 std::optional<NumberEdit> numberField(PanelState& state, const std::string& name, double value,
                                       const Member& member, float width);

@@ -1,3 +1,4 @@
+#include "fxsdk/editor/document/emitter_starters.h"
 #include "fxsdk/editor/inspector/member.h"
 #include "fxsdk/editor/panels/panels.h"
 
@@ -109,6 +110,26 @@ void elementButtons(PanelState& state)
     }
 }
 
+/// Emitters that are seen at once.
+void starterItems(PanelState& state)
+{
+    Session& session = state.session;
+    if (session.document.kind() != DocumentKind::Preset)
+        return;
+    for (const EmitterStarter& starter : emitterStarters()) {
+        const bool isChosen =
+            ImGui::Selectable((std::string(starter.name) + ": " + starter.description).c_str());
+        state.mark(std::string("add/starter/") + starter.name);
+        if (!isChosen)
+            continue;
+        const Json& preset = session.document.json();
+        const size_t count = preset.contains("emitters") ? preset["emitters"].size() : 0;
+        session.run(session.document.insert("/emitters", count, starterEmitter(starter, preset)));
+        session.selection = "/emitters/" + std::to_string(count);
+    }
+    ImGui::Separator();
+}
+
 void addMenu(PanelState& state)
 {
     if (button(state, "add ...", "outliner/add"))
@@ -116,6 +137,7 @@ void addMenu(PanelState& state)
     if (!ImGui::BeginPopup("add element"))
         return;
     Session& session = state.session;
+    starterItems(state);
     for (const Member& member : membersOf(session.document, "")) {
         if (member.kind != MemberKind::Array)
             continue;

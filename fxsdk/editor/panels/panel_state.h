@@ -129,8 +129,10 @@ struct PanelState
     RenderState render;
     /// Places of the widgets of this frame by name, for scripts and tests.
     std::map<std::string, Place> places;
-    std::string scrolledTo;             ///< name of a widget that its panel scrolls to; empty: none
-    ImVec2 pictureSize{640.0f, 360.0f}; ///< [pixel] wanted for the next picture
+    std::vector<std::string> closedHeaders; ///< pointers of the headers of this frame that are closed
+    std::string opened;                     ///< name whose headers are opened in this frame; empty: none
+    std::string scrolledTo;                 ///< name of a widget that its panel scrolls to; empty: none
+    ImVec2 pictureSize{640.0f, 360.0f};     ///< [pixel] wanted for the next picture
 
     std::string heldHandle;    ///< name of the handle that is dragged; empty: none
     std::string heldMark;      ///< name of the mark of the timeline that is dragged; empty: none
@@ -145,8 +147,9 @@ struct PanelState
     std::string search;        ///< text of the search over members
     std::string saveAs;        ///< name in the dialog "save as"
     bool wantsClose = false;
-    bool asksWhy = false; ///< the host shall answer "why is nothing visible"
-    std::string why;      ///< the answer
+    bool asksCamera = false; ///< the host shall look through the camera of the document
+    bool asksWhy = false;    ///< the host shall answer "why is nothing visible"
+    std::string why;         ///< the answer
     ShownDifference difference;
     GameLink link;
 
@@ -159,6 +162,15 @@ struct PanelState
         places[name] = place;
         if (name == scrolledTo)
             ImGui::SetScrollHereY();
+    }
+
+    /// Opens the next header or tree node if the widget that a script opens lies in it.
+    void openIfAsked(const std::string& pointer) const
+    {
+        const size_t at = opened.find(pointer);
+        const size_t end = at + pointer.size();
+        if (at != std::string::npos && opened.find('/') == at && (end == opened.size() || opened[end] == '/'))
+            ImGui::SetNextItemOpen(true);
     }
 
     /// Number of the drag of the last widget: the same while it is active.

@@ -149,6 +149,24 @@ void motionPopup(PanelState& state)
     ImGui::EndPopup();
 }
 
+void cameraPopup(PanelState& state)
+{
+    if (!ImGui::BeginPopup("camera popup"))
+        return;
+    closeByEscape();
+    const char* const of = state.session.document.kind() == DocumentKind::Scene ? "scene" : "preview";
+    const auto choose = [&](const std::string& label, const char* name) {
+        const bool isChosen = ImGui::Selectable(label.c_str());
+        state.mark(name);
+        return isChosen;
+    };
+    if (choose(std::string("look through the camera of the ") + of, "camera/look"))
+        state.asksCamera = true;
+    if (choose(std::string("take this view as the camera of the ") + of, "camera/take"))
+        state.session.keepCamera();
+    ImGui::EndPopup();
+}
+
 void errorButtons(PanelState& state)
 {
     ErrorState& error = state.error;
@@ -183,6 +201,10 @@ void viewportBar(PanelState& state)
     if (button(state, "Overlays", "overlays"))
         ImGui::OpenPopup("overlay popup");
     overlayPopup(state);
+    ImGui::SameLine();
+    if (button(state, "Camera", "camera"))
+        ImGui::OpenPopup("camera popup");
+    cameraPopup(state);
     ImGui::SameLine();
     if (button(state, session.comparison.isShown ? "One picture###compare" : "Before | now###compare",
                "compare"))

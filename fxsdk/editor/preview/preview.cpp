@@ -23,8 +23,8 @@ namespace fx::editor {
 
 namespace {
 
-constexpr double kStep = 1.0 / 60.0;                   // [s] of the scene
 constexpr const char* kEdited = "edited-text.fx.json"; // the name by which the context reads an edited text
+constexpr double kStep = 1.0 / 60.0;                   // [s] of the scene
 constexpr float kNear = 0.05f;                         // [m]
 constexpr double kFramedSeconds = 4.0;                 // longest time simulated to place a camera
 
@@ -33,13 +33,29 @@ base::Status statusOf(const fxsdk::Error& error)
     return {base::Code(error.code()), error.what()};
 }
 
+/// The name of the file instead of that by which the context reads its text.
+base::Status loadStatus(const fxsdk::Error& error, const std::string& file)
+{
+    std::string message = error.what();
+    constexpr std::string_view kCall = "fxLoadPresetFile: ", kName = kEdited;
+    if (message.starts_with(kCall))
+        message.erase(0, kCall.size());
+    for (size_t at = message.find(kName); at != std::string::npos; at = message.find(kName, at + file.size()))
+        message.replace(at, kName.size(), file);
+    return {base::Code(error.code()), message};
+}
+
 /// What stage and camera depend on.
-std::string stageKeyOf(const std::string& text, DocumentKind kind)
+std::string stageKeyOf(const std::string& text, DocumentKind kind, MotionKind motion)
 {
     if (kind == DocumentKind::Scene)
         return text;
     const Json preset = Json::parse(text, nullptr, false);
-    return preset.is_object() && preset.contains("preview") ? preset["preview"].dump() : std::string("none");
+    if (!preset.is_object() || !preset.contains("preview"))
+        return "none";
+    // Triggers name events of the emitters.
+    const bool namesEvents = motion == MotionKind::Document && preset["preview"].contains("instance");
+    return namesEvents ? text : preset["preview"].dump();
 }
 
 /// Pointers of the elements of a preset in the order in which they become solvers.
@@ -60,6 +76,14 @@ std::string motionKeyOf(const MotionChoice& motion)
 {
     return std::to_string(int(motion.kind)) + " " + std::to_string(motion.radius) + " " +
            std::to_string(motion.speed) + " ";
+}
+
+/// Local time [s] at which an instance begins: what its preset simulates before its first step.
+double prewarmOf(const std::string& text)
+{
+    const Json preset = Json::parse(text, nullptr, false);
+    const auto member = preset.is_object() ? preset.find("prewarm") : preset.end();
+    return preset.is_object() && member != preset.end() && member->is_number() ? member->get<double>() : 0.0;
 }
 
 } // namespace
@@ -128,9 +152,7 @@ void Preview::closeAsset(void*, const void* data, size_t)
     delete[] static_cast<const char*>(data);
 }
 
-/// Reads stage, camera and instances, and places the camera of a preset without one. Instances stay where
-/// they are at their start, that of a preset where it is at the time of its preview, which its camera shows,
-/// unless another motion is chosen.
+/// Reads stage, camera and instances with the chosen motion, and places the camera of a preset without one.
 base::Result<scene_file::SceneFile> Preview::readScene(const std::string& text, const std::string& name,
                                                        DocumentKind kind, bool& outHasCamera) const
 {
@@ -170,15 +192,17 @@ base::Result<std::vector<FxPresetId>>
 Preview::loadPresets(const std::vector<scene_file::ScenePreset>& presets)
 {
     std::vector<FxPresetId> loaded;
+    std::string name;
     try {
         for (const scene_file::ScenePreset& preset : presets) {
             assetText_ = preset.text;
             assetFolder_ = preset::folderOf(preset.file);
+            name = preset.name;
             loaded.push_back(context_->loadFile(kEdited));
         }
     } catch (const fxsdk::Error& error) {
         unload(loaded);
-        return statusOf(error);
+        return loadStatus(error, name);
     }
     return loaded;
 }
@@ -192,7 +216,7 @@ void Preview::unload(const std::vector<FxPresetId>& presets)
 /// All that can fail comes first, so that stage, presets and instances always belong to one text.
 base::Status Preview::show(const std::string& text, const std::string& name, DocumentKind kind)
 {
-    std::string key = motionKeyOf(motion_) + stageKeyOf(text, kind);
+    std::string key = motionKeyOf(motion_) + stageKeyOf(text, kind, motion_.kind);
     std::optional<scene_file::SceneFile> file; // empty: only the preset differs
     bool hasCamera = hasCamera_;
     if (key != stageKey_ || isFirst_) {
@@ -227,6 +251,9 @@ base::Status Preview::show(const std::string& text, const std::string& name, Doc
     unload(presets_);
     presets_ = std::move(*loaded);
     shown_.assign(file_.instances.size(), {});
+    prewarms_.clear();
+    for (const scene_file::ScenePreset& preset : file_.presets)
+        prewarms_.push_back(prewarmOf(preset.text));
     director_.reset();
     return seek(time_);
 }
@@ -240,7 +267,7 @@ void Preview::create(size_t index)
     shown_[index] = {fxScene_->create(def), -1.0};
 }
 
-/// Seeks one instance. One that has ended by then is not shown.
+/// Seeks one instance. One that has ended by then is not shown. @param seconds since its start
 void Preview::place(size_t index, double seconds)
 {
     Shown& shown = shown_[index];
@@ -249,7 +276,8 @@ void Preview::place(size_t index, double seconds)
             create(index);
             fxScene_->update(kStep);
         }
-        if (fxScene_SeekInstance(fxScene_->get(), *shown.id, seconds) == FX_OK) {
+        const double local = seconds + prewarms_[file_.instances[index].preset];
+        if (fxScene_SeekInstance(fxScene_->get(), *shown.id, local) == FX_OK) {
             shown.at = seconds;
             return;
         }

@@ -60,7 +60,9 @@ public:
     /// Shows another text at the present time. On failure the picture stays as it was.
     /// @param name file of the text, for messages and to find the files that it names
     base::Status show(const std::string& text, const std::string& name, DocumentKind kind);
-    /// Goes to a time, a whole number of steps of 1/60 s. Before its start an instance is not shown.
+    /// Goes to a time, a whole number of steps of 1/60 s. Before its start an instance is not shown. Where
+    /// instances move, are triggered or changed, this takes the steps from the last moment on, or from the
+    /// beginning if the time is earlier.
     base::Status seek(double seconds);
     /// Whether a text has been shown; before, there is nothing to seek and to draw.
     bool hasScene() const { return !isFirst_; }
@@ -80,7 +82,7 @@ public:
 
     /// What overlays show of the last picture.
     OverlayData overlays(const OverlayChoice& choice, const PreviewFrame& frame);
-    /// From the coordinates of a preset to the world; that of the first instance.
+    /// From the coordinates of a preset to the world; that of the first instance at the time of seek().
     EffectPlacement placement() const;
 
     /// GL name of the picture, display-referred RGBA32F, lower row first; 0 before the first picture.
@@ -103,7 +105,7 @@ private:
     struct Shown
     {
         std::optional<FxInstanceId> id;
-        double at = -1.0; ///< [s] local time
+        double at = -1.0; ///< [s] since its start; unused where instances are played
     };
 
     Preview() = default;
@@ -141,6 +143,7 @@ private:
     uint32_t simulationQuality_ = FX_QUALITY_DEFAULT;
     std::vector<FxPresetId> presets_;
     std::vector<Shown> shown_;
+    std::vector<double> prewarms_; ///< [s] of the presets
     MotionChoice motion_;
     /// While instances are played in order; otherwise each one is sought on its own.
     std::unique_ptr<cli::InstanceDirector> director_;

@@ -89,6 +89,8 @@ public:
         if (verb == "click" || verb == "doubleclick" || verb == "rightclick" || verb == "drag" ||
             verb == "at")
             return onWidget(verb, words);
+        if (verb == "open")
+            return open(words);
         if (verb == "shot" || verb == "text")
             return write(verb, words);
         if (verb == "places")
@@ -138,12 +140,11 @@ private:
     base::Status bringIntoView(const std::string& name, Place& outPlace)
     {
         PanelState& state = host_.state();
-        const auto unknown = [&](const char* why) {
-            return base::Status(base::Code::NotFound,
-                                why + (" \"" + name + "\"; the command places lists names"));
+        const auto unknown = [&](const char* why, const std::string& remedy) {
+            return base::Status(base::Code::NotFound, why + (" \"" + name + "\"; ") + remedy);
         };
         if (!state.places.contains(name))
-            return unknown("no widget has the name");
+            return unknown("no widget has the name", placeOf(name));
         if (!state.places[name].isVisible) {
             state.scrolledTo = name;
             const base::Status status = frames(3);
@@ -152,7 +153,37 @@ private:
                 return status;
         }
         outPlace = state.places[name];
-        return outPlace.isVisible ? base::Status() : unknown("the window is too small to show the widget");
+        return outPlace.isVisible
+                   ? base::Status()
+                   : unknown("the window is too small to show the widget", "--height makes it larger");
+    }
+
+    /// Where a widget lies that is not shown: in a closed header, or in another element.
+    std::string placeOf(const std::string& name)
+    {
+        const PanelState& state = host_.state();
+        const size_t slash = std::min(name.find('/'), name.size());
+        const std::string pointer = name.substr(slash);
+        for (const std::string& header : state.closedHeaders)
+            if (pointer.starts_with(header + "/") || (slash > 0 && pointer == header))
+                return "it may lie in the closed header " + header + ": open " + header;
+        const Session& session = host_.session();
+        for (const std::string& element : soloElements(session.document.json(), session.document.schema()))
+            if ((pointer + "/").starts_with(element + "/") && session.selection != element)
+                return "it may belong to " + element + ": click select" + element;
+        return "the command places lists names";
+    }
+
+    /// Opens the headers in which a widget lies, and the widget where it is one; what is open stays so.
+    base::Status open(std::istringstream& words)
+    {
+        PanelState& state = host_.state();
+        std::getline(words >> std::ws, state.opened);
+        const std::string name = state.opened;
+        base::Status status = frames(1);
+        state.opened.clear();
+        Place ignored;
+        return status.ok() ? bringIntoView(name, ignored) : status;
     }
 
     /// Names may have blanks: those of tabs, buttons and choices.
@@ -380,8 +411,15 @@ base::Status runHeadless(std::unique_ptr<Session> session, const HeadlessOptions
         status = runner.measure(options.measuredEdits);
     if (status.ok() && !options.output.empty())
         status = runner.shot(options.output);
-    (*host)->session().close();
-    return status;
+    Session& edited = (*host)->session();
+    const std::string kept = status.ok() ? std::string() : edited.keepForRecovery();
+    if (kept.empty()) {
+        edited.close();
+        return status;
+    }
+    return {status.code(), status.message() + "; the edits that were not saved are kept in " + kept +
+                               ", the next fx edit " + edited.name() +
+                               " offers them (in a script: click recover)"};
 }
 
 } // namespace fx::editor

@@ -5,6 +5,7 @@
 /// "/emitters/0/lifetime/0" (`places` lists them). Panels scroll to widgets that are used.
 ///   frames N              draws N frames
 ///   click NAME            clicks; also doubleclick and rightclick
+///   open NAME             opens the header NAME, or those in which the widget lies; what is open stays so
 ///   drag NAME DX DY       drags from the middle of the widget by so many pixels
 ///   at NAME FX FY         clicks at fractions of the widget's width and height
 ///   type TEXT             types the rest of the line
@@ -41,7 +42,8 @@ struct HeadlessOptions
 };
 
 /// Runs the editor and prints what `places` and measuredEdits ask for.
-/// @return an error names the line of the script
+/// @return an error names the line of the script. Edits that were not saved by then are kept as a recovery
+///         file, which the message names
 base::Status runHeadless(std::unique_ptr<Session> session, const HeadlessOptions& options);
 
 } // namespace fx::editor

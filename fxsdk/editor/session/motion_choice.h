@@ -16,7 +16,7 @@ enum class MotionKind : uint8_t
 
 struct MotionChoice
 {
-    MotionKind kind = MotionKind::Still;
+    MotionKind kind = MotionKind::Document;
     double radius = 2.0; ///< [m] of the circle, > 0
     double speed = 4.0;  ///< [m/s] along the circle, or of the throw, which begins 45 degrees upwards; > 0
 

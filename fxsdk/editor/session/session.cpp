@@ -2,6 +2,8 @@
 
 #include "fxsdk/editor/document/starter.h"
 
+#include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace fx::editor {
@@ -19,6 +21,29 @@ double timelineOf(const Json& preset)
     const double time =
         preset.contains(still) && preset[still].is_number() ? preset[still].get<double>() : 0.0;
     return time > 2.5 ? 2.0 * time : 5.0;
+}
+
+constexpr const char* kTime = "/preview/time";
+
+const char* cameraOf(DocumentKind kind)
+{
+    return kind == DocumentKind::Scene ? "/camera" : "/preview/camera";
+}
+
+/// The value at a pointer; null if there is none.
+Json partOf(const Json& document, const char* pointer)
+{
+    const Json::json_pointer at(pointer);
+    return document.contains(at) ? document.at(at) : Json();
+}
+
+Json roundedOf(const glm::dvec3& place)
+{
+    constexpr double kThousandths = 1e3; // [1/m] as of handles
+    Json rounded = Json::array();
+    for (int i = 0; i < 3; ++i)
+        rounded.push_back(std::round(place[i] * kThousandths) / kThousandths);
+    return rounded;
 }
 
 } // namespace
@@ -45,13 +70,12 @@ Session::Session(Document opened, std::string name, std::filesystem::path recove
     : document(std::move(opened)), name_(std::move(name)), recoveryFolder_(std::move(recovery)),
       autosave_(name_, recoveryFolder_), watch_(document.path()), recovery_(autosave_.recoverable())
 {
-    if (document.kind() == DocumentKind::Scene)
-        motion_.kind = MotionKind::Document;
     playback.end = timelineOf(document.json());
     playback.scrub(0.2 * playback.end);
-    const Json::json_pointer still("/preview/time");
-    if (document.json().contains(still) && document.json().at(still).is_number())
-        playback.scrub(document.json().at(still).get<double>());
+    statedTime_ = partOf(document.json(), kTime);
+    statedCamera_ = partOf(document.json(), cameraOf(document.kind()));
+    if (statedTime_.is_number())
+        playback.scrub(statedTime_.get<double>());
     if (autosave_.isOpenElsewhere())
         message = "Another running editor has unsaved changes of this file.";
     if (recovery_ && *recovery_ == document.text())
@@ -114,6 +138,34 @@ void Session::keepStage()
         run(document.set("/preview", kept["preview"]));
     setStage({});
     exposureEv100.reset();
+}
+
+bool Session::followPreview()
+{
+    Json time = partOf(document.json(), kTime);
+    if (time != statedTime_ && time.is_number()) {
+        if (time.get<double>() > playback.end)
+            playback.end = timelineOf(document.json());
+        playback.scrub(time.get<double>());
+    }
+    statedTime_ = std::move(time);
+    Json stated = partOf(document.json(), cameraOf(document.kind()));
+    const bool hasChanged = stated != statedCamera_;
+    statedCamera_ = std::move(stated);
+    return hasChanged;
+}
+
+void Session::keepCamera()
+{
+    const char* const pointer = cameraOf(document.kind());
+    Json kept = partOf(document.json(), pointer);
+    if (!kept.is_object()) // absent, or what the file states is no camera
+        kept = Json::object();
+    kept.erase("keys");
+    kept["position"] = roundedOf(camera.position());
+    kept["target"] = roundedOf(camera.target());
+    kept["fovYDegrees"] = std::round(100.0 * double(camera.fovYDegrees)) / 100.0;
+    run(document.set(pointer, std::move(kept)));
 }
 
 void Session::run(const base::Status& status)
@@ -191,6 +243,16 @@ const std::vector<DocumentFinding>& Session::findings()
     return findings_;
 }
 
+const std::map<std::string, std::string>& Session::unusedMembers()
+{
+    if (unusedRevision_ != document.revision() || unusedSelection_ != selection) {
+        unused_ = unusedMembersOf(document, selection);
+        unusedRevision_ = document.revision();
+        unusedSelection_ = selection;
+    }
+    return unused_;
+}
+
 void Session::takeTheirs()
 {
     if (!conflict_)
@@ -249,6 +311,20 @@ void Session::update(double seconds)
         if (const base::Status status = autosave_.update(document); !status)
             message = status.message();
     playback.advance(seconds);
+}
+
+void Session::close()
+{
+    if (!recovery_)
+        autosave_.discard();
+}
+
+std::string Session::keepForRecovery()
+{
+    if (!document.isDirty() || recovery_) // what is offered belongs to an earlier session
+        return {};
+    const base::Status status = autosave_.update(document, std::chrono::milliseconds(0));
+    return status.ok() ? autosave_.file().string() : std::string();
 }
 
 } // namespace fx::editor

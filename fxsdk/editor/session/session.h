@@ -15,6 +15,7 @@
 #include "fxsdk/editor/session/stage_choice.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,6 +72,12 @@ public:
     /// Motion of the picture; of a scene at first that of the document.
     const MotionChoice& motion() const { return motion_; }
     void setMotion(const MotionChoice& motion);
+    /// Takes over the time that the document states for its picture, where it has changed since the last
+    /// call.
+    /// @return whether the camera of the document has changed
+    bool followPreview();
+    /// Writes the camera of the picture into the document, as one edit; keys of a camera path go.
+    void keepCamera();
 
     /// Runs a command, keeps its failure as message(), and mends the selection.
     void run(const base::Status& status);
@@ -92,6 +99,10 @@ public:
     /// Errors and warnings of the document; computed when the document has changed.
     const std::vector<DocumentFinding>& findings();
 
+    /// Absent members of the selection that would have no effect, with the reason; computed when document or
+    /// selection have changed.
+    const std::map<std::string, std::string>& unusedMembers();
+
     /// Text of the file that has changed outside while the document is edited; empty: no conflict.
     const std::optional<std::string>& conflict() const { return conflict_; }
     void takeTheirs(); ///< resolves a conflict by the text of the file
@@ -105,8 +116,11 @@ public:
     /// Looks at the file, writes the recovery file, advances the timeline. Call it once a frame.
     /// @param seconds [s] real time since the last call
     void update(double seconds);
-    /// Ends the session: no recovery file is left.
-    void close() { autosave_.discard(); }
+    /// Ends the session: no recovery file of it is left. One that was offered and not answered stays.
+    void close();
+    /// Writes the recovery file now, for an end without saving. @return its path; empty: nothing was unsaved,
+    /// or the file could not be written
+    std::string keepForRecovery();
 
 private:
     Session(Document opened, std::string name, std::filesystem::path recovery);
@@ -118,6 +132,8 @@ private:
     SoloMute soloMute_;
     StageChoice stage_;
     MotionChoice motion_;
+    Json statedTime_;     ///< of the preview, at the last followPreview(); null: none
+    Json statedCamera_;   ///< of the document, likewise
     uint64_t choice_ = 0; ///< changes of solo, mute, stage and motion
     Autosave autosave_;
     FileWatch watch_;
@@ -125,6 +141,9 @@ private:
     std::optional<std::string> recovery_;
     std::vector<DocumentFinding> findings_;
     uint64_t findingsRevision_ = 0;
+    std::map<std::string, std::string> unused_;
+    std::string unusedSelection_; ///< that unused_ belongs to
+    uint64_t unusedRevision_ = 0;
 };
 
 } // namespace fx::editor

@@ -109,8 +109,8 @@ void lintLight(const PresetValue& element, const sim::EmitterDef& emitter)
             glows = glows || part > 0.0f;
     if (emitter.light.given && !glows)
         element.warning("light", isMedium
-                                     ? "sheds none: a medium sheds what \"emissionOverLife\" says, which "
-                                       "is 0; give it a color above 0"
+                                     ? "has no effect: in a medium it stands for \"emissionOverLife\", which "
+                                       "is 0; hot media light their surroundings by themselves: take it out"
                                      : "sheds none: its intensity is 0, and so is the luminance that it "
                                        "would follow; add \"intensity\"");
 }

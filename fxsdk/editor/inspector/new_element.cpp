@@ -1,0 +1,97 @@
+#include "fxsdk/editor/inspector/new_element.h"
+
+#include <algorithm>
+
+namespace fx::editor {
+
+namespace {
+
+using Pointer = Json::json_pointer;
+
+/// The array of a document; null if there is none.
+const Json* arrayAt(const Document& document, const Pointer& at)
+{
+    if (!document.json().contains(at) || !document.json().at(at).is_array())
+        return nullptr;
+    return &document.json().at(at);
+}
+
+/// What is born of an event: particles of another emitter, which has births of its own or waits for events.
+void completeEvent(const Document& document, const Pointer& array, Json& io)
+{
+    const Json* const emitters = arrayAt(document, Pointer("/emitters"));
+    const Json& own = document.json().at(array.parent_pointer());
+    if (emitters)
+        for (const Json& other : *emitters)
+            if (&other != &own && other.is_object() && other.contains("name") && other["name"].is_string() &&
+                !other["name"].get<std::string>().empty() && !other.contains("events"))
+            {
+                io["emit"] = other["name"];
+                return;
+            }
+    io["cue"] = "cue";
+}
+
+/// The first event that waits for the host; empty if there is none.
+std::string hostEventOf(const Document& document)
+{
+    const Json* const emitters = arrayAt(document, Pointer("/emitters"));
+    for (size_t i = 0; emitters && i < emitters->size(); ++i)
+        if (const Json* const events = arrayAt(document, Pointer("/emitters") / i / "events"))
+            for (const Json& event : *events)
+                if (event.is_object() && event.value("on", Json()) == "host" && event.contains("name") &&
+                    event["name"].is_string())
+                    return event["name"].get<std::string>();
+    return {};
+}
+
+/// Keys of an instance have places or angles, those of a camera both members that it requires.
+void completeFirst(const Document& document, const Pointer& array, Json& io)
+{
+    const Json& around = document.json().contains(array.parent_pointer())
+                             ? document.json().at(array.parent_pointer())
+                             : Json::object();
+    for (const char* member : {"position", "target"})
+        if (around.is_object() && around.contains(member))
+            io[member] = around[member];
+    if (!io.contains("position"))
+        io["position"] = Json::array({0, 0, 0});
+}
+
+} // namespace
+
+base::Result<Json> newElement(const Document& document, const Member& array)
+{
+    const Json& items = (*array.schema)["items"];
+    const Json& schema = items.is_array() ? items[0] : items;
+    const Pointer at(array.pointer);
+    const Json* const present = arrayAt(document, at);
+    const bool isTimed = schema.contains("properties") && schema["properties"].contains("time");
+    if (isTimed && present && !present->empty() && present->back().is_object() &&
+        present->back().value("time", Json()).is_number())
+    {
+        Json element = present->back();
+        const double latest = schema["properties"]["time"].value("maximum", 86400.0);
+        element["time"] = std::min(element["time"].get<double>() + 1.0, latest);
+        return element;
+    }
+    Json element = startValue(schema);
+    if (isTimed)
+        element["time"] = schema["properties"]["time"].value("minimum", 0.0);
+    if (array.name == "keys" && isTimed)
+        completeFirst(document, at, element);
+    if (array.name == "events" && element.is_object() && document.json().contains(at.parent_pointer()))
+        completeEvent(document, at, element);
+    if (array.name == "triggers") {
+        const std::string name = hostEventOf(document);
+        if (name.empty())
+            return base::Status(base::Code::InvalidArgument,
+                                array.pointer +
+                                    ": nothing listens to a trigger; give an emitter an event with "
+                                    "\"on\": \"host\" and a name first");
+        element["name"] = name;
+    }
+    return element;
+}
+
+} // namespace fx::editor
