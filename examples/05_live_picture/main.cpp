@@ -10,11 +10,14 @@
 #include "fxsdk/fxsdk.h"
 #include "offscreen_gl.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -124,6 +127,7 @@ void run(const Options& options)
     if (!options.link.empty())                                 // link
         checkLink(fxCreateLiveLink(context, &linkDef, &link)); // link
     const FxFrameDef frame = camera(picture);
+    auto next = std::chrono::steady_clock::now();
     for (long i = 0; options.frames == 0 || i < options.frames; ++i) {
         if (link)                                          // link
             checkLink(fxLiveLink_Update(link, &scene, 1)); // link
@@ -131,6 +135,10 @@ void run(const Options& options)
         picture.clear(kDusk);
         check(fxView_Render(view, &frame));
         show(picture, options.output);
+        next += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+            std::chrono::duration<double>(kStep));
+        next = std::max(next, std::chrono::steady_clock::now()); // a slow frame is not made up for
+        std::this_thread::sleep_until(next);
     }
     fxDestroyLiveLink(link); // link
     check(fxDestroyContext(context));

@@ -37,7 +37,7 @@ const std::vector<uint8_t> kFrame(4 * 2 * 3, 9);
 class FfmpegPipeTest : public ::testing::Test
 {
 protected:
-    void SetUp() override { std::signal(SIGPIPE, SIG_IGN); } // as fx does
+    void SetUp() override { std::signal(SIGPIPE, SIG_DFL); } // as in a game
     TemporaryFolder programs;
     TemporaryFolder folder;
     std::string path = programs.path().string() + ":/usr/bin:/bin";

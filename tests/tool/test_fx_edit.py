@@ -320,6 +320,9 @@ key enter
 
     def test_an_effect_moves_along_a_circle_in_the_picture_alone(self):
         outcome = self.small("""
+click overlays
+click overlay/shapes
+key escape
 time 1
 places
 shot {folder}/still.png

@@ -10,6 +10,7 @@
 #include <spawn.h>
 #include <sstream>
 #include <string>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
@@ -104,8 +105,9 @@ base::Status FfmpegPipe::start(const std::filesystem::path& target, int width, i
                 "MP4 needs the ffmpeg program, which is not installed (apt-get install ffmpeg); "
                 "or write a sequence: -o name.%04d.png"};
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return ioError("cannot open a pipe to ffmpeg");
+    // A socket, since writing to the pipe of a program that has ended kills games that do not ignore SIGPIPE.
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+        return ioError("cannot connect to ffmpeg");
     target_ = target;
     temporary_ = temporaryNameFor(target);
     enteredFile_ = EndsWithProgram(temporary_.string());
@@ -126,7 +128,7 @@ base::Status FfmpegPipe::start(const std::filesystem::path& target, int width, i
 base::Status FfmpegPipe::write(std::span<const uint8_t> rgb)
 {
     while (!rgb.empty()) {
-        const ssize_t written = ::write(input_, rgb.data(), rgb.size());
+        const ssize_t written = send(input_, rgb.data(), rgb.size(), MSG_NOSIGNAL);
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)

@@ -44,7 +44,7 @@ private:
     std::filesystem::path temporary_;
     pid_t process_ = -1;
     EndsWithProgram enteredFile_, enteredProcess_;
-    int input_ = -1; ///< file descriptor of the pipe's end to which frames are written
+    int input_ = -1; ///< file descriptor of the socket to which frames are written
 };
 
 } // namespace fx::cli

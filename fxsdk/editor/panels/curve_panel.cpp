@@ -144,6 +144,8 @@ void editCanvas(PanelState& state, const Canvas& canvas, const Member& member, J
                 state.keys.clear();
             state.keys.push_back(hit);
         }
+        state.grabbedKey = hit;
+        return; // a click that moves nothing is no edit
     }
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
     if (!ImGui::IsItemActive() || state.keys.empty() || (moved.x == 0.0f && moved.y == 0.0f) ||
@@ -153,7 +155,8 @@ void editCanvas(PanelState& state, const Canvas& canvas, const Member& member, J
     move.time = double((mouse.x - state.draggedFrom.x) / canvas.size.x);
     move.value = -double((mouse.y - state.draggedFrom.y) / canvas.size.y) * (canvas.highest - canvas.lowest);
     if (ImGui::GetIO().KeyCtrl)
-        move = snapped(state.draggedKeys[state.keys.front()], move, canvas.highest - canvas.lowest);
+        move = snapped(state.draggedKeys[std::min(state.grabbedKey, state.draggedKeys.size() - 1)], move,
+                       canvas.highest - canvas.lowest);
     keys = state.draggedKeys; // the way from the beginning of the drag, so that limits do not add up
     moveKeys(keys, state.keys, move.time, move.value, member.minimum.value_or(-1e9),
              member.maximum.value_or(1e9));
@@ -193,7 +196,8 @@ void colorFields(PanelState& state, const Member& member, Json keys)
     float shown[3] = {toDisplay(color[0]), toDisplay(color[1]), toDisplay(color[2])};
     if (ImGui::ColorEdit3("display", shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
         for (size_t c = 0; c < 3; ++c)
-            color[c] = fromDisplay(shown[c]);
+            if (shown[c] != toDisplay(color[c])) // the others would change by their rounding
+                color[c] = fromDisplay(shown[c]);
         edit = NumberEdit{0.0, state.dragOf()};
     } else
         (void)state.dragOf();

@@ -142,6 +142,7 @@ struct PanelState
     uint64_t gesture = 0;      ///< number of the last drag
     std::vector<size_t> keys;  ///< selected keys of the curve
     Json draggedKeys;          ///< of the curve when the drag began
+    size_t grabbedKey = 0;     ///< key under the mouse when the drag began
     ImVec2 draggedFrom;        ///< [pixel] where the drag began
     double curveHighest = 1.0; ///< upper end of the scale of the curve
     std::string search;        ///< text of the search over members

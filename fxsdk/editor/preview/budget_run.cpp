@@ -38,7 +38,7 @@ base::Result<std::unique_ptr<BudgetRun>> BudgetRun::create(const render::GlLoade
 }
 
 BudgetRun::BudgetRun(std::unique_ptr<Preview> preview, BudgetSubject subject)
-    : preview_(std::move(preview)), subject_(std::move(subject)),
+    : device_(preview->sharedDevice()), preview_(std::move(preview)), subject_(std::move(subject)),
       pieces_((subject_.elements.empty() ? 0 : 1 + subject_.elements.size()) + kLevels.size() + kMoments)
 {
     preview_->setMotion(subject_.motion);
@@ -50,7 +50,7 @@ BudgetRun::BudgetRun(std::unique_ptr<Preview> preview, BudgetSubject subject)
 BudgetRun::~BudgetRun()
 {
     for (const QualityCost& quality : report_.qualities)
-        preview_->device().gl.DeleteTextures(1, &quality.texture);
+        device_->gl.DeleteTextures(1, &quality.texture);
 }
 
 base::Status BudgetRun::step()
@@ -59,6 +59,8 @@ base::Status BudgetRun::step()
         return {};
     const base::Status status = measure(next_);
     next_ = status.ok() ? next_ + 1 : pieces_;
+    if (isDone())
+        preview_.reset();
     return status;
 }
 

@@ -55,7 +55,8 @@ private:
     base::Status measureQuality(size_t level);
     base::Status measureMoment(size_t moment);
 
-    std::unique_ptr<Preview> preview_;
+    std::shared_ptr<render::GlDevice> device_; ///< of the textures of the report
+    std::unique_ptr<Preview> preview_;         ///< until the run is done
     BudgetSubject subject_;
     BudgetReport report_;
     double without_ = 0.0; ///< [ms] of drawing no element

@@ -274,7 +274,7 @@ void Preview::place(size_t index, double seconds)
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!shown.id) {
             create(index);
-            fxScene_->update(kStep);
+            (void)step(); // without a director it only throws
         }
         const double local = seconds + prewarms_[file_.instances[index].preset];
         if (fxScene_SeekInstance(fxScene_->get(), *shown.id, local) == FX_OK) {
@@ -310,13 +310,23 @@ base::Status Preview::seekPlayed(double seconds)
     const int64_t target = std::llround(seconds / kStep) + 1; // the picture is between the last two steps
     if (!director_ || step_ > target)
         restart();
-    constexpr base::Ticks kTicks = base::kTicksPerSecond / 60;
-    for (; step_ < target; ++step_) {
+    while (step_ < target)
+        if (base::Status status = step(); !status)
+            return status;
+    return {};
+}
+
+/// Takes one step of the scene.
+base::Status Preview::step()
+{
+    if (director_) {
+        constexpr base::Ticks kTicks = base::kTicksPerSecond / 60;
         const base::Ticks from = step_ * kTicks;
         if (base::Status status = director_->beforeStep(fxScene_->get(), from, from + kTicks); !status)
             return status;
-        fxScene_->update(kStep);
     }
+    fxScene_->update(kStep);
+    ++step_;
     return {};
 }
 

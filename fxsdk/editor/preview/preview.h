@@ -99,6 +99,8 @@ public:
     std::map<std::string, uint32_t> elementCounts() const;
     FxViewStatistics statistics() { return view_->statistics(); }
     render::GlDevice& device() { return *device_; }
+    /// The same, for what outlives the preview.
+    std::shared_ptr<render::GlDevice> sharedDevice() const { return device_; }
 
 private:
     /// An instance of the file, and the one of the scene that shows it.
@@ -120,6 +122,7 @@ private:
     std::unique_ptr<fxsdk::Scene> newScene() const;
     base::Status seekPlayed(double seconds);
     void restart();
+    base::Status step();
     static render::CameraView cameraOf(const PreviewFrame& frame);
     static FxFrameDef frameOf(const render::CameraView& camera, const PreviewFrame& frame);
     base::Status renderStages(const PreviewFrame& frame, StageTimes* outTimes);
@@ -129,7 +132,7 @@ private:
     static const void* openAsset(void* user, const char* name, size_t* outSize);
     static void closeAsset(void* user, const void* data, size_t size);
 
-    std::unique_ptr<render::GlDevice> device_;
+    std::shared_ptr<render::GlDevice> device_;
     std::unique_ptr<render::StageRenderer> stage_;
     cli::LitStage lit_;
     std::unique_ptr<fxsdk::Context> context_;

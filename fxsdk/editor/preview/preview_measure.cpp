@@ -13,8 +13,6 @@ namespace fx::editor {
 
 namespace {
 
-constexpr double kStep = 1.0 / 60.0; // [s] of the scene
-
 base::Status statusOf(const fxsdk::Error& error)
 {
     return {base::Code(error.code()), error.what()};
@@ -39,7 +37,8 @@ base::Status Preview::measureStep(double& outMilliseconds)
     try {
         for (double& lap : laps) {
             const auto start = std::chrono::steady_clock::now();
-            fxScene_->update(kStep);
+            if (base::Status status = step(); !status)
+                return status;
             lap = millisecondsSince(start);
         }
     } catch (const fxsdk::Error& error) {
@@ -48,7 +47,6 @@ base::Status Preview::measureStep(double& outMilliseconds)
     outMilliseconds = medianOf(laps);
     for (Shown& shown : shown_)
         shown.at = -1.0; // it is elsewhere now
-    director_.reset();
     return {};
 }
 

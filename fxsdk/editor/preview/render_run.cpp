@@ -2,6 +2,7 @@
 
 #include "fxsdk/cli/scene/picture.h"
 #include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/editor/preview/instance_motion.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/image/image.h"
 
@@ -14,7 +15,7 @@ namespace fx::editor {
 
 namespace {
 
-constexpr double kStepsPerSecond = 60.0; // of times that can be shown
+constexpr double kStepsPerSecond = 60.0; // of effects that are played
 
 /// One file for a picture; otherwise a file for each frame, or a video.
 base::Result<cli::OutputTarget> targetOf(const RenderRequest& request)
@@ -53,6 +54,8 @@ base::Result<std::unique_ptr<RenderRun>> RenderRun::create(const render::GlLoade
     auto target = targetOf(subject.request);
     if (!target)
         return target.status();
+    if (base::Status status = cli::checkTarget(target->frame(0)); !status)
+        return status;
     auto preview = Preview::create(loader);
     if (!preview)
         return preview.status();
@@ -104,8 +107,10 @@ base::Status RenderRun::writeFrame()
 {
     const bool isTimeline =
         subject_.request.kind == RenderKind::Sequence || subject_.request.kind == RenderKind::Video;
-    const double time = isTimeline ? double(next_) / subject_.request.framesPerSecond : subject_.time;
-    base::Status status = preview_->seek(std::round(time * kStepsPerSecond) / kStepsPerSecond);
+    double time = isTimeline ? double(next_) / subject_.request.framesPerSecond : subject_.time;
+    if (isPlayed(preview_->scene())) // in steps
+        time = std::round(time * kStepsPerSecond) / kStepsPerSecond;
+    base::Status status = preview_->seek(time);
     const PreviewFrame frame = frameAt(next_);
     if (status.ok())
         status = preview_->render(frame);

@@ -82,11 +82,12 @@ public:
             return {};
         const bool isGas = element_.starts_with("/gas"), isFragments = element_.starts_with("/fragments");
         const glm::dvec3 center = vectorOf(element, "position", glm::dvec3(0.0));
+        list(element, "collisions", element_ + "/", &Builder::obstacle);
         const bool isEmitter = element_.starts_with("/emitters/");
         const bool isInstance = document_.kind() == DocumentKind::Scene;
         if (isInstance ? !isMoved(element)
                        : isGas || isEmitter || isFragments || element.contains("position"))
-            position(element_ + "/position", center, glm::dvec3(0.0)); // first: others win at the same place
+            position(element_ + "/position", center, glm::dvec3(0.0)); // the last at a place is grabbed
         if (isEmitter)
             spawnShape(element, center);
         else
@@ -96,7 +97,6 @@ public:
                  memberOf(element, "originRadius", 0.2));
         if (const auto forces = element.find("forces"); forces != element.end() && forces->is_object())
             fields(*forces);
-        list(element, "collisions", element_ + "/", &Builder::obstacle);
         return std::move(wires_);
     }
 
