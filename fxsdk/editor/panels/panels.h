@@ -44,5 +44,6 @@ bool button(PanelState& state, const char* label, const std::string& name);
 
 /// Puts the next button into the line of the last one if there is room for its label.
 void sameLineIfItFits(const char* label);
+void sameLineIfItFits(float width); ///< @param width [pixel] of the next widgets
 
 } // namespace fx::editor

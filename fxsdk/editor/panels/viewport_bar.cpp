@@ -213,7 +213,9 @@ void viewportBar(PanelState& state)
     if (button(state, "Motion", "motion"))
         ImGui::OpenPopup("motion popup");
     motionPopup(state);
-    sameLineIfItFits("Error");
+    const bool isAlone = !state.error.isRunning && state.error.texture == 0;
+    sameLineIfItFits(ImGui::GetFontSize() *
+                     (isAlone ? 3.5f : 9.0f)); // with progress and "cancel", or with "shown"
     errorButtons(state);
 }
 
