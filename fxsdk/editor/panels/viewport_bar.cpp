@@ -213,9 +213,8 @@ void viewportBar(PanelState& state)
     if (button(state, "Motion", "motion"))
         ImGui::OpenPopup("motion popup");
     motionPopup(state);
-    const bool isAlone = !state.error.isRunning && state.error.texture == 0;
     sameLineIfItFits(ImGui::GetFontSize() *
-                     (isAlone ? 3.5f : 9.0f)); // with progress and "cancel", or with "shown"
+                     9.0f); // room for progress and "cancel": the picture keeps its size
     errorButtons(state);
 }
 
