@@ -50,6 +50,7 @@ WARNED = [
     preset(sprite(frames="per-second", texture="library:smoke.png", tileColumns=2)),
     preset(sprite(stretch=0.1)),
     preset(emitter(light={})),
+    preset(emitter(light={}, appearance={"kind": "sprite", "luminance": 0})),
     preset(emitter(appearance={"kind": "none"})),
     preset(sprite(), scattering="network"),
     preset(scattering="network"),

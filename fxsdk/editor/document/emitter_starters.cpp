@@ -44,20 +44,20 @@ constexpr auto kStarters = std::to_array<EmitterStarter>({
     {"sparks", "glowing metal that flies, falls and bounces", R"({
   "layer": "fire", "maxParticles": 480, "shape": "cone", "position": [0, 0.3, 0], "size": 0.02, "angleDegrees": 30,
   "emission": {"rate": 300}, "lifetime": {"min": 0.5, "max": 1.5}, "speed": {"min": 2, "max": 7},
-  "radius": {"min": 0.003, "max": 0.007},
+  "radius": {"min": 0.004, "max": 0.009},
   "forces": {"gravity": 1, "drag": 1.1, "bounce": 0.4, "friction": 0.35},
   "opacityOverLife": {"keys": [[0, 1], [0.6, 0.8], [1, 0]]}, "light": {"intensity": 0.5, "merged": true},
   "appearance": {"kind": "sprite", "blend": "additive", "order": "none", "alignment": "velocity", "stretch": 0.0166667, "lit": 0,
-    "luminance": 14000, "brightness": {"min": 0.08, "max": 1},
-    "colorOverLife": {"keys": [[0, [1, 0.78, 0.42]], [0.25, [1, 0.55, 0.2]], [0.6, [0.8, 0.28, 0.06]], [1, [0.4, 0.08, 0.01]]]}}
+    "luminance": 60000, "brightness": {"min": 0.2, "max": 1},
+    "colorOverLife": {"keys": [[0, [1, 0.5, 0.14]], [0.25, [1, 0.36, 0.07]], [0.6, [0.8, 0.2, 0.03]], [1, [0.4, 0.06, 0.005]]]}}
 })"},
     {"dust", "dust that is stirred up and drifts off", R"({
   "layer": "dust", "maxParticles": 240, "shape": "disc", "position": [0, 0.1, 0], "size": 0.6,
   "emission": {"rate": 40}, "lifetime": {"min": 2, "max": 5}, "speed": {"min": 0.3, "max": 1.2},
-  "radius": {"min": 0.15, "max": 0.4}, "opticalDepth": {"min": 0.8, "max": 2},
+  "radius": {"min": 0.15, "max": 0.4}, "opticalDepth": {"min": 2, "max": 5},
   "forces": {"gravity": 0.02, "drag": 1.5, "curlStrength": 0.6, "curlScale": 1.8, "curlRate": 0.2, "curlOctaves": 2},
   "sizeOverLife": {"keys": [[0, 0.6], [0.15, 1.4], [1, 2.5]]}, "opacityOverLife": {"keys": [[0, 0], [0.1, 1], [0.4, 0.7], [1, 0]]},
-  "albedoOverLife": [0.89, 0.83, 0.74], "detailAmount": 0.6, "detailScale": 0.9,
+  "albedoOverLife": [0.9, 0.82, 0.7], "detailAmount": 0.6, "detailScale": 0.9,
   "detail": {"material": "dust", "billowSize": 1.5, "crispness": 0.85, "raggedness": 1, "softening": 0.35}, "anisotropy": 0.68
 })"},
 });
