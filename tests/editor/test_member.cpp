@@ -1,3 +1,4 @@
+#include "fxsdk/editor/document/document_findings.h"
 #include "fxsdk/editor/inspector/member.h"
 #include "fxsdk/editor/inspector/new_element.h"
 
@@ -96,6 +97,43 @@ TEST(NewElement, isLaterThanTheLastAndValid)
         document.set("/emitters/0/events", Json::array({{{"on", "host"}, {"name", "go"}, {"cue", "c"}}}))
             .ok());
     EXPECT_EQ((*newElement(document, *triggers))["name"], "go");
+}
+
+/// Adds an element twice to each array below an object, and expects no error.
+void addToArrays(Document& io, const std::string& pointer, size_t& ioArrays)
+{
+    for (const Member& member : membersOf(io, pointer)) {
+        if (member.kind == MemberKind::Object)
+            addToArrays(io, member.pointer, ioArrays);
+        const bool needsFile = member.name == "vectorFields"; // which nobody can guess
+        if (member.kind != MemberKind::Array || needsFile)
+            continue;
+        const size_t done = io.history().done();
+        for (size_t added = 0; added < 2; ++added) {
+            const base::Status status = addElement(io, member);
+            if (!status) { // it says what it needs first, or that there is no room
+                EXPECT_NE(status.message().find(member.pointer), std::string::npos) << status.message();
+                continue;
+            }
+            for (const DocumentFinding& finding : findingsOf(io))
+                if (!finding.diagnostic.warning)
+                    ADD_FAILURE() << toString(finding.diagnostic) << "\n" << io.json().dump();
+        }
+        ++ioArrays;
+        while (io.history().done() > done)
+            io.undo();
+    }
+}
+
+TEST(NewElement, makesNoErrors)
+{
+    Document document = documentOf(R"({"version": 1, "emitters": [{"name": "a", "emission": {"rate": 5}},
+        {"name": "b", "emission": {"rate": 5}}],
+        "preview": {"camera": {"position": [0, 1, 6], "target": [0, 1, 0]}, "instance": {}}})");
+    size_t arrays = 0;
+    addToArrays(document, "/emitters/0", arrays);
+    addToArrays(document, "/preview", arrays);
+    EXPECT_GT(arrays, 6u);
 }
 
 TEST(Member, unknownMembersAreListed)

@@ -75,6 +75,13 @@ base::Result<Json> newElement(const Document& document, const Member& array)
         element["time"] = std::min(element["time"].get<double>() + 1.0, latest);
         return element;
     }
+    if (schema.value("x-kind", std::string()) == "vector" && present && !present->empty() &&
+        present->back().is_array() && present->back().size() == 3 && present->back()[1].is_number())
+    {
+        Json place = present->back();
+        place[1] = place[1].get<double>() + 1.0; // beside the last one
+        return place;
+    }
     Json element = startValue(schema);
     if (isTimed)
         element["time"] = schema["properties"]["time"].value("minimum", 0.0);
@@ -92,6 +99,28 @@ base::Result<Json> newElement(const Document& document, const Member& array)
         element["name"] = name;
     }
     return element;
+}
+
+base::Status addElement(Document& io, const Member& array)
+{
+    const Json* const present = arrayAt(io, Pointer(array.pointer));
+    const size_t count = present ? present->size() : 0;
+    const size_t fewest = array.schema->value("minItems", size_t(0));
+    const size_t most = array.schema->value("maxItems", count + 1);
+    if (count + 1 > most)
+        return {base::Code::InvalidArgument,
+                array.pointer + ": it has " + std::to_string(count) + " elements, and no more are allowed"};
+    Document probe = io;
+    for (size_t size = count; size == count || size < fewest; ++size) {
+        auto element = newElement(probe, array);
+        if (!element)
+            return element.status();
+        if (size + 1 >= fewest && size == count)
+            return io.insert(array.pointer, count, std::move(*element));
+        if (base::Status status = probe.insert(array.pointer, size, std::move(*element)); !status)
+            return status;
+    }
+    return setMember(io, array.pointer, probe.json().at(Pointer(array.pointer)));
 }
 
 } // namespace fx::editor

@@ -13,4 +13,8 @@ namespace fx::editor {
 /// @return InvalidArgument if the element needs something that the document does not have, with the remedy
 base::Result<Json> newElement(const Document& document, const Member& array);
 
+/// Adds a new last element as one edit; where the array needs more of them, as many as it needs.
+/// @return as newElement(), also if the array has no room
+base::Status addElement(Document& io, const Member& array);
+
 } // namespace fx::editor

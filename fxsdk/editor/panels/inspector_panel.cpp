@@ -212,11 +212,8 @@ void group(PanelState& state, const Member& member, int depth)
         size_t index = 0;
         for (const Member& inner : elementsOf(state.session.document, member.pointer))
             element(state, inner, index++, member.pointer, depth);
-        if (button(state, ("add##" + member.pointer).c_str(), "add" + member.pointer)) {
-            auto added = newElement(state.session.document, member);
-            state.session.run(added ? state.session.document.insert(member.pointer, index, std::move(*added))
-                                    : added.status());
-        }
+        if (button(state, ("add##" + member.pointer).c_str(), "add" + member.pointer))
+            state.session.run(addElement(state.session.document, member));
     }
     ImGui::Unindent(8.0f);
 }
