@@ -443,13 +443,8 @@ text {folder}/undone.fx.json
         self.assertEqual(self.read("undone.fx.json"), SMALL)
 
     def test_open_opens_what_is_closed_and_leaves_what_is_open(self):
-        outcome = self.small("""
-open /emitters/0/trail
-open /emitters/0/trail
-open /emitters/0/forces
-click /emitters/0/trail/lifetime
-places
-""")
+        trail = "/emitters/0/trail"
+        outcome = self.small(f"open {trail}\nopen {trail}\nopen /emitters/0/forces\nclick {trail}/lifetime\nplaces\n")
         self.assertRegex(outcome.out, r"(?m)^/emitters/0/trail/lifetime ")
 
     def test_a_widget_in_a_closed_header_is_named_with_the_header(self):
@@ -525,13 +520,7 @@ text {folder}/added.fx.json
             self.assertNotRegex(places, r"(?m)^/emitters/0/radius/0 ")
 
     def test_an_emitter_to_begin_with_is_added_with_a_name_of_its_own(self):
-        self.small("""
-click outliner/add
-click add/starter/flame
-click outliner/add
-click add/starter/flame
-text {folder}/added.fx.json
-""")
+        self.small(2 * "click outliner/add\nclick add/starter/flame\n" + "text {folder}/added.fx.json\n")
         emitters = json.loads(self.read("added.fx.json"))["emitters"]
         self.assertEqual([emitter["name"] for emitter in emitters], ["balls", "flame", "flame 2"])
 
