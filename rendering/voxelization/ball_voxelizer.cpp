@@ -21,9 +21,9 @@ namespace {
 constexpr double kSummedSamples = 32.0; // per radius, up to which the weights are summed one by one
 constexpr uint32_t kMinBalls = 256;     // of a task
 constexpr int kOpacitySteps = 32;       // of the integral over the disc of a ball
-constexpr int kOwnSamples = 16;         // of a ball along an axis
+constexpr double kReach = 2.0;          // [voxel] from the middle of a ball, of the voxels around it
 constexpr double kWholeShare = 0.999;   // from which a ball counts as seen in voxels as it is
-constexpr double kLeastDepth = 1e-9;    // of others around a ball
+constexpr double kLeastOthers = 1e-5;   // of the density of a ball, that of others around it; sums are floats
 
 /// Of a ball over its disc: formula widened-ball (1) with s = q^2.
 double meanOpacity(double depth)
@@ -36,23 +36,31 @@ double meanOpacity(double depth)
     return sum / kOpacitySteps;
 }
 
-/// In the middle of a ball between its voxels, over sigma / h^3.
-double ownDensity(const glm::dvec3& center, double radius)
+/// (3) between voxels in the middle of a ball, over sigma / h^3.
+double ownDensity(const glm::dvec3& center, double radius, double normalization)
 {
-    double density = 1.0;
+    const double n = samplesAlongVoxel(radius);
+    const int last = int(std::ceil(std::min(radius, kReach) * n));
+    std::array<std::vector<double>, 3> tents; // of the two voxels around the middle, by sample
     for (int axis = 0; axis < 3; ++axis) {
         const double above = center[axis] - std::floor(center[axis]);
-        double sum = 0.0, weights = 0.0;
-        for (int i = 0; i < kOwnSamples; ++i) {
-            const double x = (2.0 * i + 1.0) / kOwnSamples - 1.0, place = above + radius * x;
-            const double weight = (1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x); // (2) along one axis
-            sum += weight * ((1.0 - above) * std::max(1.0 - std::abs(place), 0.0) +
-                             above * std::max(1.0 - std::abs(place - 1.0), 0.0));
-            weights += weight;
+        for (int a = -last; a < last; ++a) {
+            const double place = above + (a + 0.5) / n; // (1)
+            tents[size_t(axis)].push_back((1.0 - above) * std::max(1.0 - std::abs(place), 0.0) +
+                                          above * std::max(1.0 - std::abs(place - 1.0), 0.0));
         }
-        density *= sum / weights;
     }
-    return density;
+    const auto squareOf = [&](int a) { return (a + 0.5) * (a + 0.5) / (n * n * radius * radius); };
+    double sum = 0.0;
+    for (int x = -last; x < last; ++x)
+        for (int y = -last; y < last; ++y) {
+            const double tent = tents[0][size_t(x + last)] * tents[1][size_t(y + last)];
+            for (int z = -last; z < last && tent > 0.0; ++z) {
+                const double q = std::max(1.0 - squareOf(x) - squareOf(y) - squareOf(z), 0.0);
+                sum += q * q * tent * tents[2][size_t(z + last)]; // (2)
+            }
+        }
+    return normalization * sum;
 }
 
 /// Sums over the balls of a block.
@@ -189,19 +197,20 @@ std::vector<float> BallVoxelizer::densities(std::span<const double> factors) con
 {
     std::vector<float> out(plan_.voxels());
     tasks_.parallelFor(uint32_t(plan_.blocks().size()), 1, [&](uint32_t begin, uint32_t end) {
+        BlockDetail detail(factors.empty() ? detail_ : nullptr, plan_.voxelSize());
         for (uint32_t b = begin; b < end; ++b)
-            fillDensity(b, factors, std::span(out).subspan(b * size_t(kBlockVoxels), kBlockVoxels));
+            fillDensity(b, factors, detail, std::span(out).subspan(b * size_t(kBlockVoxels), kBlockVoxels));
     });
     return out;
 }
 
-void BallVoxelizer::fillDensity(size_t block, std::span<const double> factors, std::span<float> out) const
+void BallVoxelizer::fillDensity(size_t block, std::span<const double> factors, BlockDetail& detail,
+                                std::span<float> out) const
 {
     const auto weights = std::make_unique<BallWeights>();
     const BlockPlan::Block& own = plan_.blocks()[block];
     const auto list = plan_.balls().subspan(own.first, own.count);
     std::array<double, kBlockVoxels> sums{};
-    BlockDetail detail(factors.empty() ? detail_ : nullptr, plan_.voxelSize());
     detail.find(own, list, balls_, normalization_);
     for (const uint32_t ball : list) {
         const double factor = factors.empty() ? 1.0 : factors[ball];
@@ -234,23 +243,29 @@ void BallVoxelizer::dimSmallBalls()
     std::vector<SpreadBall> spread(balls_.size());
     std::vector<double> lost(balls_.size(), 0.0);
     tasks_.parallelFor(uint32_t(balls_.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t i = begin; i < end; ++i)
-            if (luminance_[i] > 0.0) {
-                spread[i] = spreadBall(balls_[i].crossSection / (side * side), balls_[i].radius / side);
-                if (spread[i].share < kWholeShare)
-                    lost[i] = (1.0 - spread[i].share) * luminance_[i];
-            }
+        for (uint32_t i = begin; i < end; ++i) {
+            spread[i] = spreadBall(balls_[i].crossSection / (side * side), balls_[i].radius / side);
+            if (spread[i].share < kWholeShare)
+                lost[i] = 1.0 - spread[i].share;
+        }
     });
+    const auto isDimmed = [&](size_t i) { return lost[i] > 0.0 && luminance_[i] > 0.0; };
+    bool isAnyDimmed = false;
+    for (size_t i = 0; i < balls_.size() && !isAnyDimmed; ++i)
+        isAnyDimmed = isDimmed(i);
+    if (!isAnyDimmed)
+        return;
     const std::vector<float> sums = densities(lost);
     tasks_.parallelFor(uint32_t(balls_.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
-            if (!(lost[i] > 0.0))
+            if (!isDimmed(i))
                 continue;
+            const glm::dvec3 center = balls_[i].center / side;
             const double own = lost[i] * balls_[i].crossSection / (side * side * side) *
-                               ownDensity(balls_[i].center / side, balls_[i].radius / side);
-            const double all = between(sums, balls_[i].center / side);
-            const double others = own > 0.0 ? spread[i].depth * std::max(all / own - 1.0, 0.0) : 0.0;
-            const double share = others > kLeastDepth
+                               ownDensity(center, balls_[i].radius / side, normalization_[i]);
+            const double more = own > 0.0 ? between(sums, center) / own - 1.0 : 0.0;
+            const double others = spread[i].depth * more;
+            const double share = more > kLeastOthers
                                      ? std::expm1(-spread[i].share * others) / std::expm1(-others) // (7)
                                      : spread[i].share;
             luminance_[i] *= share;

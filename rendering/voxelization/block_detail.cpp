@@ -19,21 +19,14 @@ void BlockDetail::find(const BlockPlan::Block& block, std::span<const uint32_t> 
 {
     if (!detail_)
         return;
-    groups_.resize(detail_->groups());
-    for (Group& group : groups_)
-        group.isThere = false;
+    count_ = 0;
     const auto weights = std::make_unique<BallWeights>();
     for (const uint32_t ball : list) {
         const int32_t own = detail_->groupOf(ball);
         if (own < 0 || !weights->assign(balls[ball], voxelSize_, block.origin, nullptr))
             continue;
-        Group& group = groups_[size_t(own)];
-        if (!group.isThere) {
-            group.isThere = true;
-            group.extinction.fill(0.0);
-            group.values.fill({});
-            group.factors.fill({});
-        }
+        Group* const known = find(size_t(own));
+        Group& group = known ? *known : add(size_t(own));
         const VoxelDetail::Values values = detail_->valuesOf(ball);
         const double density = densityOf(balls[ball], normalization[ball], voxelSize_);
         forVoxels(*weights, false, [&](size_t v, double weight) {
@@ -42,23 +35,44 @@ void BlockDetail::find(const BlockPlan::Block& block, std::span<const uint32_t> 
                 group.values[v][k] += density * weight * values[k];
         });
     }
-    for (size_t g = 0; g < groups_.size(); ++g)
-        for (size_t v = 0; groups_[g].isThere && v < size_t(kBlockVoxels); ++v)
-            if (const double extinction = groups_[g].extinction[v]; extinction > 0.0) {
-                VoxelDetail::Values means = groups_[g].values[v];
+    for (size_t g = 0; g < count_; ++g)
+        for (size_t v = 0; v < size_t(kBlockVoxels); ++v)
+            if (const double extinction = groups_[g]->extinction[v]; extinction > 0.0) {
+                VoxelDetail::Values means = groups_[g]->values[v];
                 for (double& mean : means)
                     mean /= extinction;
                 const glm::ivec3 at = block.origin + glm::ivec3(int(v >> 6), int(v >> 3 & 7), int(v & 7));
-                groups_[g].factors[v] = detail_->at(g, extinction, means, voxelSize_ * glm::dvec3(at));
+                groups_[g]->factors[v] =
+                    detail_->at(groups_[g]->number, extinction, means, voxelSize_ * glm::dvec3(at));
             }
+}
+
+/// A group of the last block; null: no ball of it reaches the block.
+BlockDetail::Group* BlockDetail::find(size_t number)
+{
+    for (size_t g = 0; g < count_; ++g)
+        if (groups_[g]->number == number)
+            return groups_[g].get();
+    return nullptr;
+}
+
+BlockDetail::Group& BlockDetail::add(size_t number)
+{
+    if (count_ == groups_.size())
+        groups_.push_back(std::make_unique<Group>());
+    Group& group = *groups_[count_++];
+    group.number = number;
+    group.extinction.fill(0.0);
+    group.values.fill({});
+    group.factors.fill({});
+    return group;
 }
 
 const DetailedBall* BlockDetail::of(uint32_t index, const VoxelBall& ball)
 {
     const int32_t own = detail_ ? detail_->groupOf(index) : -1;
-    if (own < 0 || !groups_[size_t(own)].isThere)
-        return nullptr;
-    return &ball_.emplace(DetailedBall{*detail_, groups_[size_t(own)].factors, index, ball});
+    const Group* const group = own < 0 ? nullptr : find(size_t(own));
+    return group ? &ball_.emplace(DetailedBall{*detail_, group->factors, index, ball}) : nullptr;
 }
 
 } // namespace fx::render

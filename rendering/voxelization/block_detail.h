@@ -7,6 +7,7 @@
 #include "rendering/voxelization/voxel_detail.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -47,14 +48,18 @@ public:
 private:
     struct Group
     {
-        bool isThere = false;
+        size_t number = 0;                                    ///< of VoxelDetail
         std::array<double, kBlockVoxels> extinction;          ///< [1/m]
         std::array<VoxelDetail::Values, kBlockVoxels> values; ///< sums, weighted with the extinction
         BlockFactors factors;
     };
     const VoxelDetail* detail_;
     double voxelSize_;
-    std::vector<Group> groups_;
+    Group* find(size_t number);
+    Group& add(size_t number);
+
+    std::vector<std::unique_ptr<Group>> groups_; ///< of the block, the first of them; the others are kept
+    size_t count_ = 0;                           ///< groups of the block
     std::optional<DetailedBall> ball_;
 };
 

@@ -315,6 +315,44 @@ TEST(BallVoxelizer, aSparkSmallerThanAVoxelGivesTheLightThatLeavesIt)
     EXPECT_GE(spreadBall(1e30, 1e-30).share, 0.0);
 }
 
+TEST(BallVoxelizer, theLightOfADenseBallDoesNotDependOnItsPlaceBetweenVoxels)
+{
+    for (const double radius : {0.07, 0.14, 0.2}) {
+        std::vector<double> found;
+        for (const glm::dvec3& center : {glm::dvec3(0.0), glm::dvec3(0.05), glm::dvec3(0.05, 0.05, 0.025),
+                                         glm::dvec3(0.025, 0.025, 0.075)})
+        {
+            VoxelBall ball = ballOf(center, radius);
+            ball.luminance = 1e6;
+            ball.crossSection = 2.0 / 7.0 * std::numbers::pi * radius * radius * 400.0;
+            found.push_back(intensity(voxelizeAsSeen({&ball, 1})));
+        }
+        const auto [least, most] = std::ranges::minmax(found);
+        EXPECT_LT(most / least, 1.12) << radius;
+    }
+}
+
+TEST(BallVoxelizer, neighborsHideTheSameWhetherTheyEmitOrNot)
+{
+    std::vector<VoxelBall> balls;
+    for (int i = 0; i < 10; ++i) {
+        balls.push_back(ballOf({0.004 * i, -0.003 * i, 0.02}, 0.03));
+        balls.back().luminance = 1e6;
+        balls.back().crossSection = 2.0 / 7.0 * std::numbers::pi * 0.03 * 0.03 * 50.0;
+    }
+    const double all = intensity(voxelizeAsSeen(balls));
+    double sum = 0.0;
+    for (size_t lit = 0; lit < balls.size(); ++lit) {
+        for (size_t i = 0; i < balls.size(); ++i)
+            balls[i].luminance = i == lit ? 1e6 : 0.0;
+        sum += intensity(voxelizeAsSeen(balls));
+    }
+    EXPECT_NEAR(sum / all, 1.0, 1e-3);
+    for (VoxelBall& ball : balls)
+        ball.luminance = 1e6;
+    EXPECT_GT(all, 1.5 * intensity(voxelizeAsSeen({balls.data(), 1}))); // a control: one alone is seen whole
+}
+
 /// Removes what is left of a plane, halves the rest, and doubles temperatures, of even balls.
 class HalfDetail final : public VoxelDetail
 {
@@ -363,11 +401,23 @@ TEST(BallVoxelizer, detailMultipliesExtinctionTemperatureAndLightOfItsBallsAtThe
 TEST(BallVoxelizer, anyNumberOfThreadsGivesTheSameBits)
 {
     const test::RealThreads threadsOfAnyMachine(5);
-    const auto balls = cloud();
-    const auto serial = voxelize(balls, kVoxel);
+    auto balls = cloud();
+    for (size_t i = 0; i < balls.size(); ++i)
+        balls[i].luminance = double(i % 3);
+    const HalfDetail detail;
+    const auto filled = [&](base::TaskRunner& tasks) {
+        const auto plan = BlockPlan::create(balls, kVoxel, kManyVoxels);
+        std::vector<VoxelBlock> blocks;
+        BallVoxelizer voxelizer(balls, *plan, tasks);
+        voxelizer.setDetail(&detail);
+        voxelizer.findEscapeDepths();
+        voxelizer.fill(0, plan->blocks().size(), blocks);
+        return blocks;
+    };
+    const auto serial = filled(*base::makeSerialRunner());
     for (const uint32_t threads : {2u, 5u}) {
         const auto tasks = base::makeTbbRunner(threads);
-        const auto parallel = voxelize(balls, kVoxel, *tasks);
+        const auto parallel = filled(*tasks);
         ASSERT_EQ(parallel.size(), serial.size());
         for (size_t b = 0; b < serial.size(); ++b) {
             EXPECT_EQ(parallel[b].origin, serial[b].origin);
