@@ -121,6 +121,20 @@ std::optional<Remedy> remedyFor(const Document& document, const std::string& poi
     return nearestInRange(part, value, pointer);
 }
 
+namespace {
+
+bool isRequired(const Document& document, const Json::json_pointer& member)
+{
+    const Json::json_pointer around = member.parent_pointer();
+    const Json* const schema = schemaAt(document.schema(), document.json(), around);
+    if (!schema || !document.json().at(around).is_object())
+        return false;
+    const Json required = decided(*schema, document.json().at(around)).value("required", Json::array());
+    return std::find(required.begin(), required.end(), Json(member.back())) != required.end();
+}
+
+} // namespace
+
 std::vector<DocumentFinding> findingsOf(const Document& document)
 {
     std::vector<DocumentFinding> findings;
@@ -128,7 +142,8 @@ std::vector<DocumentFinding> findingsOf(const Document& document)
         std::optional<Remedy> remedy = remedyFor(document, diagnostic.pointer);
         const bool isRemovable =
             !diagnostic.pointer.empty() && document.json().contains(Json::json_pointer(diagnostic.pointer));
-        if (!remedy && isRemovable && saysRemove(diagnostic.message))
+        if (!remedy && isRemovable && saysRemove(diagnostic.message) &&
+            !isRequired(document, Json::json_pointer(diagnostic.pointer)))
             remedy = Remedy{"take it out", diagnostic.pointer, std::nullopt};
         findings.push_back({std::move(diagnostic), std::move(remedy)});
     }

@@ -7,9 +7,8 @@ namespace fx::editor {
 
 namespace {
 
-// The numbers of flame are those of library:campfire, of steam those of library:steam, of sparks those of
-// library:sparks, of dust those of library:dust-burst with births at a rate and
-// a browner color; smoke is the lighter one of library:barrel-smoke. Sparks shine in daylight.
+// Flame and steam are those of library:campfire and library:steam; smoke, dust and sparks are lighter,
+// thinner and brighter than those of the library, such that they look right alone and in daylight.
 constexpr auto kStarters = std::to_array<EmitterStarter>({
     {"flame", "a wood fire 0.8 m high", R"({
   "layer": "fire", "maxParticles": 320, "shape": "cone", "position": [0, 0.08, 0], "size": 0.24, "angleDegrees": 9,
@@ -27,7 +26,7 @@ constexpr auto kStarters = std::to_array<EmitterStarter>({
   "forces": {"gravity": 0, "drag": 0.9, "buoyancy": 0.32, "curlStrength": 0.8, "curlScale": 1.5, "curlRate": 0.3, "curlOctaves": 2},
   "sizeOverLife": {"keys": [[0, 0.7], [0.2, 1.5], [1, 4.2]]}, "opacityOverLife": {"keys": [[0, 0], [0.04, 1], [0.6, 0.8], [1, 0]]},
   "temperatureOverLife": {"keys": [[0, 1], [0.3, 0.4], [1, 0.05]]}, "albedoOverLife": {"keys": [[0, [0.74, 0.73, 0.72]], [1, [0.85, 0.84, 0.82]]]},
-  "detailAmount": 1, "detailScale": 0.9, "detail": {"material": "smoke", "crispness": 0.7, "softening": 0.6, "billowSize": 1.6, "raggedness": 0.95},
+  "detailAmount": 1, "detailScale": 0.9,
   "anisotropy": 0.5
 })"},
     {"steam", "a white jet from a vent, which dissolves", R"({
@@ -38,8 +37,7 @@ constexpr auto kStarters = std::to_array<EmitterStarter>({
   "sizeOverLife": {"keys": [[0, 0.5], [0.1, 1.1], [0.3, 1.9], [1, 3.8]]},
   "opacityOverLife": {"keys": [[0, 0], [0.06, 0.8], [0.15, 1], [0.5, 0.7], [0.75, 0.2], [1, 0]]},
   "temperatureOverLife": {"keys": [[0, 1], [0.3, 0.3], [1, 0.05]]}, "albedoOverLife": [0.999, 0.999, 0.999],
-  "heat": 0.3, "detailAmount": 0.8, "detailScale": 0.85,
-  "detail": {"material": "steam", "crispness": 1, "raggedness": 1, "softening": 0.35, "billowSize": 0.9}, "anisotropy": 0.5
+  "heat": 0.3, "detailAmount": 0.8, "detailScale": 0.85, "anisotropy": 0.5
 })"},
     {"sparks", "glowing metal that flies, falls and bounces", R"({
   "layer": "fire", "maxParticles": 480, "shape": "cone", "position": [0, 0.3, 0], "size": 0.02, "angleDegrees": 30,
@@ -57,8 +55,7 @@ constexpr auto kStarters = std::to_array<EmitterStarter>({
   "radius": {"min": 0.15, "max": 0.4}, "opticalDepth": {"min": 2, "max": 5},
   "forces": {"gravity": 0.02, "drag": 1.5, "curlStrength": 0.6, "curlScale": 1.8, "curlRate": 0.2, "curlOctaves": 2},
   "sizeOverLife": {"keys": [[0, 0.6], [0.15, 1.4], [1, 2.5]]}, "opacityOverLife": {"keys": [[0, 0], [0.1, 1], [0.4, 0.7], [1, 0]]},
-  "albedoOverLife": [0.9, 0.82, 0.7], "detailAmount": 0.6, "detailScale": 0.9,
-  "detail": {"material": "dust", "billowSize": 1.5, "crispness": 0.85, "raggedness": 1, "softening": 0.35}, "anisotropy": 0.68
+  "albedoOverLife": [0.9, 0.82, 0.7], "detailAmount": 0.6, "detailScale": 0.9, "anisotropy": 0.68
 })"},
 });
 

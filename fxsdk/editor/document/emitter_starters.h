@@ -16,7 +16,7 @@ struct EmitterStarter
     const char* members;     ///< JSON of the emitter without its name
 };
 
-/// Flame, smoke, steam, sparks and dust, with numbers of the preset library.
+/// Flame, smoke, steam, sparks and dust, which look right alone.
 std::span<const EmitterStarter> emitterStarters();
 
 /// The emitter of a starter, with a name that no emitter of the preset has.

@@ -93,7 +93,7 @@ void EmbeddedEditor::showDocument(uint64_t revision)
     const scene_file::Stage* const stage = scene_file::findStage(shownStage_);
     const bool isInside =
         stage && Json::parse(stage->members).contains("camera"); // other places see it from outside
-    if (preview_->hasScene() && (!hadScene || hasNewCamera || (hasNewStage && isInside)))
+    if (preview_->hasScene() && (!hadScene || (hasNewCamera && !isInside) || (hasNewStage && isInside)))
         takeCamera();
 }
 

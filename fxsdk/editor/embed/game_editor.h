@@ -52,7 +52,8 @@ public:
     std::string text() const;
     /// Particles alive in the last picture.
     uint32_t particles() const;
-    /// Forgets edits that are not saved: no recovery file is left.
+    /// Forgets edits that are not saved: no recovery file of them is left. What an earlier session left stays
+    /// until it was answered.
     void close();
 
 private:

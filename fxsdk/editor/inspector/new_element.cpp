@@ -21,10 +21,16 @@ void completeEvent(const Document& document, const Pointer& array, Json& io)
 {
     const Json* const emitters = arrayAt(document, Pointer("/emitters"));
     const Json& own = document.json().at(array.parent_pointer());
+    const auto named = [&](const Json& name) {
+        return std::count_if(emitters->begin(), emitters->end(), [&](const Json& other) {
+            return other.is_object() && other.value("name", Json()) == name;
+        });
+    };
     if (emitters)
         for (const Json& other : *emitters)
             if (&other != &own && other.is_object() && other.contains("name") && other["name"].is_string() &&
-                !other["name"].get<std::string>().empty() && !other.contains("events"))
+                !other["name"].get<std::string>().empty() && !other.contains("events") &&
+                other.value("space", Json()) == own.value("space", Json()) && named(other["name"]) == 1)
             {
                 io["emit"] = other["name"];
                 return;
@@ -58,6 +64,14 @@ void completeFirst(const Document& document, const Pointer& array, Json& io)
         io["position"] = Json::array({0, 0, 0});
 }
 
+/// [s] Nothing happens to an instance before its start.
+double firstTime(const Document& document, const Pointer& array, double least)
+{
+    const Pointer start = array.parent_pointer() / "start";
+    const bool isStated = document.json().contains(start) && document.json().at(start).is_number();
+    return isStated ? std::max(document.json().at(start).get<double>(), least) : least;
+}
+
 } // namespace
 
 base::Result<Json> newElement(const Document& document, const Member& array)
@@ -84,12 +98,12 @@ base::Result<Json> newElement(const Document& document, const Member& array)
     }
     Json element = startValue(schema);
     if (isTimed)
-        element["time"] = schema["properties"]["time"].value("minimum", 0.0);
+        element["time"] = firstTime(document, at, schema["properties"]["time"].value("minimum", 0.0));
     if (array.name == "keys" && isTimed)
         completeFirst(document, at, element);
     if (array.name == "events" && element.is_object() && document.json().contains(at.parent_pointer()))
         completeEvent(document, at, element);
-    if (array.name == "triggers") {
+    if (array.name == "triggers" && document.kind() == DocumentKind::Preset) {
         const std::string name = hostEventOf(document);
         if (name.empty())
             return base::Status(base::Code::InvalidArgument,

@@ -166,6 +166,8 @@ base::Result<scene_file::SceneFile> Preview::readScene(const std::string& text, 
     outHasCamera = kind == DocumentKind::Scene || preview.hasCamera;
     if (!outHasCamera && isFirst_) // reads the file, which may be gone: the camera then stays where it is
         (void)cli::frameEffect(*file, base::toTicks(kFramedSeconds), {});
+    else if (!outHasCamera && !hasCamera_)
+        file->camera = file_.camera;
     for (scene_file::SceneInstance& instance : file->instances)
         editor::setMotion(motion_, preview.time.value_or(instance.start), instance);
     file->view.composition = render::Composition::Automatic;

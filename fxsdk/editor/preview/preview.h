@@ -60,7 +60,7 @@ public:
     /// Shows another text at the present time. On failure the picture stays as it was.
     /// @param name file of the text, for messages and to find the files that it names
     base::Status show(const std::string& text, const std::string& name, DocumentKind kind);
-    /// Goes to a time, a whole number of steps of 1/60 s. Before its start an instance is not shown. Where
+    /// Goes to a time [s]. Before its start an instance is not shown. Where
     /// instances move, are triggered or changed, this takes the steps from the last moment on, or from the
     /// beginning if the time is earlier.
     base::Status seek(double seconds);

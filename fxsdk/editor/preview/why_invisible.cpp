@@ -49,12 +49,13 @@ std::vector<std::string> whyInvisible(const Document& document, const SoloMute& 
         if (!finding.diagnostic.warning)
             reasons.push_back(finding.diagnostic.pointer + ": " + finding.diagnostic.message);
     const std::vector<std::string> elements = soloElements(document.json(), document.schema());
+    const double local = time + numberAt(document.json(), "/prewarm", 0.0);
     if (document.kind() == DocumentKind::Preset && elements.empty())
         reasons.emplace_back("The preset has no emitter, gas or medium; add one.");
     for (const std::string& pointer : elements) {
         if (!choice.isShown(pointer))
             reasons.push_back(pointer + ": it is muted, or another element is solo");
-        reasonsOf(document.json().at(Json::json_pointer(pointer)), pointer, time, reasons);
+        reasonsOf(document.json().at(Json::json_pointer(pointer)), pointer, local, reasons);
     }
     return reasons;
 }

@@ -414,12 +414,18 @@ base::Status runHeadless(std::unique_ptr<Session> session, const HeadlessOptions
     Session& edited = (*host)->session();
     const std::string kept = status.ok() ? std::string() : edited.keepForRecovery();
     if (kept.empty()) {
+        const bool isOther = !status.ok() && edited.document.isDirty() && edited.recovery();
         edited.close();
-        return status;
+        return isOther ? base::Status(status.code(),
+                                      status.message() +
+                                          "; the edits that were not saved are lost, since those "
+                                          "of an earlier session wait for an answer (click recover, "
+                                          "or click discard)")
+                       : status;
     }
-    return {status.code(), status.message() + "; the edits that were not saved are kept in " + kept +
-                               ", the next fx edit " + edited.name() +
-                               " offers them (in a script: click recover)"};
+    return {status.code(),
+            status.message() + "; the edits that were not saved are kept in " + kept +
+                "; fx edit with the same file and options offers them (in a script: click recover)"};
 }
 
 } // namespace fx::editor

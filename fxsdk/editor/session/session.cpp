@@ -10,13 +10,16 @@ namespace fx::editor {
 
 namespace {
 
-/// Length of the timeline [s] of a preset: its duration, otherwise twice the time of its preview.
+/// Length of the timeline [s] of a preset: its duration without its prewarm, otherwise twice the time of its
+/// preview.
 double timelineOf(const Json& preset)
 {
     const double duration =
         preset.value("duration", Json(0.0)).is_number() ? preset.value("duration", 0.0) : 0.0;
-    if (duration > 0.0)
-        return duration;
+    const double prewarm =
+        preset.value("prewarm", Json(0.0)).is_number() ? preset.value("prewarm", 0.0) : 0.0;
+    if (duration > prewarm)
+        return duration - std::max(prewarm, 0.0);
     const Json::json_pointer still("/preview/time");
     const double time =
         preset.contains(still) && preset[still].is_number() ? preset[still].get<double>() : 0.0;
@@ -162,6 +165,7 @@ void Session::keepCamera()
     if (!kept.is_object()) // absent, or what the file states is no camera
         kept = Json::object();
     kept.erase("keys");
+    kept.erase("orthographicHeight"); // the picture is in perspective
     kept["position"] = roundedOf(camera.position());
     kept["target"] = roundedOf(camera.target());
     kept["fovYDegrees"] = std::round(100.0 * double(camera.fovYDegrees)) / 100.0;

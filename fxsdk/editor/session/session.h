@@ -69,7 +69,7 @@ public:
     /// Writes stage and exposure of the picture into the document, as one edit.
     void keepStage();
 
-    /// Motion of the picture; of a scene at first that of the document.
+    /// Motion of the picture; at first that of the document.
     const MotionChoice& motion() const { return motion_; }
     void setMotion(const MotionChoice& motion);
     /// Takes over the time that the document states for its picture, where it has changed since the last

@@ -83,6 +83,13 @@ std::vector<TimeMark> timeMarks(const Document& document)
     for (const std::string& pointer : soloElements(document.json(), document.schema()))
         if (const Json& element = document.json().at(Json::json_pointer(pointer)); element.is_object())
             addElement(element, pointer, marks);
+    // The timeline begins after the prewarm.
+    const Json& prewarm = document.json().value("prewarm", Json(0.0));
+    const double before = prewarm.is_number() ? prewarm.get<double>() : 0.0;
+    for (TimeMark& mark : marks) {
+        mark.time -= before;
+        mark.begin -= before;
+    }
     return marks;
 }
 
