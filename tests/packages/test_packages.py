@@ -86,7 +86,7 @@ class Unpacked(unittest.TestCase):
         run(PYTHON, ROOT / "tests/packages/test_python.py", env=environment)
         blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/howto/install.md").read_text(), re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 3)
-        program = "".join(blocks).replace("range(60)", "range(3)").replace("(320, 180)", "(32, 18)").replace("320", "32").replace("180", "18")
+        program = "".join(blocks).replace("range(60)", "range(40)").replace("320", "64").replace("180", "36")
         self.assertIn("look_at", program)
         run(PYTHON, "-c", program, env=environment, cwd=self.folder)
         self.assertTrue(drawn(self.folder / "campfire.png"))
