@@ -86,8 +86,8 @@ void readPreview(const PresetValue& root, sim::PreviewDef& preview)
         const PresetValue lighting = value.child("lighting");
         glm::vec3 direction(0.3f, 0.8f, 0.5f);
         lighting.read("sunDirection", direction);
-        if (glm::length(direction) >= 1e-6f)
-            preview.sunDirection = glm::normalize(direction);
+        if (const float length = glm::length(direction); length >= 1e-6f)
+            preview.sunDirection = direction / length;
         preview.sunIlluminance = preview.skyLuminance = glm::vec3(0.0f);
         lighting.read("sunIlluminance", preview.sunIlluminance);
         lighting.read("skyLuminance", preview.skyLuminance);

@@ -97,6 +97,8 @@ void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& conten
         all += contents.of(base::BlockGroups::variantIn(root, i)).balls;
     castsBalls_ = all <= settings.maxCasters;
     errorBalls_ = all <= settings.maxBalls ? settings.maxBalls : settings.maxBalls / 2;
+    if (!castsBalls_) // so many in one place would be drawn as a sample of them
+        errorBalls_ = std::min(errorBalls_, settings.maxCasters / 4);
     // Blocks around the eye have no impostors: they are the first to get balls.
     for (const bool isForNear : {true, false}) {
         RootReader reader(root, older, t, stepSeconds);

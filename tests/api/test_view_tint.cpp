@@ -78,6 +78,7 @@ protected:
         settings.shimmerStrength = 0;
         settings.composition = effect.composition;
         settings.exposureEv100 = 12.0f;
+        settings.blockError = 0.0f; // a tint changes which blocks are impostors
         for (int i = 0; i < 3; ++i) {
             settings.sunIlluminance[i] = 20'000.0f;
             settings.skyLuminance[i] = 1'000.0f;

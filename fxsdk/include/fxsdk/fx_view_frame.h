@@ -172,8 +172,8 @@ typedef struct FxFrameDef
     /// range.
     float rangeNear;
 
-    /// [m] above rangeNear: depth up to which effects are drawn; exactly 1e9 in any unit (default), or at least
-    /// 1e9 m: all of them.
+    /// [m] above rangeNear: depth up to which effects are drawn; exactly 1e9 in any unit (default), or at
+    /// least 1e9 m: all of them.
     float rangeFar;
 
     /// Bits of which an instance needs one to be seen, see FxInstanceDef::visibilityMask; default 0xFFFFFFFF.
