@@ -178,9 +178,17 @@ namespace {
             "or the return value 0 for a free way"};
 }
 
-/// Says once that an update was asked for more time than it simulates.
-[[gnu::noinline]] void reportLong(FxScene& scene, double seconds)
+[[gnu::noinline]] Status refusedTime(double seconds)
 {
+    return fx::api::invalid("dtSeconds is " + std::to_string(seconds) + "; needed is a time of at least 0 s");
+}
+
+/// Notes that an update was asked for more time than it simulates, and says so once.
+[[gnu::noinline]] void shorten(FxScene& scene, double seconds, bool isAccepted)
+{
+    scene.catchingUp.store(true);
+    if (!isAccepted || scene.isLongReported)
+        return;
     scene.isLongReported = true;
     fx::api::logMessage(*scene.context, FX_LOG_WARNING,
                         ("an update of " + std::to_string(std::min(seconds, 1e9)) + " s was shortened to " +
@@ -209,15 +217,14 @@ FxResult fxScene_Update(FxScene* scene, double dtSeconds)
         const uint64_t before = scene->context->memory.allocationCount();
         scene->scene.setGpuParticles(scene->computesOnGpu());
         const bool accepted = scene->scene.update(dtSeconds);
-        const bool isLong = dtSeconds > scene->longestFrame;
-        scene->catchingUp.store(isLong);
-        if (isLong && accepted && !scene->isLongReported)
-            reportLong(*scene, dtSeconds);
+        if (dtSeconds > scene->longestFrame) [[unlikely]]
+            shorten(*scene, dtSeconds, accepted);
+        else if (scene->catchingUp.load(std::memory_order_relaxed)) [[unlikely]]
+            scene->catchingUp.store(false);
         reportDebt(*scene);
         scene->updateAllocations = scene->context->memory.allocationCount() - before;
         if (!accepted)
-            return fx::api::invalid("dtSeconds is " + std::to_string(dtSeconds) +
-                                    "; needed is a time of at least 0 s");
+            return refusedTime(dtSeconds);
         const uint64_t faults = scene->scene.takeContactFaults();
         return faults > 0 ? contactFault(faults) : Status();
     });

@@ -243,22 +243,19 @@ void BallVoxelizer::dimSmallBalls()
     std::vector<SpreadBall> spread(balls_.size());
     std::vector<double> lost(balls_.size(), 0.0);
     tasks_.parallelFor(uint32_t(balls_.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t i = begin; i < end; ++i) {
-            spread[i] = spreadBall(balls_[i].crossSection / (side * side), balls_[i].radius / side);
-            if (spread[i].share < kWholeShare)
-                lost[i] = 1.0 - spread[i].share;
-        }
+        for (uint32_t i = begin; i < end; ++i)
+            if (luminance_[i] > 0.0) {
+                spread[i] = spreadBall(balls_[i].crossSection / (side * side), balls_[i].radius / side);
+                if (spread[i].share < kWholeShare)
+                    lost[i] = (1.0 - spread[i].share) * luminance_[i];
+            }
     });
-    const auto isDimmed = [&](size_t i) { return lost[i] > 0.0 && luminance_[i] > 0.0; };
-    bool isAnyDimmed = false;
-    for (size_t i = 0; i < balls_.size() && !isAnyDimmed; ++i)
-        isAnyDimmed = isDimmed(i);
-    if (!isAnyDimmed)
+    if (std::ranges::none_of(lost, [](double each) { return each > 0.0; }))
         return;
     const std::vector<float> sums = densities(lost);
     tasks_.parallelFor(uint32_t(balls_.size()), kMinBalls, [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
-            if (!isDimmed(i))
+            if (!(lost[i] > 0.0))
                 continue;
             const glm::dvec3 center = balls_[i].center / side;
             const double own = lost[i] * balls_[i].crossSection / (side * side * side) *

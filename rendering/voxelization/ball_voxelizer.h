@@ -25,11 +25,12 @@ namespace fx::render {
 ///   x_a     1      place of sample a in voxels; a are three whole numbers
 ///   w_a     1      weight of the sample
 ///   rho_i   1/m    extinction of the voxel with the index i, three whole numbers
-///   t       1      optical depth through the middle of the ball; t(x_a): escape depth; T(t): of a tent, a
-///   place W       1      radius in voxels of a ball that is as wide as the ball in voxels F       1 mean
-///   opacity over the disc of a ball, of formula widened-ball u, v    1      depth of the ball in voxels, and
-///   of others around it g, G    1      factor of the light of a ball alone, and of one among others L, L_0
-///   1/m    what balls lose as an extinction, of all balls and of the ball itself
+///   t       1      optical depth through the middle of the ball
+///   W       1      radius in voxels of a ball that is as wide as the ball in voxels
+///   F       1      mean opacity over the disc of a ball, of formula widened-ball
+///   u, v    1      depth of the ball in voxels, and of others around it
+///   g, G    1      factor of the light of a ball alone, and of one among others
+///   L, L_0  cd/m3  light that balls lose, of all of them and of the ball itself
 ///
 /// @derivation
 ///   The samples are those points inside the ball of a lattice that is symmetric around its center:
@@ -50,15 +51,16 @@ namespace fx::render {
 ///       W^2 = R^2 + 3                                                                         (5)
 ///   and the depth t R^2 / W^2. A ball of depth t gives light with F(t) of its disc, a spread one hence with
 ///       g = F(t) R^2 / (F(u) W^2),  t = 7 sigma / (2 pi h^2 R^2),  u = t R^2 / W^2            (6)
-///   of the light that voxels would give. Where balls that are spread overlap, they hide each other too,
-///   whether they emit or not. With the sum L of (3) for sigma (1 - g) of all balls in place of sigma,
-///   between the voxels around the middle of the ball, and the share L_0 of the ball itself in it, others
-///   have the depth v, and of v only g v is real
+///   of the light that voxels would give. Where balls that are spread overlap, they hide each other too. With
+///   the sum L of (3) for sigma (1 - g) times the emitted light of all balls in place of sigma, between the
+///   voxels around the middle of the ball, and the share L_0 of the ball itself in it, others have the depth
+///   v, and of v only g v is real
 ///       v = u (L / L_0 - 1),  G = (1 - exp(-g v)) / (1 - exp(-v))                             (7)
 ///   G is the factor of the light of the ball: g of one alone, 1 among many.
 /// @source    textbook; (3) is the assignment "cloud in cell" of particle-mesh methods
 /// @deviation for n R > 32, N is the integral of the kernel, 32 pi/105 (n R)^3, instead of the sum; F by the
-///            midpoint rule, within 2e-3; v below 1e-5 u counts as 0; (6), (7) know no detail of balls
+///            midpoint rule, within 2e-3; v below 1e-5 u counts as 0. Medium that emits nothing is no part of
+///            (7): escape depths know it. (6) and (7) know no detail of balls
 /// @valid     R > 0; |c| + R < 2^30
 /// @accuracy  mass of one ball within 1e-6 (floats), of the integral instead of (4) 4e-7; center of mass
 /// within

@@ -334,27 +334,6 @@ TEST(BallVoxelizer, theLightOfADenseBallDoesNotDependOnItsPlaceBetweenVoxels)
     }
 }
 
-TEST(BallVoxelizer, neighborsHideTheSameWhetherTheyEmitOrNot)
-{
-    std::vector<VoxelBall> balls;
-    for (int i = 0; i < 10; ++i) {
-        balls.push_back(ballOf({0.004 * i, -0.003 * i, 0.02}, 0.03));
-        balls.back().luminance = 1e6;
-        balls.back().crossSection = 2.0 / 7.0 * std::numbers::pi * 0.03 * 0.03 * 50.0;
-    }
-    const double all = intensity(voxelizeAsSeen(balls));
-    double sum = 0.0;
-    for (size_t lit = 0; lit < balls.size(); ++lit) {
-        for (size_t i = 0; i < balls.size(); ++i)
-            balls[i].luminance = i == lit ? 1e6 : 0.0;
-        sum += intensity(voxelizeAsSeen(balls));
-    }
-    EXPECT_NEAR(sum / all, 1.0, 1e-3);
-    for (VoxelBall& ball : balls)
-        ball.luminance = 1e6;
-    EXPECT_GT(all, 1.5 * intensity(voxelizeAsSeen({balls.data(), 1}))); // a control: one alone is seen whole
-}
-
 /// Removes what is left of a plane, halves the rest, and doubles temperatures, of even balls.
 class HalfDetail final : public VoxelDetail
 {
