@@ -4,6 +4,9 @@
 
 #include "shaders/shader_library.h"
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
