@@ -96,7 +96,7 @@ FxFrameDef camera(const example::Picture& picture)
     return frame;
 }
 
-/// Replaces the file at once, so that nobody reads half a picture.
+/// Replaces the file in one step, so that no reader sees half a picture.
 void show(const example::Picture& picture, const std::string& output)
 {
     picture.writePng(output + ".part");

@@ -185,42 +185,44 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
         }
         share = 1.0f;
     }
-    if (share > 0.0f && section > 0.0f) {
-        const glm::vec3 towards = camera_.orthographic ? camera_.forward : glm::normalize(frame.position);
-        TileRequest request{variant, &content, glm::conjugate(frame.rotation) * towards, pixels, seconds_};
-        request.nearness = camera_.orthographic ? 0.0f : radius / glm::length(frame.position);
-        request.density = frame.density;
-        // What has a large error must not use up the balls of what is near or large. The blocks in a block
-        // are chosen one by one.
-        request.isOptional =
-            !isBalls || (uint64_t(effectBalls_) + content.balls <= errorBalls_ && canCastBalls(content));
-        const float exact = shareByError(frame, request);
-        share *= isFull ? 1.0f : exact;
-        const auto tile = share > 0.0f ? tiles_.find(request) : std::nullopt;
-        if (tile) {
-            addImpostor(frame, content, *tile, weight * share);
-            addBlockCasters(frame, variant, weight * share);
-        } else {
-            share = 0.0f;
-        }
-    }
+    share =
+        share > 0.0f && section > 0.0f ? drawImpostor(frame, variant, weight, share, pixels, isFull) : 0.0f;
     if (share >= 1.0f)
         return;
     const float rest = weight * (1.0f - share);
     if (isBalls) {
-        if (castsBalls_) {
-            // They are casters already.
-        } else if (canCastBalls(content)) {
-            addContentCasters(frame, *content.group, rest);
-            contentCasters_ += content.balls;
-        } else {
-            addBlockCasters(frame, variant, rest);
-        }
+        addDrawnCasters(frame, variant, rest);
         addBalls(frame, *content.group, rest, UINT32_MAX);
         return;
     }
     for (uint32_t i = 0; i < content.group->count(); ++i)
         visit(frame.inside(*content.group, i), base::BlockGroups::variantIn(*content.group, i), rest);
+}
+
+/// Draws a share of a block as an impostor, or less of it because of its error.
+/// @param isFull the error does not count: there is no room for the content
+/// @return what is drawn as an impostor
+float BlockWalk::drawImpostor(const BlockFrame& frame, uint32_t variant, float weight, float share,
+                              float pixels, bool isFull)
+{
+    const BlockContent& content = contents_->of(variant);
+    const glm::vec3 towards = camera_.orthographic ? camera_.forward : glm::normalize(frame.position);
+    TileRequest request{variant, &content, glm::conjugate(frame.rotation) * towards, pixels, seconds_};
+    request.nearness =
+        camera_.orthographic ? 0.0f : frame.scale * content.radius / glm::length(frame.position);
+    request.density = frame.density;
+    // What has a large error must not use up the balls of what is near or large. The blocks in a block are
+    // chosen one by one.
+    request.isOptional = groups_->isBlocks(*content.group) ||
+                         (uint64_t(effectBalls_) + content.balls <= errorBalls_ && canCastBalls(content));
+    const float exact = shareByError(frame, request);
+    share *= isFull ? 1.0f : exact;
+    const auto tile = share > 0.0f ? tiles_.find(request) : std::nullopt;
+    if (!tile)
+        return 0.0f;
+    addImpostor(frame, content, *tile, weight * share);
+    addBlockCasters(frame, variant, weight * share);
+    return share;
 }
 
 void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content, const Tile& tile,
@@ -316,6 +318,20 @@ void BlockWalk::addContentCasters(const BlockFrame& frame, const SnapshotGroup& 
         addCaster(frame.position + frame.turned(vectorAt(group, blob::PositionX, i) -
                                                 back_ * vectorAt(group, blob::VelocityX, i)),
                   frame.scale * group.start(blob::Radius)[i], section * group.start(blob::CrossSection)[i]);
+}
+
+/// Casters of a block that is drawn as its balls, where these are not casters already.
+void BlockWalk::addDrawnCasters(const BlockFrame& frame, uint32_t variant, float weight)
+{
+    const BlockContent& content = contents_->of(variant);
+    if (castsBalls_)
+        return;
+    if (!canCastBalls(content)) {
+        addBlockCasters(frame, variant, weight);
+        return;
+    }
+    addContentCasters(frame, *content.group, weight);
+    contentCasters_ += content.balls;
 }
 
 /// All balls in a block cast shadows.

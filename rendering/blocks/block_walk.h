@@ -84,6 +84,9 @@ private:
     void addBalls(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight,
                   uint32_t most);
     bool isNear(const base::BlockFrame& frame, float radius) const;
+    float drawImpostor(const base::BlockFrame& frame, uint32_t variant, float weight, float share,
+                       float pixels, bool isFull);
+    void addDrawnCasters(const base::BlockFrame& frame, uint32_t variant, float weight);
     void addCaster(const glm::vec3& center, float radius, float crossSection);
     bool canCastBalls(const BlockContent& content) const;
     void addContentCasters(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight);

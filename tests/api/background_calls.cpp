@@ -96,6 +96,9 @@ void BackgroundCalls::loadPresets(FxContext* context)
         info.structSize = sizeof info;
         EXPECT_EQ(fxGetPresetInfo(context, preset, &info), FX_OK) << fxGetLastErrorMessage();
         EXPECT_GT(info.solverCount, 0u);
+        FxPresetPreview preview{};
+        preview.structSize = sizeof preview;
+        EXPECT_EQ(fxGetPresetPreview(context, preset, &preview), FX_OK) << fxGetLastErrorMessage();
         checkBrokenPreset(context);
         EXPECT_EQ(fxUnloadPreset(context, preset), FX_OK) << fxGetLastErrorMessage();
         EXPECT_EQ(fxUnloadPreset(context, preset), FX_ERROR_STALE_ID);

@@ -68,6 +68,15 @@ TEST(DocumentFindings, whatAnotherKindOrShapeLeavesIsTakenOutByItsRemedy)
     EXPECT_TRUE(document.json()["emitters"][0].contains("appearance"));
 }
 
+TEST(DocumentFindings, membersThatAreRequiredAreNotTakenOut)
+{
+    const auto findings = findingsOf(documentOf(R"({"version": 1, "blocks": [{"types": [
+        {"name": "a", "balls": [{}]}, {"name": "b", "balls": [{}]}], "blocks": [{"type": "a"}]}]})"));
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings[0].diagnostic.pointer, "/blocks/0/types/1/name"); // no block has it; remove it
+    EXPECT_FALSE(findings[0].remedy.has_value());
+}
+
 TEST(DocumentFindings, absentMembersOfOtherKindsAreUnused)
 {
     const Document sprite =

@@ -99,13 +99,27 @@ TEST(NewElement, isLaterThanTheLastAndValid)
     EXPECT_EQ((*newElement(document, *triggers))["name"], "go");
 }
 
+TEST(NewElement, ofAnInstanceIsNotBeforeItsStart)
+{
+    const auto scene =
+        Document::fromText(R"({"version": 1, "camera": {"position": [0, 1, 9], "target": [0, 1, 0]},
+        "instances": [{"preset": "library:sparks", "start": 2}]})",
+                           "a.scene.json");
+    ASSERT_TRUE(scene.ok());
+    const auto triggers = memberAt(*scene, "/instances/0/triggers");
+    ASSERT_TRUE(triggers.has_value());
+    const auto made = newElement(*scene, *triggers); // the events of the preset are not in the document
+    ASSERT_TRUE(made.ok()) << made.status().message();
+    EXPECT_EQ((*made)["time"], 2.0);
+}
+
 /// Adds an element twice to each array below an object, and expects no error.
 void addToArrays(Document& io, const std::string& pointer, size_t& ioArrays)
 {
     for (const Member& member : membersOf(io, pointer)) {
         if (member.kind == MemberKind::Object)
             addToArrays(io, member.pointer, ioArrays);
-        const bool needsFile = member.name == "vectorFields"; // which nobody can guess
+        const bool needsFile = member.name == "vectorFields"; // the name of its file cannot be guessed
         if (member.kind != MemberKind::Array || needsFile)
             continue;
         const size_t done = io.history().done();

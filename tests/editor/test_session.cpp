@@ -1,4 +1,6 @@
+#include "fxsdk/editor/document/document_findings.h"
 #include "fxsdk/editor/session/session.h"
+#include "fxsdk/editor/session/time_marks.h"
 
 #include "tests/tool/temporary_folder.h"
 
@@ -74,6 +76,35 @@ TEST(Session, theTimelineFollowsTheTimeOfThePreview)
     EXPECT_EQ(open.document.json()["preview"]["camera"]["target"], Json::array({0.0, 1.0, 0.0}));
     open.undo();
     EXPECT_FALSE(open.document.json()["preview"].contains("camera"));
+}
+
+TEST(Session, aViewThatIsKeptIsAValidCamera)
+{
+    test::TemporaryFolder folder;
+    const std::string path = (folder / "a.fx.json").string();
+    test::writeText(path, R"({"version": 1, "preview": {"camera": {"position": [0, 1, 9], "target": [0, 1, 0],
+        "orthographicHeight": 4}}})");
+    auto session = Session::open(path, folder / "state");
+    ASSERT_TRUE(session.ok());
+    (*session)->camera.look({0.0, 2.0, 8.0}, {0.0, 1.0, 0.0});
+    (*session)->keepCamera();
+    for (const DocumentFinding& finding : findingsOf((*session)->document))
+        EXPECT_TRUE(finding.diagnostic.warning) << finding.diagnostic.message;
+}
+
+TEST(Session, theTimelineBeginsAfterThePrewarm)
+{
+    test::TemporaryFolder folder;
+    const std::string path = (folder / "a.fx.json").string();
+    test::writeText(path, R"({"version": 1, "duration": 10, "prewarm": 3, "emitters": [
+        {"emission": {"bursts": [{"time": 5, "count": 2}]}}]})");
+    auto session = Session::open(path, folder / "state");
+    ASSERT_TRUE(session.ok());
+    EXPECT_EQ((*session)->playback.end, 7.0);
+    const std::vector<TimeMark> marks = timeMarks((*session)->document);
+    ASSERT_EQ(marks.size(), 1u);
+    EXPECT_EQ(marks[0].time, 2.0);
+    EXPECT_EQ(timeAt((*session)->document, marks[0], 4.0), 7.0); // dragged to 4 s of the picture
 }
 
 TEST(Session, anEndWithoutSavingKeepsWhatWasEdited)

@@ -23,6 +23,23 @@ PRESET = """{"version": 1, "name": "fountain", "ground": false, "emitters": [{
 """
 
 
+def edit_in_editor(test, game, axis, value):
+    """Types a component of the position of the first emitter into an editor that is linked to a game."""
+    script = test.write("events.txt", f"""
+click select/emitters/0
+click /emitters/0/position/{axis}
+type {value}
+key enter
+linked
+""")
+    outcome = fx("edit", test.preset, "--headless", "--width", 960, "--height", 640, "--script", script,
+                 "--recovery", test.folder / "recovery", "--link", game, env=test.env)
+    if "has no editor" in outcome.err:
+        test.skipTest(outcome.err)
+    test.assertEqual(outcome.code, 0, outcome.err)
+    test.assertIn("shown by 1 instance", outcome.out)
+
+
 class Link(FxTest):
     def setUp(self):
         super().setUp()
@@ -86,19 +103,7 @@ class Link(FxTest):
 
     def test_the_editor_shows_its_edits_in_the_game(self):
         self.wait_for_height(1)
-        script = self.write("events.txt", """
-click select/emitters/0
-click /emitters/0/position/1
-type 40
-key enter
-linked
-""")
-        outcome = fx("edit", self.preset, "--headless", "--width", 960, "--height", 640, "--script", script,
-                     "--recovery", self.folder / "recovery", "--link", "test-game", env=self.env)
-        if "has no editor" in outcome.err:
-            self.skipTest(outcome.err)
-        self.assertEqual(outcome.code, 0, outcome.err)
-        self.assertIn("shown by 1 instance", outcome.out)
+        edit_in_editor(self, "test-game", 1, 40)
         self.wait_for_height(40)
 
 
@@ -150,19 +155,7 @@ class PictureLink(FxTest):
     def test_the_picture_of_a_game_shows_the_edit_while_it_runs(self):
         self.wait_until(lambda left, right: left > 100 > right, "the game shows the preset on the left")
         self.shot("before.png")
-        script = self.write("events.txt", """
-click select/emitters/0
-click /emitters/0/position/0
-type 2
-key enter
-linked
-""")
-        outcome = fx("edit", self.preset, "--headless", "--width", 960, "--height", 640, "--script", script,
-                     "--recovery", self.folder / "recovery", "--link", "picture-game", env=self.env)
-        if "has no editor" in outcome.err:
-            self.skipTest(outcome.err)
-        self.assertEqual(outcome.code, 0, outcome.err)
-        self.assertIn("shown by 1 instance", outcome.out)
+        edit_in_editor(self, "picture-game", 0, 2)
         self.wait_until(lambda left, right: right > 100 > left, "the game shows the edit on the right")
         self.shot("after.png")
         self.assertEqual(self.preset.read_text(), GLOW % -2) # the editor has not saved

@@ -42,6 +42,9 @@ bool viewportHandles(PanelState& state, const ViewProjection& view, ImVec2 low, 
 /// A button with a place. @return true when it was clicked
 bool button(PanelState& state, const char* label, const std::string& name);
 
+/// A line of text with a place. @param width [pixel]
+void textField(PanelState& state, const char* label, const std::string& name, float width, std::string& io);
+
 /// Puts the next button into the line of the last one if there is room for its label.
 void sameLineIfItFits(const char* label);
 void sameLineIfItFits(float width); ///< @param width [pixel] of the next widgets

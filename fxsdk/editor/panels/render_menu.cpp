@@ -36,16 +36,6 @@ void field(PanelState& state, const char* label, const char* name, Number& io, d
     ImGui::TextUnformatted(label);
 }
 
-void fileField(PanelState& state, RenderRequest& io)
-{
-    char file[1024];
-    std::snprintf(file, sizeof file, "%s", io.file.c_str());
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 18.0f);
-    if (ImGui::InputText("file", file, sizeof file))
-        io.file = file;
-    state.mark("render/file");
-}
-
 void popup(PanelState& state)
 {
     RenderRequest& request = state.render.request;
@@ -58,7 +48,7 @@ void popup(PanelState& state)
         if (&kind != &kKinds.back())
             ImGui::SameLine();
     }
-    fileField(state, request);
+    textField(state, "file", "render/file", ImGui::GetFontSize() * 18.0f, request.file);
     field(state, "pixels wide", "render/width", request.width, 16.0, 4096.0);
     field(state, "pixels high", "render/height", request.height, 16.0, 4096.0);
     if (request.kind != RenderKind::Picture)

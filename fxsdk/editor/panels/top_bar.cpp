@@ -13,6 +13,16 @@ bool button(PanelState& state, const char* label, const std::string& name)
     return isClicked;
 }
 
+void textField(PanelState& state, const char* label, const std::string& name, float width, std::string& io)
+{
+    char text[1024];
+    std::snprintf(text, sizeof text, "%s", io.c_str());
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::InputText(label, text, sizeof text))
+        io = text;
+    state.mark(name);
+}
+
 void sameLineIfItFits(float width)
 {
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
@@ -31,12 +41,7 @@ void saveAsDialog(PanelState& state)
 {
     if (!ImGui::BeginPopup("save as"))
         return;
-    char name[1024];
-    std::snprintf(name, sizeof name, "%s", state.saveAs.c_str());
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 28.0f);
-    if (ImGui::InputText("##file", name, sizeof name))
-        state.saveAs = name;
-    state.mark("save as/file");
+    textField(state, "##file", "save as/file", ImGui::GetFontSize() * 28.0f, state.saveAs);
     ImGui::SameLine();
     if (button(state, "save", "save as/save") && !state.saveAs.empty()) {
         state.session.saveAs(state.saveAs);

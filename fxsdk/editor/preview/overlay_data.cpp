@@ -139,6 +139,32 @@ void sumUp(OverdrawMap& io)
     io.mean /= double(std::max<size_t>(covered, 1));
 }
 
+/// What covers the picture of a ball. [m]
+struct BallDisk
+{
+    glm::dvec3 place;
+    double radius;
+};
+
+/// How many balls cover each pixel. @param cut changes the disk of a ball; false: it covers nothing
+template <class Cut>
+OverdrawMap mapOfBalls(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height,
+                       Cut&& cut)
+{
+    OverdrawMap map = mapFor(width, height);
+    forEachGroup(scene, [&](const Group& g) {
+        for (uint32_t i = 0; hasAll(g.places) && g.radii && i < g.group.count; ++i) {
+            BallDisk disk{g.toWorld(Group::at(g.places, i)), double(g.radii[i]) * g.scale};
+            if (!cut(disk))
+                continue;
+            if (const auto center = view.project(disk.place))
+                cover(map, *center, std::min(view.scaleAt(disk.place) * disk.radius, kLargestDisk));
+        }
+    });
+    sumUp(map);
+    return map;
+}
+
 } // namespace
 
 void addParticleWires(const fxsdk::Scene& scene, const OverlayChoice& choice, OverlayData& io)
@@ -183,43 +209,20 @@ std::vector<uint32_t> countsBySolver(const fxsdk::Scene& scene, size_t solvers)
 
 OverdrawMap overdrawOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height)
 {
-    OverdrawMap map = mapFor(width, height);
-    forEachGroup(scene, [&](const Group& g) {
-        if (!hasAll(g.places) || !g.radii)
-            return;
-        for (uint32_t i = 0; i < g.group.count; ++i) {
-            const glm::dvec3 place = g.toWorld(Group::at(g.places, i));
-            if (const auto center = view.project(place))
-                cover(map, *center,
-                      std::min(view.scaleAt(place) * double(g.radii[i]) * g.scale, kLargestDisk));
-        }
-    });
-    sumUp(map);
-    return map;
+    return mapOfBalls(scene, view, width, height, [](BallDisk&) { return true; });
 }
 
 OverdrawMap sliceOf(const fxsdk::Scene& scene, const ViewProjection& view, int width, int height,
                     const glm::dvec3& through)
 {
-    OverdrawMap map = mapFor(width, height);
-    forEachGroup(scene, [&](const Group& g) {
-        if (!hasAll(g.places) || !g.radii)
-            return;
-        for (uint32_t i = 0; i < g.group.count; ++i) {
-            const glm::dvec3 place = g.toWorld(Group::at(g.places, i));
-            const double away = glm::dot(place - through, view.forward());
-            const double radius = double(g.radii[i]) * g.scale;
-            if (!(std::abs(away) < radius))
-                continue;
-            const glm::dvec3 inSlice = place - away * view.forward();
-            if (const auto center = view.project(inSlice)) // the ball is cut in a disk
-                cover(map, *center,
-                      std::min(view.scaleAt(inSlice) * std::sqrt((radius - away) * (radius + away)),
-                               kLargestDisk));
-        }
+    return mapOfBalls(scene, view, width, height, [&](BallDisk& io) {
+        const double away = glm::dot(io.place - through, view.forward());
+        if (!(std::abs(away) < io.radius))
+            return false;
+        io.place -= away * view.forward(); // the ball is cut in a disk
+        io.radius = std::sqrt((io.radius - away) * (io.radius + away));
+        return true;
     });
-    sumUp(map);
-    return map;
 }
 
 void addLightSlices(const render::MediaShadowBlock& sun, const glm::dvec3& origin, OverlayData& io)

@@ -288,7 +288,7 @@ void Preview::place(size_t index, double seconds)
     }
 }
 
-/// Begins a scene anew: its clock cannot go back.
+/// Creates a new scene, because the clock of a scene cannot go back.
 void Preview::restart()
 {
     std::unique_ptr<fxsdk::Scene> scene = newScene();

@@ -63,7 +63,7 @@ base::Status Preview::measure(const PreviewFrame& frame, StageTimes& outTimes)
     return measureStep(outTimes.simulation);
 }
 
-/// @param outTimes receives the time of each stage, for which the GPU finishes it; null: nobody measures
+/// @param outTimes receives the time of each stage, for which the GPU finishes it; null: no time is measured
 base::Status Preview::renderStages(const PreviewFrame& frame, StageTimes* outTimes)
 {
     const render::CameraView camera = cameraOf(frame);
