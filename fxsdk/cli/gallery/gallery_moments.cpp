@@ -7,7 +7,7 @@ namespace fx::cli {
 
 std::vector<base::Ticks> stripMoments(double time, double duration, int count)
 {
-    constexpr double kApart = 1.0 / 60.0;     // [s] moments closer than that show the same
+    constexpr double kApart = 1.0 / 60.0;    // [s] moments closer than that show the same
     constexpr double kShownOfDuration = 0.6; // [1]
     const double first = 0.5 * std::max(time, kApart);
     const double wanted = duration > 0.0 ? kShownOfDuration * duration : 4.0 * time;
