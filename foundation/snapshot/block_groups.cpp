@@ -45,6 +45,17 @@ BlockGroups::BlockGroups(const FrameSnapshot& snapshot, size_t end)
     leaveOutEmpty(end);
 }
 
+const SnapshotGroup* BlockGroups::material() const
+{
+    if (root_ == 0)
+        return nullptr;
+    const SnapshotGroup& before = snapshot_.added(root_ - 1);
+    const GroupInfo &info = before.info(), &own = root().info();
+    const bool isOwn = snapshot_.schema().kind(info.kind) == kBlockMaterialKind &&
+                       info.instance == own.instance && info.solver == own.solver;
+    return isOwn ? &before : nullptr;
+}
+
 /// Removes the variants without any ball, so that a walk through blocks ends with the balls. What a block
 /// consists of comes before it.
 void BlockGroups::leaveOutEmpty(size_t end)

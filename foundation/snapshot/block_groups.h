@@ -45,6 +45,9 @@ public:
 
     /// The blocks of the effect.
     const SnapshotGroup& root() const { return snapshot_.added(root_); }
+    /// The noise coordinates of the blocks of the effect, row by row: a group of the kind "blockMaterial"
+    /// before them; null without.
+    const SnapshotGroup* material() const;
     /// True: the group consists of blocks. False: it consists of balls.
     bool isBlocks(const SnapshotGroup& group) const { return group.info().kind == root().info().kind; }
     /// The content of a variant; null if the variant has no ball.

@@ -10,11 +10,14 @@
 ///
 /// A block scales the lengths of its content by Scale, and the extinction so that optical depths become
 /// Density times as large. The group of the kind "blob" that follows the groups of a solver has the balls of
-/// all blocks. Its rows are computed when they are first read, see expandBlocks(). Readers that know blocks
-/// need not read it.
+/// all blocks. If the preset has detail of the field, a group "blockMaterial" with the noise coordinates of
+/// the blocks of the effect comes before all of these, and one of the kind "material" with those of the balls
+/// last. Rows of the last groups are computed when they are first read, see expanded_blocks.h. Readers that
+/// know blocks need not read them.
 #pragma once
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/material_kind.h"
 
 namespace fx::base {
 
@@ -89,5 +92,6 @@ inline constexpr ColumnDesc kBlockBallConstants[block_ball_constant::Count] = {
 
 inline constexpr KindDesc kBlockKind{"block", kBlockColumns, kBlockConstants};
 inline constexpr KindDesc kBlockBallKind{"blockBall", kBlobColumns, kBlockBallConstants};
+inline constexpr KindDesc kBlockMaterialKind{"blockMaterial", kMaterialColumns, kMaterialConstants};
 
 } // namespace fx::base

@@ -60,16 +60,15 @@ private:
     uint32_t next_ = 0;
 };
 
-} // namespace
-
-void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io)
+/// Calls write(balls, frame, row) for the balls of each block, with the row of the effect's block that they
+/// are in, until isFull().
+template <class IsFull, class Write>
+void forEachBlock(const BlockGroups& groups, IsFull&& isFull, Write&& write)
 {
-    const BlockGroups groups(snapshot, place);
-    BallWriter writer(io);
     std::array<Level, kMaxBlockLevels> stack;
     size_t depth = 0;
     stack[depth++].blocks = &groups.root();
-    while (depth > 0 && !writer.isFull()) {
+    while (depth > 0 && !isFull()) {
         Level& top = stack[depth - 1];
         if (top.row == top.blocks->count()) {
             --depth;
@@ -81,11 +80,42 @@ void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io
             continue;
         const BlockFrame inner = top.frame.inside(*top.blocks, row);
         if (!groups.isBlocks(*content))
-            writer.write(*content, inner);
+            write(*content, inner, stack[0].row - 1);
         else if (depth < stack.size())
             stack[depth++] = {inner, content, 0};
     }
+}
+
+} // namespace
+
+void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io)
+{
+    BallWriter writer(io);
+    forEachBlock(
+        BlockGroups(snapshot, place), [&] { return writer.isFull(); },
+        [&](const SnapshotGroup& balls, const BlockFrame& frame, uint32_t) { writer.write(balls, frame); });
     io.editInfo().count -= writer.missing();
+}
+
+void expandMaterials(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io)
+{
+    const BlockGroups groups(snapshot, place - 1);
+    const SnapshotGroup* const own = groups.material();
+    uint32_t next = 0;
+    forEachBlock(
+        groups, [&] { return !own || next == io.count(); },
+        [&](const SnapshotGroup& balls, const BlockFrame& frame, uint32_t row) {
+            const glm::vec3 block = vectorAt(groups.root(), block_column::PositionX, row);
+            const uint32_t count = std::min(balls.count(), io.count() - next);
+            for (uint32_t i = 0; i < count; ++i, ++next) {
+                const glm::vec3 away =
+                    frame.position - block + frame.turned(vectorAt(balls, blob::PositionX, i));
+                for (size_t c = 0; c < material_column::Count; ++c)
+                    io.editColumn(c)[next] = own->start(c)[row] + away[int(c % 3)];
+                io.editIds()[next] = frame.id + balls.ids()[i];
+            }
+        });
+    io.editInfo().count = next;
 }
 
 } // namespace fx::base

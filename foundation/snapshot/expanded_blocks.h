@@ -16,4 +16,9 @@ namespace fx::base {
 /// of theirs.
 void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io);
 
+/// Writes the noise coordinates of the balls of all blocks of a solver: a LateRows for the group of the kind
+/// "material" after that of expandBlocks(). A ball is as far from the coordinates of its block as from the
+/// block itself, so that noise moves with blocks.
+void expandMaterials(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io);
+
 } // namespace fx::base

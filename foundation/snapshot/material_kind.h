@@ -50,6 +50,9 @@ enum : size_t
     /// [1] Softening of edges as the medium thins. At 0, lumps fall apart; at 1, lumps keep their form; above
     /// 1, lumps blur.
     Softening,
+    /// [1] 0: the extinction of the group is multiplied so that its total is that without detail; 1: what
+    /// detail removes is lost
+    Lossy,
     Count
 };
 }
@@ -64,7 +67,7 @@ inline constexpr ColumnDesc kMaterialColumns[material_column::Count] = {
 inline constexpr ColumnDesc kMaterialConstants[material_constant::Count] = {
     {"generation", "1"}, {"fade", "1"},     {"length0", "m"},   {"length1", "m"}, {"growth0", "1"},
     {"growth1", "1"},    {"thinnest", "1"}, {"densest", "1"},   {"ramp", "1"},    {"gain", "1"},
-    {"cooling", "1"},    {"glow", "1"},     {"softening", "1"},
+    {"cooling", "1"},    {"glow", "1"},     {"softening", "1"}, {"lossy", "1"},
 };
 
 inline constexpr KindDesc kMaterialKind{"material", kMaterialColumns, kMaterialConstants};

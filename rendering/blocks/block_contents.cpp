@@ -39,6 +39,7 @@ public:
         light_ += section * glm::dvec3(more.light);
         fireShare_ += section * double(more.fireShare);
         heat_ += section * double(more.heat);
+        peak_ += section * double(more.peak);
         sum.brightest = glm::max(sum.brightest, more.brightest);
         sum.isColored = sum.isColored || more.isColored;
         sum.balls += std::min(more.balls, std::numeric_limits<uint32_t>::max() - sum.balls);
@@ -54,13 +55,14 @@ public:
         content.light = glm::vec3(per * light_);
         content.fireShare = float(per * fireShare_);
         content.heat = float(per * heat_);
+        content.peak = float(per * peak_);
         return content;
     }
 
     BlockContent sum; ///< what is neither a sum nor a mean
 
 private:
-    double section_ = 0.0, fireShare_ = 0.0, heat_ = 0.0;
+    double section_ = 0.0, fireShare_ = 0.0, heat_ = 0.0, peak_ = 0.0;
     glm::dvec3 middle_{0.0}, albedo_{0.0}, light_{0.0};
 };
 
@@ -78,7 +80,9 @@ BlockContent BlockContents::sumOfBalls(const SnapshotGroup& group) const
         ball.fireShare = group.start(blob::FireShare)[i];
         ball.heat = group.start(blob::Heat)[i];
         ball.balls = 1;
-        all.add(ball, group.start(blob::CrossSection)[i]);
+        const float section = group.start(blob::CrossSection)[i], radius = group.start(blob::Radius)[i];
+        ball.peak = section / std::max(radius * radius * radius, 1e-30f);
+        all.add(ball, section);
         sum.isColored = sum.isColored || ball.albedo != vectorAt(group, blob::AlbedoR, 0) ||
                         group.start(blob::Temperature)[i] != group.start(blob::Temperature)[0] ||
                         vectorAt(group, blob::EmissionR, i) != vectorAt(group, blob::EmissionR, 0);
@@ -101,6 +105,7 @@ BlockContent BlockContents::sumOfBlocks(const SnapshotGroup& group) const
         const base::BlockFrame frame = base::BlockFrame().inside(group, i);
         BlockContent placed = inner;
         placed.middle = frame.position + frame.turned(inner.middle);
+        placed.peak = inner.peak * frame.density / std::max(scale, 1e-30f);
         all.add(placed, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
         sum.speed = std::max(sum.speed, scale * inner.speed);
         sum.isAnimated = sum.isAnimated || inner.isAnimated;

@@ -32,10 +32,12 @@ struct BlockContent
     glm::vec3 brightest{0.0f};                  ///< [cd/m2] largest BlockBall::light, by channel
     float fireShare = 0.0f;                     ///< mean
     float heat = 0.0f;                          ///< [K] mean
-    float speed = 0.0f;                         ///< [m/s] largest speed of a ball relative to the block
-    bool isAnimated = false;                    ///< false: the content never changes
-    uint32_t balls = 0;                         ///< number of balls, at most UINT32_MAX
-    bool isColored = false;                     ///< true: albedo or emitted light differ between balls
+    float peak =
+        0.0f; ///< [1/m] mean of cross section over radius cubed, which follows the extinction in the middle
+    float speed = 0.0f;      ///< [m/s] largest speed of a ball relative to the block
+    bool isAnimated = false; ///< false: the content never changes
+    uint32_t balls = 0;      ///< number of balls, at most UINT32_MAX
+    bool isColored = false;  ///< true: albedo or emitted light differ between balls
     /// Identifies the content. Static content has the same number in all instances that show it; animated
     /// content has a number of its own for each instance and variant.
     uint64_t identity = 0;

@@ -43,6 +43,9 @@ public:
     bool read(uint32_t i, const BlockFrame& outer, BlockFrame& out)
     {
         out = outer.inside(newer_, i);
+        i_ = i;
+        hasOld_ = false;
+        position_ = vectorAt(newer_, block::PositionX, i);
         if (!older_)
             return true;
         const uint64_t id = newer_.ids()[i];
@@ -50,8 +53,11 @@ public:
             ++j_;
         if (j_ == older_->count() || older_->ids()[j_] != id) {
             out.position -= (1.0f - t_) * stepSeconds_ * (out.velocity - outer.velocity);
+            position_ -= (1.0f - t_) * stepSeconds_ * vectorAt(newer_, block::VelocityX, i);
             return newer_.start(block::Age)[i] >= (1.0f - t_) * stepSeconds_;
         }
+        hasOld_ = true;
+        position_ = glm::mix(vectorAt(*older_, block::PositionX, uint32_t(j_)), position_, t_);
         const BlockFrame before = outer.inside(*older_, uint32_t(j_));
         out.position = glm::mix(before.position, out.position, t_);
         out.scale = glm::mix(before.scale, out.scale, t_);
@@ -59,11 +65,19 @@ public:
         return true;
     }
 
+    /// Offsets of the noise coordinates of the block that was read last.
+    std::array<glm::vec3, 2> carried(const BlobDetail& detail) const
+    {
+        return detail.isGiven() ? detail.carried(i_, j_, hasOld_, position_) : std::array<glm::vec3, 2>();
+    }
+
 private:
     const SnapshotGroup& newer_;
     const SnapshotGroup* older_;
     float t_, stepSeconds_;
-    size_t j_ = 0;
+    size_t i_ = 0, j_ = 0;
+    bool hasOld_ = false;
+    glm::vec3 position_{0.0f}; ///< [m] in the space of the effect
 };
 
 } // namespace
@@ -77,7 +91,8 @@ BlockWalk::BlockWalk(const CameraGeometry& camera, int height, BlockTiles& tiles
 
 void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& contents,
                     const SnapshotGroup* older, float t, float stepSeconds, double seconds,
-                    const base::Placement& place, const GatheredBlob& like, const BlockWalkSettings& settings)
+                    const base::Placement& place, const GatheredBlob& like, const BlobDetail& detail,
+                    const BlockWalkSettings& settings)
 {
     groups_ = &groups;
     contents_ = &contents;
@@ -111,6 +126,7 @@ void BlockWalk::run(const base::BlockGroups& groups, const BlockContents& conten
                 continue;
             if (castsBalls_)
                 addBallCasters(frame, variant);
+            like_.carried = reader.carried(detail); // of all that is in the block
             visit(frame, variant, 1.0f);
         }
     }
@@ -248,7 +264,10 @@ void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content
     records_.push_back({{frame.rotation * tile.axes.right, steps + tile.nearness},
                         {frame.rotation * tile.axes.up, perWidth * perWidth / section},
                         {float(tile.size), float(tile.corner.x), float(tile.corner.y),
-                         content.isColored ? tile.brightest * settings_->exposure : -1.0f}});
+                         content.isColored ? tile.brightest * settings_->exposure : -1.0f},
+                        {content.peak * content.radius * content.radius * content.radius /
+                             std::max(content.crossSection, 1e-30f),
+                         0.0f, 0.0f, 0.0f}});
     ball.tile = uint32_t(records_.size());
     balls_.push_back(ball);
     ++counts_.impostors;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rendering/blocks/block_errors.h"
+#include "rendering/field_detail/blob_detail.h"
 #include "rendering/frame/view_volume.h"
 #include "rendering/media/late_balls.h"
 
@@ -22,8 +23,10 @@ struct BlockRecord
     /// x [texel] side of the tile; yz [texel] corner; w exposed light per unit of the tile, -1: the tile has
     /// no colors of its own
     glm::vec4 tile;
+    /// x [1] extinction in the middle of its balls, on average, over that of one ball as large as the block
+    glm::vec4 detail;
 };
-static_assert(sizeof(BlockRecord) == 48);
+static_assert(sizeof(BlockRecord) == 64);
 
 /// Settings of BlockWalk.
 struct BlockWalkSettings
@@ -63,9 +66,10 @@ public:
     /// @param older its blocks in the older snapshot; may be null  @param t interpolation, 1 is the newer one
     /// @param place placement of the effect relative to the eye
     /// @param like values that all balls of the effect have in common
+    /// @param detail of the field, from the coordinates of its blocks; may be without
     void run(const base::BlockGroups& groups, const BlockContents& contents, const base::SnapshotGroup* older,
              float t, float stepSeconds, double seconds, const base::Placement& place,
-             const GatheredBlob& like, const BlockWalkSettings& settings);
+             const GatheredBlob& like, const BlobDetail& detail, const BlockWalkSettings& settings);
 
     const BlockWalkCounts& counts() const { return counts_; }
 

@@ -40,10 +40,19 @@ BlobDetail::BlobDetail(const base::SnapshotPair& snapshots, size_t group, float 
     if (newer.schema().kind(name.kind) != base::kMaterialKind || name.instance != blobs.instance ||
         name.solver != blobs.solver)
         return;
-    chosen_ = newer_ = &newer.group(group + 1);
-    numbers_ = fieldDetailNumbers(chosen_->constants());
     const size_t same = findSameGroup(snapshots.older, name, group + 1);
-    const base::SnapshotGroup* const older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+    read(newer.group(group + 1), same == kNoGroup ? nullptr : &snapshots.older->group(same), t);
+}
+
+BlobDetail::BlobDetail(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t)
+{
+    read(newer, older, t);
+}
+
+void BlobDetail::read(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t)
+{
+    chosen_ = newer_ = &newer;
+    numbers_ = fieldDetailNumbers(chosen_->constants());
     if (!older || older->count() == 0 || phaseOf(*older) > phaseOf(*newer_))
         return;
     const double phase = phaseOf(*older) + double(t) * (phaseOf(*newer_) - phaseOf(*older));

@@ -43,6 +43,9 @@ public:
     /// @param t moment between the snapshots: 0 is the older snapshot, 1 the newer
     BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t);
 
+    /// @param newer, older groups of the coordinates of the same elements; `older` may be null
+    BlobDetail(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t);
+
     bool isGiven() const { return chosen_ != nullptr; }
     /// Returns the parameters of the detail at the moment.
     /// @param place interpolated placement of the group, relative to the eye
@@ -55,6 +58,8 @@ public:
                                      const glm::vec3& position) const;
 
 private:
+    void read(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t);
+
     const base::SnapshotGroup* newer_ = nullptr;
     /// Group whose noise coordinates are used at the moment `t`; null: no detail.
     const base::SnapshotGroup* chosen_ = nullptr;

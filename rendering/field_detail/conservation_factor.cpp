@@ -124,6 +124,8 @@ float ConservationFactor::meanShare(const GroupDetail& detail, std::span<const D
 
 float ConservationFactor::of(const GroupDetail& detail, std::span<const DetailedCaster> balls)
 {
+    if (!detail.numbers.isConserved)
+        return 1.0f;
     thinning_.clear();
     for (const DetailedCaster& caster : balls)
         thinning_.push_back(thinningOf(detail, caster.ball.crossSection, caster.ball.radius));

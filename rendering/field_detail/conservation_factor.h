@@ -65,8 +65,8 @@ public:
 
     explicit ConservationFactor(std::pmr::memory_resource* memory);
 
-    /// [1] The factor f of formula detail-conservation, kMin .. kMax. Equal input gives bit-identical
-    /// results.
+    /// [1] The factor f of formula detail-conservation, kMin .. kMax; 1 for a group that is not conserved.
+    /// Equal input gives bit-identical results.
     /// @param balls all balls of the group, visible or not
     float of(const GroupDetail& detail, std::span<const DetailedCaster> balls);
 

@@ -98,6 +98,7 @@ FieldDetailNumbers fieldDetailNumbers(std::span<const float> constants)
     numbers.cooling = constants[constant::Cooling];
     numbers.glow = constants[constant::Glow];
     numbers.softening = constants[constant::Softening];
+    numbers.isConserved = constants[constant::Lossy] < 0.5f;
     return numbers;
 }
 

@@ -35,6 +35,8 @@ struct FieldDetailNumbers
     float cooling = 0, glow = 0;     ///< [1] c and b of formula field-detail
     float softening = 0;             ///< [1] a / v of formula field-detail
 
+    bool isConserved = true; ///< false: the factor of formula detail-conservation is 1
+
     bool isGiven() const { return densest > thinnest; }
     float length() const; ///< [m] present size of the largest lumps, as a weighted mean of both generations
 };

@@ -368,9 +368,13 @@ void addLate(const LateBalls& late, std::pmr::vector<GatheredBlob>& ioVisible,
     ioVisible.insert(ioVisible.end(), late.visible.begin(), late.visible.end());
     ioMedium.insert(ioMedium.end(), late.casters.begin(), late.casters.end());
     ioInstances.back().visibleEnd = ioVisible.size();
-    if (ioFields)
-        addRun({ioInstances.size() - 1, -1, visibleBegin, ioVisible.size(), mediumBegin, ioMedium.size()},
-               ioFields->runs);
+    if (!ioFields)
+        return;
+    if (late.detail)
+        ioFields->details.push_back(*late.detail);
+    addRun({ioInstances.size() - 1, late.detail ? int(ioFields->details.size()) - 1 : -1, visibleBegin,
+            ioVisible.size(), mediumBegin, ioMedium.size()},
+           ioFields->runs);
 }
 
 } // namespace

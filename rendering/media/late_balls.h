@@ -4,6 +4,7 @@
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
+#include "rendering/field_detail/blob_detail.h"
 #include "rendering/lights/medium_caster.h"
 #include "rendering/media/gathered_blob.h"
 
@@ -17,6 +18,7 @@ struct LateBalls
     base::GroupName name;
     std::span<const GatheredBlob> visible; ///< that touch the view
     std::span<const MediumCaster> casters; ///< all that cast shadows
+    const GroupDetail* detail = nullptr;   ///< of their field; null: none
 };
 
 } // namespace fx::render

@@ -10,6 +10,7 @@ namespace {
 constexpr const DrawTechnique* kTechniques[] = {
     &kBlockTechnique,         // before the balls, some of which it replaces
     &kBlockBallTechnique,     //
+    &kBlockMaterialTechnique, //
     &kBlobTechnique,          //
     &kFieldDetailTechnique,   //
     &kVolumeTechnique,        //

@@ -24,6 +24,7 @@ extern const DrawTechnique kBlockTechnique;
 
 /// Content of block types, which is drawn as a part of kBlockTechnique.
 extern const DrawTechnique kBlockBallTechnique;
+extern const DrawTechnique kBlockMaterialTechnique;
 
 /// Shadows of media: timer group and scalability levels of light slices. The passes of light slices are in
 /// rendering/lights/slices and belong to every view.

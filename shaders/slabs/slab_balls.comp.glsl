@@ -19,7 +19,7 @@ layout(rgba32f, binding = 0) uniform writeonly image2D balls;
 #if FX_BLOCKS
 struct BlockRecord
 {
-    vec4 right, up, tile; // as BlockRecord of rendering/blocks/block_walk.h
+    vec4 right, up, tile, detail; // as BlockRecord of rendering/blocks/block_walk.h
 };
 layout(std430, binding = 7) readonly buffer BlockRecords { BlockRecord blockRecords[]; };
 #endif
@@ -43,6 +43,9 @@ void main()
     float texel = carried0.w > 0.5 ? float(kDetailTexels) * (carried0.w - 1.0) : -1.0;
     vec3 erosion = fieldTexel(int(max(texel, 0.0)) + kErosionTexel).xyz;
     float lumpDepth = fxKernelPeak(isThere ? max(blob.medium.x, 0.0) : 0.0, radius) * erosion.x;
+#if FX_BLOCKS
+    lumpDepth *= blob.layer.z > 0.5 ? blockRecords[max(int(blob.layer.z) - 1, 0)].detail.x : 1.0; // of the balls in it
+#endif
     float thinning = texel < 0.0 ? 0.0 : fxDetailThinning(lumpDepth, erosion.y, erosion.z);
     detail = texel < 0.0 ? detail : 0.0; // of the field instead
     imageStore(balls, ballTexel(ball, kCarried0), vec4(carried0.xyz, texel + 1.0));

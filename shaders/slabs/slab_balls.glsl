@@ -1,7 +1,7 @@
 // Balls of medium as texels, which software renderers read several times faster than buffers. A ball has kBallTexels of them,
 // one below the other; kBallColumns balls stand in a row. Written by slabs/slab_balls.comp.glsl.
 const int kBallColumns = 1024;
-const int kBallTexels = 9;
+const int kBallTexels = 11;
 const int kPlace = 0;   // xyz [m] center relative to the eye; w radius [m], of what is no smaller than a texel
 const int kMedium = 1;  // x optical depth of the chord through the middle; y radius [m]; z layer * 2 + share of fire; w detail [1]
 const int kEmitted = 2; // rgb [exposed]; w power of temperature by which it follows the detail
@@ -14,8 +14,8 @@ const int kTile = 6;      // x [texel] side; yz [texel] corner; w exposed light 
 const int kTileRight = 7; // xyz axis; w 0
 const int kTileUp = 8;    // xyz axis; w fraction: radius over the distance of the tile's eye; floor: [radius / 127] depth of the middle of the content + 127
 // Only where fields have detail:
-const int kCarried0 = 7; // xyz [cell] coordinates of the first generation; w first texel of the detail of the field + 1, or 0
-const int kCarried1 = 8; // xyz of the second; w thinning of the ball by itself
+const int kCarried0 = 9; // xyz [cell] coordinates of the first generation; w first texel of the detail of the field + 1, or 0
+const int kCarried1 = 10; // xyz of the second; w thinning of the ball by itself
 
 ivec2 ballTexel(uint ball, int texel)
 {

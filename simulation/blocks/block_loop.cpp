@@ -133,6 +133,7 @@ void BlockLoop::measure()
         return a.birth != b.birth ? a.birth < b.birth : a.copy > b.copy;
     };
     const auto seconds = float(base::toSeconds(frameTicks_));
+    double sections = 0, radii = 0;
     for (Frame& frame : frames_) {
         std::stable_sort(frame.begin(), frame.end(), inOrder);
         for (const Row& row : frame) {
@@ -140,8 +141,13 @@ void BlockLoop::measure()
             const glm::vec3 velocity(row.values[3], row.values[4], row.values[5]);
             radius_ = std::max(radius_, glm::length(position) + seconds * glm::length(velocity) +
                                             row.values[blob::Radius]);
+            const auto section = double(row.values[blob::CrossSection]);
+            sections += section;
+            radii += section * double(row.values[blob::Radius]);
         }
     }
+    crossSection_ = float(sections / double(std::max<size_t>(frames_.size(), 1)));
+    ballRadius_ = sections > 0.0 ? float(radii / sections) : 0.0f;
     for (size_t f = 0; f < frames_.size(); ++f) {
         uint32_t count = 0;
         const bool wraps = f + 1 == frames_.size();

@@ -48,7 +48,9 @@ public:
                                                                  const Settings& settings);
 
     base::Ticks period() const { return frameTicks_ * base::Ticks(frames_.size()); }
-    float radius() const { return radius_; } ///< [m] about the origin; no ball ever leaves it
+    float radius() const { return radius_; }             ///< [m] about the origin; no ball ever leaves it
+    float ballRadius() const { return ballRadius_; }     ///< [m] mean over all frames, by cross section
+    float crossSection() const { return crossSection_; } ///< [m2] sum over the balls, mean of the frames
     uint64_t span() const { return births_ << kPeriodBits; }
     uint32_t maxBalls() const { return maxBalls_; }
     uint64_t bytes() const;
@@ -79,7 +81,7 @@ private:
     uint64_t births_ = 0;
     uint32_t maxBalls_ = 0;
     uint64_t rows_ = 0;
-    float radius_ = 0;
+    float radius_ = 0, ballRadius_ = 0, crossSection_ = 0;
 };
 
 } // namespace fx::sim

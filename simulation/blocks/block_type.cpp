@@ -13,10 +13,33 @@ using base::Status;
 
 constexpr float kRoundedUp = 1.0001f;
 
+/// Mean radius of balls, by their cross section.
+class MeanRadius
+{
+public:
+    void add(float radius, float crossSection)
+    {
+        sections_ += double(crossSection);
+        radii_ += double(crossSection) * double(radius);
+    }
+    void writeTo(BlockType& io) const
+    {
+        io.crossSection = float(sections_);
+        io.ballRadius = sections_ > 0.0 ? float(radii_ / sections_) : 0.0f;
+    }
+
+private:
+    double sections_ = 0, radii_ = 0;
+};
+
 void measureBalls(BlockType& io)
 {
-    for (const ListedBall& ball : io.balls)
+    MeanRadius mean;
+    for (const ListedBall& ball : io.balls) {
         io.radius = std::max(io.radius, kRoundedUp * (glm::length(ball.center) + ball.radius));
+        mean.add(ball.radius, ball.crossSection);
+    }
+    mean.writeTo(io);
     io.span = io.ballCount = io.balls.size();
 }
 
@@ -25,6 +48,8 @@ void measureLoop(BlockType& io)
     io.radius = kRoundedUp * io.loop->radius();
     io.span = io.loop->span();
     io.ballCount = io.loop->maxBalls();
+    io.ballRadius = io.loop->ballRadius();
+    io.crossSection = io.loop->crossSection();
 }
 
 Status measureBlocks(std::span<const BlockType> before, BlockType& io)
@@ -32,6 +57,7 @@ Status measureBlocks(std::span<const BlockType> before, BlockType& io)
     io.ids.clear();
     io.levels = 1;
     io.phases = 1;
+    MeanRadius mean;
     for (const BlockPlacement& block : io.blocks) {
         if (block.type >= before.size())
             return {Code::InvalidArgument,
@@ -45,7 +71,10 @@ Status measureBlocks(std::span<const BlockType> before, BlockType& io)
         io.phases = std::max(io.phases, inner.phases);
         io.radius =
             std::max(io.radius, kRoundedUp * (glm::length(block.position) + block.scale * inner.radius));
+        mean.add(block.scale * inner.ballRadius,
+                 block.density * block.scale * block.scale * inner.crossSection);
     }
+    mean.writeTo(io);
     if (io.levels > base::kMaxBlockLevels)
         return {Code::InvalidArgument, "\"" + io.name + "\" has " + std::to_string(io.levels) +
                                            " levels of blocks; allowed are " +

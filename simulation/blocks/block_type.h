@@ -42,6 +42,8 @@ struct BlockType
     uint32_t phases = 1;                   ///< 1 to base::kMaxBlockPhases
 
     // What completeTypes() computes.
+    float ballRadius = 0;      ///< [m] mean radius of its balls, by their cross section
+    float crossSection = 0;    ///< [m2] sum over its balls
     float radius = 0;          ///< [m] of the smallest ball about the block's origin that holds its content
     uint64_t span = 0;         ///< number of ids that its balls take
     uint64_t ballCount = 0;    ///< largest number of balls, with those of its blocks

@@ -2,6 +2,7 @@
 
 #include "foundation/math/hash.h"
 #include "simulation/blocks/blocks_solver.h"
+#include "simulation/emitters/emitter_detail.h"
 
 #include <glm/geometric.hpp>
 
@@ -86,7 +87,8 @@ double BlocksDef::workOf(const StepLoad& load) const
 
 bool BlocksDef::publishes(const base::KindDesc& kind) const
 {
-    return kind == base::kBlobKind || kind == base::kBlockKind || kind == base::kBlockBallKind;
+    return kind == base::kBlobKind || kind == base::kBlockKind || kind == base::kBlockBallKind ||
+           (detail.given && (kind == base::kBlockMaterialKind || kind == base::kMaterialKind));
 }
 
 float BlocksDef::reach(float gravity, float wind, float seconds) const
@@ -97,6 +99,21 @@ float BlocksDef::reach(float gravity, float wind, float seconds) const
     for (const BlockPlacement& block : blocks)
         farthest = std::max(farthest, glm::length(block.position) + block.scale * types[block.type].radius);
     return farthest * 1.0001f; // above rounding
+}
+
+float BlocksDef::ballRadius() const
+{
+    double sections = 0, radii = 0;
+    const auto add = [&](const BlockType& type, float scale, float factor) {
+        const double section = double(factor * scale * scale) * double(type.crossSection);
+        sections += section;
+        radii += section * double(scale * type.ballRadius);
+    };
+    for (const BlockPlacement& block : blocks)
+        add(types[block.type], block.scale, block.density);
+    for (const uint32_t type : emitted)
+        add(types[type], meanRadiusOf(*emitter) / std::max(types[type].radius, 1e-6f), 1.0f);
+    return sections > 0.0 ? std::max(float(radii / sections), 1e-6f) : 1.0f;
 }
 
 uint64_t BlocksDef::hash() const

@@ -7,6 +7,7 @@
 
 #include "simulation/blocks/block_turn.h"
 #include "simulation/blocks/block_type.h"
+#include "simulation/detail/field_detail.h"
 #include "simulation/emitters/emitter_def.h"
 
 #include <memory>
@@ -33,6 +34,8 @@ struct BlocksDef final : SolverDef
     float anisotropy = 0.0f;          ///< [1] mean cosine of the scattering angle
     float fireShare = 0.0f;           ///< [1] part of static balls accounted to the fire layer
     base::MediaLayer layer = base::MediaLayer::Smoke;
+    /// Of the field of all balls. Where blocks come from an emitter, it has the same detail.
+    FieldDetail detail;
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
@@ -54,6 +57,9 @@ struct BlocksDef final : SolverDef
     uint64_t sharedBytes() const;
     /// Largest number of balls of all blocks, without the limit maxParticles.
     uint64_t expandedCount() const;
+    /// [m] Mean radius of the balls of all blocks, by their cross section; blocks of an emitter have the mean
+    /// radius of its particles.
+    float ballRadius() const;
     uint64_t hash() const; ///< of the types and of the list of blocks
 };
 

@@ -151,6 +151,35 @@ void BlocksSolver::writeEmitted(uint32_t i, const SnapshotGroup& particles, Snap
     io.editColumn(block::Age)[i] = particles.start(blob::Age)[i];
 }
 
+/// The group of the coordinates of blocks, before that of the blocks. Its rows are written later.
+void BlocksSolver::openMaterial(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+{
+    const size_t capacity = emitter_ ? def_.emitter->maxParticles : def_.blocks.size();
+    SnapshotGroup& group = snapshot.addGroup(kinds_.blockMaterial, capacity);
+    base::GroupInfo& info = group.editInfo();
+    info = base;
+    info.kind = kinds_.blockMaterial;
+    writeDetail(def_.detail, generations_, group);
+    // The factor that keeps the total would have to be found from all balls in each frame.
+    group.editConstants()[base::material_constant::Lossy] = 1.0f;
+}
+
+/// Blocks that do not move have their present place in both generations.
+void BlocksSolver::writeMaterial(const SnapshotGroup& root, SnapshotGroup& io) const
+{
+    io.editInfo().count = root.count();
+    io.editInfo().bounds = root.info().bounds;
+    std::ranges::copy(root.ids(), io.editIds().begin());
+    const SnapshotGroup* const moving = emitter_ && root.count() > 0 ? &particles_.group(1) : nullptr;
+    for (size_t column = 0; column < base::material_column::Count; ++column) {
+        const auto from = moving ? moving->column(column) : root.column(block::PositionX + column % 3);
+        std::ranges::copy(from, io.editColumn(column).begin());
+    }
+    if (moving)
+        for (const size_t c : {base::material_constant::Generation, base::material_constant::Fade})
+            io.editConstants()[c] = moving->constants()[c];
+}
+
 /// The blocks of the effect.
 SnapshotGroup& BlocksSolver::addRoot(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
 {
@@ -183,10 +212,15 @@ void BlocksSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& sna
 {
     if (kinds_.block == base::kNoKind || kinds_.ball == base::kNoKind)
         return;
+    const size_t first = snapshot.addedCount();
+    if (hasMaterial())
+        openMaterial(base, snapshot);
     const size_t root = snapshot.addedCount();
     findUsed(addRoot(base, snapshot));
     addContents(base, snapshot);
     addBalls(base, root, snapshot);
+    if (hasMaterial())
+        writeMaterial(snapshot.editGroup(root), snapshot.editGroup(first));
 }
 
 /// The group of the balls of all blocks, and what is known of it: bounds and counts.
@@ -232,6 +266,18 @@ void BlocksSolver::addBalls(const base::GroupInfo& base, size_t root, base::Fram
     constants[base::blob_constant::Layer] = float(uint32_t(def_.layer));
     constants[base::blob_constant::DetailScale] = 1.0f;
     constants[base::blob_constant::Anisotropy] = def_.anisotropy;
+    if (hasMaterial() && kinds_.material != base::kNoKind)
+        addLateMaterial(root, snapshot);
+}
+
+/// The coordinates of the balls of all blocks.
+void BlocksSolver::addLateMaterial(size_t root, base::FrameSnapshot& snapshot) const
+{
+    const size_t place = snapshot.addedCount() - 1; // of the balls
+    SnapshotGroup& group = snapshot.addLateGroup(kinds_.material, base::expandMaterials);
+    group.editInfo() = snapshot.editGroup(place).info();
+    group.editInfo().kind = kinds_.material;
+    std::ranges::copy(snapshot.editGroup(root - 1).constants(), group.editConstants().begin());
 }
 
 } // namespace fx::sim

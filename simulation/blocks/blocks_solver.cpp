@@ -13,11 +13,15 @@ constexpr base::Ticks kAlways = INT64_MAX / 4; ///< later than any event
 BlocksSolver::BlocksSolver(const BlocksDef& def, const base::SnapshotSchema& schema, const Quality& quality,
                            std::pmr::memory_resource* memory)
     : def_(def), kinds_{schema.find(base::kBlockKind.name), schema.find(base::kBlockBallKind.name),
-                        schema.find(base::kBlobKind.name)},
+                        schema.find(base::kBlobKind.name), schema.find(base::kBlockMaterialKind.name),
+                        schema.find(base::kMaterialKind.name)},
       hash_(def.hash()), particles_(&schema, memory)
 {
     for (const BlockType& type : def.types)
         stride_ = std::max(stride_, type.span);
+    if (def.detail.given)
+        generations_.radius[0] = generations_.radius[1] = generations_.radiusNow[0] =
+            generations_.radiusNow[1] = def.ballRadius();
     if (def.emitter)
         emitter_ = def.emitter->create(schema, quality, memory);
 }

@@ -33,7 +33,7 @@ public:
 private:
     struct Kinds
     {
-        base::KindId block, ball, blob;
+        base::KindId block, ball, blob, blockMaterial, material;
     };
 
     SeekableSolver* soughtEmitter() const { return emitter_ ? emitter_->seekable() : nullptr; }
@@ -44,14 +44,19 @@ private:
                                    std::span<const BlockPlacement> blocks, uint32_t capacity,
                                    base::FrameSnapshot& snapshot) const;
     base::SnapshotGroup& addRoot(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    bool hasMaterial() const { return def_.detail.given && kinds_.blockMaterial != base::kNoKind; }
+    void openMaterial(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    void writeMaterial(const base::SnapshotGroup& root, base::SnapshotGroup& io) const;
     void writeEmitted(uint32_t i, const base::SnapshotGroup& particles, base::SnapshotGroup& io) const;
     void findUsed(const base::SnapshotGroup& root) const;
     void addBalls(const base::GroupInfo& base, size_t root, base::FrameSnapshot& snapshot) const;
+    void addLateMaterial(size_t root, base::FrameSnapshot& snapshot) const;
 
     const BlocksDef& def_;
     Kinds kinds_;
-    uint64_t hash_;       ///< of the definition
-    uint64_t stride_ = 1; ///< ids that each block of the effect has for its balls
+    uint64_t hash_;                 ///< of the definition
+    DetailGenerations generations_; ///< of blocks that do not move
+    uint64_t stride_ = 1;           ///< ids that each block of the effect has for its balls
     std::unique_ptr<Solver> emitter_;
     base::Ticks now_ = 0;
     uint64_t seed_ = 0;                     ///< of the instance

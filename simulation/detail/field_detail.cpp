@@ -38,16 +38,10 @@ constexpr MaterialNumbers numbersOf(DetailMaterial material)
 
 } // namespace
 
-base::SnapshotGroup& addMaterial(const FieldDetail& detail, const DetailGenerations& generations,
-                                 base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot)
+void writeDetail(const FieldDetail& detail, const DetailGenerations& generations, base::SnapshotGroup& io)
 {
-    base::SnapshotGroup& group = snapshot.addGroup(kind, capacity);
-    base::GroupInfo& info = group.editInfo();
-    info = snapshot.editGroup(snapshot.addedCount() - 2).info();
-    info.kind = kind;
-
     const MaterialNumbers numbers = numbersOf(detail.material);
-    const std::span<float> constants = group.editConstants();
+    const std::span<float> constants = io.editConstants();
     constants[constant::Generation] = float(generations.younger % base::kGenerationCycle);
     constants[constant::Fade] = float(generations.fade);
     for (size_t g = 0; g < 2; ++g) {
@@ -61,6 +55,17 @@ base::SnapshotGroup& addMaterial(const FieldDetail& detail, const DetailGenerati
     constants[constant::Cooling] = numbers.cooling;
     constants[constant::Glow] = numbers.glow;
     constants[constant::Softening] = detail.softening;
+    constants[constant::Lossy] = 0.0f;
+}
+
+base::SnapshotGroup& addMaterial(const FieldDetail& detail, const DetailGenerations& generations,
+                                 base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot)
+{
+    base::SnapshotGroup& group = snapshot.addGroup(kind, capacity);
+    base::GroupInfo& info = group.editInfo();
+    info = snapshot.editGroup(snapshot.addedCount() - 2).info();
+    info.kind = kind;
+    writeDetail(detail, generations, group);
     return group;
 }
 

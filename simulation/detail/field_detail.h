@@ -41,6 +41,9 @@ struct DetailGenerations
     float radiusNow[2] = {1, 1};
 };
 
+/// Writes the constants of a group of the kind "material". The total extinction is conserved.
+void writeDetail(const FieldDetail& detail, const DetailGenerations& generations, base::SnapshotGroup& io);
+
 /// Adds a group of the kind "material", which belongs to the group of blobs added last, and writes its
 /// constants and ids. The caller then writes the columns.
 /// @param capacity maximum number of elements of the solver

@@ -12,16 +12,6 @@ constexpr double kStrainOfTurbulence = 4.4; ///< [1] pi sqrt(2), over speed by s
 constexpr double kMinStrain = 0.25;         ///< [1/s] of a medium without turbulence
 constexpr int kSizeSamples = 16;            ///< of the curve of sizes
 
-/// [m] mean over life of the radius.
-float meanRadius(const EmitterSettings& settings)
-{
-    float sum = 0;
-    for (int i = 0; i < kSizeSamples; ++i)
-        sum += settings.sizeOverLife.at((float(i) + 0.5f) / float(kSizeSamples))[0];
-    const float mean = 0.5f * (settings.radius.min + settings.radius.max) * sum / float(kSizeSamples);
-    return std::max(mean, 1e-6f);
-}
-
 /// Mean velocity of young particles, V of (4).
 class Stream
 {
@@ -73,11 +63,20 @@ private:
 
 } // namespace
 
+float meanRadiusOf(const EmitterSettings& settings)
+{
+    float sum = 0;
+    for (int i = 0; i < kSizeSamples; ++i)
+        sum += settings.sizeOverLife.at((float(i) + 0.5f) / float(kSizeSamples))[0];
+    const float mean = 0.5f * (settings.radius.min + settings.radius.max) * sum / float(kSizeSamples);
+    return std::max(mean, 1e-6f);
+}
+
 EmitterDetail::EmitterDetail(const EmitterDef& def, uint32_t capacity, std::pmr::memory_resource* memory)
     : def_(def), period_(periodOf(def)), coordinates_(memory, capacity)
 {
     for (size_t g = 0; g < 2; ++g)
-        shared_.radius[g] = shared_.radiusNow[g] = meanRadius(def);
+        shared_.radius[g] = shared_.radiusNow[g] = meanRadiusOf(def);
 }
 
 base::Ticks EmitterDetail::periodOf(const EmitterDef& def)

@@ -9,6 +9,9 @@
 
 namespace fx::sim {
 
+/// [m] Mean over life of the radius of an emitter's particles, > 0.
+float meanRadiusOf(const EmitterSettings& settings);
+
 /// Material coordinates of the particles of an emitter, in the rows of their particle store. No velocity
 /// gradient is measured, because the particles do not interact. Generations begin at fixed local times, at a
 /// rate derived from the turbulence.

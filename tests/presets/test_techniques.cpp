@@ -13,12 +13,12 @@ TEST(Techniques, registerEachKindOnce)
 {
     fx::base::SnapshotSchema schema;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 9u);
-    for (const char* kind :
-         {"blob", "material", "particle", "ribbon", "light", "gpuParticle", "volume", "block", "blockBall"})
+    EXPECT_EQ(schema.size(), 10u);
+    for (const char* kind : {"blob", "material", "particle", "ribbon", "light", "gpuParticle", "volume",
+                             "block", "blockBall", "blockMaterial"})
         EXPECT_NE(schema.find(kind), fx::base::kNoKind) << kind;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 9u);
+    EXPECT_EQ(schema.size(), 10u);
 }
 
 TEST(Techniques, haveNamesAndAllOfAPresetMember)

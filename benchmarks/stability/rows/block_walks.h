@@ -86,7 +86,7 @@ public:
         settings.maxBalls = std::numeric_limits<uint32_t>::max() / 2;
         base::Placement placement;
         placement.position = place;
-        walk.run(*groups_, contents_, nullptr, 1.0f, 0.0f, 0.0, placement, {}, settings);
+        walk.run(*groups_, contents_, nullptr, 1.0f, 0.0f, 0.0, placement, {}, {}, settings);
         out.newTiles = tiles_.jobs().size();
         out.counts = walk.counts();
         return out;

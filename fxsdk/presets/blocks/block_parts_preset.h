@@ -30,6 +30,7 @@ sim::BlockTurn readBlockTurn(const PresetValue& element);
 
 /// Reads the member "emitter" of `element`, a medium without events, trails, lights and detail.
 /// @return null with a finding for another emitter
-std::shared_ptr<const sim::EmitterDef> readBlockEmitter(const PresetValue& element);
+std::shared_ptr<const sim::EmitterDef> readBlockEmitter(const PresetValue& element,
+                                                        const sim::FieldDetail& detail = {});
 
 } // namespace fx::preset

@@ -278,7 +278,8 @@ sim::BlockTurn readBlockTurn(const PresetValue& element)
     return turn;
 }
 
-std::shared_ptr<const sim::EmitterDef> readBlockEmitter(const PresetValue& element)
+std::shared_ptr<const sim::EmitterDef> readBlockEmitter(const PresetValue& element,
+                                                        const sim::FieldDetail& detail)
 {
     const PresetValue member = element.child("emitter");
     for (const char* refused : {"events", "trail", "light", "detail"})
@@ -302,7 +303,11 @@ std::shared_ptr<const sim::EmitterDef> readBlockEmitter(const PresetValue& eleme
         member.error("space", "the particles of the emitter of blocks move with the instance; remove it");
         return nullptr;
     }
-    return emitter;
+    if (!detail.given)
+        return emitter;
+    auto detailed = std::make_shared<sim::EmitterDef>(*emitter);
+    detailed->detail = detail;
+    return detailed;
 }
 
 } // namespace fx::preset

@@ -3,6 +3,7 @@
 #include "fxsdk/presets/blocks/blocks_technique.h"
 #include "fxsdk/presets/emitters/birth_count.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
+#include "fxsdk/presets/field_detail_preset.h"
 #include "fxsdk/presets/layer_names.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ void readInstances(const PresetValue& element, sim::BlocksDef& out)
     if (!element.has("of"))
         return element.error("emitter", "found no types of its blocks; add \"of\" beside it");
     out.emitted = readBlockNames(element, out.types);
-    out.emitter = readBlockEmitter(element);
+    out.emitter = readBlockEmitter(element, out.detail);
 }
 
 const sim::BlocksDef* blocksAt(const sim::EffectDef& effect, size_t place)
@@ -106,6 +107,7 @@ void buildBlocks(const PresetValue& element, sim::EffectDef& effect)
     element.read("anisotropy", blocks->anisotropy);
     element.read("maxParticles", blocks->maxParticles);
     blocks->turn = readBlockTurn(element);
+    readFieldDetail(element, blocks->detail);
     if (!element.has("types"))
         element.error("types", "found no types; this needs what blocks consist of");
     readBlockTypes(element, blocks->types);

@@ -19,7 +19,8 @@ void lintBlocks(const PresetValue& root, const sim::EffectDef& effect);
 void estimateBlocks(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
 
 inline constexpr const base::KindDesc* kBlocksKinds[] = {&base::kBlobKind, &base::kBlockKind,
-                                                         &base::kBlockBallKind};
+                                                         &base::kBlockBallKind, &base::kBlockMaterialKind,
+                                                         &base::kMaterialKind};
 
 inline constexpr Technique kBlocksTechnique{
     .name = "blocks",

@@ -50,7 +50,7 @@ constexpr uint32_t kMaterialBinding = 4; ///< as in shaders/slabs/slab_balls.com
 constexpr size_t kCardBytes = 32;
 constexpr size_t kTileBytes = 16;
 constexpr uint32_t kBallColumns = 1024; ///< as in shaders/slabs/slab_balls.glsl
-constexpr int kBallTexels = 9;          ///< likewise
+constexpr int kBallTexels = 11;         ///< likewise
 constexpr uint32_t kListColumns = 4096; ///< likewise
 
 int tilesAlong(int texels)

@@ -35,4 +35,9 @@ constexpr DrawTechnique kBlockBallTechnique{
     .kind = &base::kBlockBallKind,
 };
 
+constexpr DrawTechnique kBlockMaterialTechnique{
+    .name = "coordinates of particle blocks",
+    .kind = &base::kBlockMaterialKind,
+};
+
 } // namespace fx::render

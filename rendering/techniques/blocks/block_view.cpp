@@ -38,6 +38,19 @@ GatheredBlob commonOf(const SnapshotGroup& late)
     return like;
 }
 
+/// The detail of the field of blocks, from the coordinates of the blocks of the effect.
+BlobDetail detailOf(const base::BlockGroups& groups, const base::FrameSnapshot* older, float t)
+{
+    const SnapshotGroup* const newer = groups.material();
+    if (!newer)
+        return {};
+    const base::GroupName name = base::nameOf(newer->info());
+    for (size_t place = 0; older && place < older->addedCount(); ++place)
+        if (base::nameOf(older->added(place).info()) == name)
+            return {*newer, &older->added(place), t};
+    return {*newer, nullptr, t};
+}
+
 } // namespace
 
 BlockView::BlockView(const TechniqueSetup& setup)
@@ -45,7 +58,7 @@ BlockView::BlockView(const TechniqueSetup& setup)
       balls_(setup.schema->find(base::kBlockBallKind.name)), blobs_(setup.schema->find(base::kBlobKind.name)),
       contents_(setup.memory), errors_(setup.memory), tiles_(setup.memory), jobs_(setup.memory),
       gathered_(setup.memory), casters_(setup.memory), records_(setup.memory), ends_(setup.memory),
-      late_(setup.memory)
+      details_(setup.memory), late_(setup.memory)
 {}
 
 base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
@@ -56,6 +69,7 @@ base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
     casters_.clear();
     records_.clear();
     ends_.clear();
+    details_.clear();
     late_.clear();
     jobs_.begin();
     if (isPending_) // the last frame has failed
@@ -79,6 +93,7 @@ base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
         casters_.clear();
         records_.clear();
         ends_.clear();
+        details_.clear();
         jobs_.begin();
         tiles_.begin({in.settings->blocks.parallax, in.settings->blocks.resolution, false});
         atlas_ = {};
@@ -88,7 +103,8 @@ base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
     size_t ball = 0, caster = 0;
     for (const Ends& ends : ends_) {
         late_.push_back({ends.name, std::span(gathered_).subspan(ball, ends.balls - ball),
-                         std::span(casters_).subspan(caster, ends.casters - caster)});
+                         std::span(casters_).subspan(caster, ends.casters - caster),
+                         ends.detail < 0 ? nullptr : &details_[size_t(ends.detail)]});
         ball = ends.balls;
         caster = ends.casters;
     }
@@ -127,10 +143,15 @@ void BlockView::walk(const GatherInputs& in, BlockWalk& walk, size_t place)
     settings.errors = &errors_;
     settings.maxBalls = late.count();
     const size_t jobs = tiles_.jobs().size();
+    const BlobDetail detail = detailOf(groups, before ? older : nullptr, t);
+    const base::Placement at = placementAt(groups.root(), before, t, in.camera->eye);
     walk.run(groups, contents_, before, t, float(step), double(groups.root().constants()[constant::Seconds]),
-             placementAt(groups.root(), before, t, in.camera->eye), commonOf(late), settings);
+             at, commonOf(late), detail, settings);
+    if (detail.isGiven())
+        details_.push_back(detail.groupDetail(at));
     jobs_.add(tiles_.jobs().subspan(jobs), contents_);
-    ends_.push_back({base::nameOf(late.info()), gathered_.size(), casters_.size()});
+    ends_.push_back({base::nameOf(late.info()), gathered_.size(), casters_.size(),
+                     detail.isGiven() ? int(details_.size()) - 1 : -1});
 }
 
 base::Status BlockView::makeRoom()

@@ -53,8 +53,10 @@ private:
     {
         base::GroupName name;
         size_t balls, casters;
+        int detail; ///< index in details_; -1: none
     };
     std::pmr::vector<Ends> ends_;
+    std::pmr::vector<GroupDetail> details_;
     std::pmr::vector<LateBalls> late_;
     GlTexture atlas_;
     GlBuffer recordBuffer_;

@@ -109,7 +109,7 @@ public:
         settings.maxCasters = maxCasters;
         base::Placement placement;
         placement.position = place;
-        walk.run(*groups_, contents, nullptr, 1.0f, 0.0f, 0.0, placement, {}, settings);
+        walk.run(*groups_, contents, nullptr, 1.0f, 0.0f, 0.0, placement, {}, {}, settings);
         return balls;
     }
 

@@ -50,6 +50,8 @@ protected:
     {
         schema_.add(base::kBlockKind);
         schema_.add(base::kBlockBallKind);
+        schema_.add(base::kBlockMaterialKind);
+        schema_.add(base::kMaterialKind);
         ViewTest::SetUp();
         makeTargets(kBlockPictureSize, kBlockPictureSize);
         auto& light = view_->settings().lighting;
@@ -66,19 +68,23 @@ protected:
         return snapshot;
     }
 
-    /// The rows of the last group of `source`, as a medium without blocks.
+    /// The rows of the last groups of `source`, as a medium without blocks.
     base::FrameSnapshot ballsOf(const base::FrameSnapshot& source)
     {
-        const base::SnapshotGroup& balls = source.group(source.groupCount() - 1);
         base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
         snapshot.begin(0, ++sequence_);
-        base::SnapshotGroup& copy = snapshot.addGroup(balls.info().kind, balls.count());
-        copy.editInfo() = balls.info();
-        copy.editInfo().isLate = false;
-        std::ranges::copy(balls.constants(), copy.editConstants().begin());
-        std::ranges::copy(balls.ids(), copy.editIds().begin());
-        for (size_t column = 0; column < base::blob_column::Count; ++column)
-            std::ranges::copy(balls.column(column), copy.editColumn(column).begin());
+        const size_t end = source.groupCount();
+        const bool hasDetail = schema_.kind(source.name(end - 1).kind) == base::kMaterialKind;
+        for (size_t g = hasDetail ? end - 2 : end - 1; g < end; ++g) {
+            const base::SnapshotGroup& balls = source.group(g);
+            base::SnapshotGroup& copy = snapshot.addGroup(balls.info().kind, balls.count());
+            copy.editInfo() = balls.info();
+            copy.editInfo().isLate = false;
+            std::ranges::copy(balls.constants(), copy.editConstants().begin());
+            std::ranges::copy(balls.ids(), copy.editIds().begin());
+            for (size_t column = 0; column < schema_.kind(balls.info().kind).columns.size(); ++column)
+                std::ranges::copy(balls.column(column), copy.editColumn(column).begin());
+        }
         return snapshot;
     }
 

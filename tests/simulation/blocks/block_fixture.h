@@ -25,6 +25,8 @@ inline const base::SnapshotSchema& blockSchema()
         made.add(base::kBlobKind);
         made.add(base::kBlockKind);
         made.add(base::kBlockBallKind);
+        made.add(base::kBlockMaterialKind);
+        made.add(base::kMaterialKind);
         return made;
     }();
     return kinds;
