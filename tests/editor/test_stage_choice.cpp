@@ -58,6 +58,30 @@ TEST(StageChoice, sunAndSkyChangeInProportionAndTheSkyIsAlsoTheBackground)
     EXPECT_NEAR(preview["lighting"]["sunDirection"][1].get<double>(), 0.5, 1e-6);
 }
 
+TEST(StageChoice, theColorOfTheSkyIsAlsoThatOfTheBackground)
+{
+    const Json before =
+        Json::parse(R"({"version": 1, "lighting": {"sunDirection": [0, 2, 0], "skyLuminance": [50, 100, 200]},
+        "background": {"color": [10, 20, 40], "horizon": [30, 30, 30]}})");
+    StageChoice choice;
+    setSky(choice, {100.0, 50.0, 50.0});
+    const Json scene = onStage(before, DocumentKind::Scene, choice);
+    EXPECT_EQ(scene["lighting"]["skyLuminance"], Json::array({100.0, 50.0, 50.0}));
+    EXPECT_EQ(scene["background"]["color"], Json::array({20.0, 10.0, 10.0}));
+    EXPECT_EQ(scene["background"]["horizon"], Json::array({60.0, 15.0, 7.5}));
+    EXPECT_EQ(lightOf(scene, DocumentKind::Scene).sky, glm::dvec3(100.0, 50.0, 50.0));
+    EXPECT_EQ(scene["lighting"]["sunDirection"], before["lighting"]["sunDirection"]);
+    choice.skyLuminance = 100.0; // brighter, with the same color
+    EXPECT_EQ(onStage(before, DocumentKind::Scene, choice)["lighting"]["skyLuminance"],
+              Json::array({200.0, 100.0, 100.0}));
+    setSky(choice, {30.0, 0.0, 0.0}); // a little green, to which the others are ratios
+    EXPECT_EQ(onStage(before, DocumentKind::Scene, choice)["lighting"]["skyLuminance"],
+              Json::array({30.0, 0.03, 0.0}));
+    setSky(choice, {0.0, 0.0, 0.0});
+    EXPECT_EQ(onStage(before, DocumentKind::Scene, choice)["lighting"]["skyLuminance"],
+              Json::array({0.0, 0.0, 0.0}));
+}
+
 TEST(StageChoice, directionsTurnIntoHeadingAndElevationAndBack)
 {
     for (const double heading : {-170.0, -90.0, 0.0, 45.0, 179.0})

@@ -51,6 +51,41 @@ text {folder}/undone.fx.json
         self.assertAlmostEqual(preview["lighting"]["sunDirection"][1], 0.34202, places=5)
         self.assertIn("figure", preview)
 
+    def test_sun_and_sky_are_dragged_in_the_picture_and_kept_as_one_edit(self):
+        outcome = self.small("""
+places
+shot {folder}/document.png
+drag handle/sky 0 -30
+shot {folder}/brighter.png
+text {folder}/view.fx.json
+drag handle/sunlight 0 60
+shot {folder}/darker.png
+drag handle/sun 12 6
+click handle/sky
+click sky/0
+type 500000
+key enter
+shot {folder}/red.png
+click sky/keep
+text {folder}/kept.fx.json
+key escape
+key ctrl+z
+text {folder}/undone.fx.json
+""")
+        document, brighter, darker, red = (self.view(f"{name}.png", outcome.out, (0.0, 0.3))
+                                           for name in ("document", "brighter", "darker", "red"))
+        self.assertGreater(brighter.mean(), document.mean())
+        self.assertLess(darker.mean(), brighter.mean())
+        self.assertNotEqual(red, darker)
+        self.assertEqual(self.read("view.fx.json"), SMALL)
+        self.assertEqual(self.read("undone.fx.json"), SMALL)
+        preview = json.loads(self.read("kept.fx.json"))["preview"]
+        red, green, blue = preview["lighting"]["skyLuminance"]
+        self.assertEqual(red, 500000)
+        self.assertGreater(green, 1000)
+        self.assertIn("sunDirection", preview["lighting"])
+        self.assertGreater(preview["background"]["color"][0], preview["background"]["color"][2])
+
     def test_an_own_mesh_stands_in_the_picture(self):
         self.write("own.obj", "v -9 -1 -3\nv 9 -1 -3\nv 9 9 -3\nv -9 9 -3\nf 1 2 3 4\n")
         outcome = self.small("""
@@ -230,7 +265,15 @@ measured
             self.assertTrue(found, outcome.out)
             self.assertGreater(int(found[1]), 10)
             self.assertTrue(all(float(time) > 0 for time in found.groups()[1:]), outcome.out)
-        self.assertRegex(outcome.out, r"(?m)^/emitters/0: \d+ particles, drawing \S+ ms$")
+        stages = r"simulation (\S+), lights (\S+), effects (\S+), noise (\S+) ms$"
+        element = re.search(r"(?m)^/emitters/0: \d+ particles, " + stages, outcome.out)
+        technique = re.search(r"(?m)^technique /emitters: " + stages, outcome.out)
+        self.assertTrue(element and technique, outcome.out)
+        for found in (element, technique):
+            self.assertGreater(sum(map(float, found.groups()[:3])), 0, outcome.out)
+            self.assertGreater(float(found[4]), 0, outcome.out)
+        for place in ("technique/emitters", "budget/technique", "budget/element"):
+            self.assertIn(f"\n{place} ", outcome.out)
         moments = [int(count) for count in re.findall(r"^at \S+ s: (\d+) particles", outcome.out, re.M)][:24]
         self.assertEqual((moments[0], len(moments)), (0, 24))
         self.assertGreater(max(moments), 35)

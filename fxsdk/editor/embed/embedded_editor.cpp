@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 namespace fx::editor {
@@ -87,7 +88,9 @@ void EmbeddedEditor::showDocument(uint64_t revision)
         state_->picture.failure =
             (hadScene ? "The picture shows the last valid state. " : "There is no picture yet. ") +
             status.message();
-    const bool hasNewCamera = status.ok() && session_->followPreview() && preview_->hasCamera();
+    // A key that is added, moved or removed leaves the view, from which further keys are taken.
+    const bool hasNewCamera = status.ok() && session_->followPreview() && preview_->hasCamera() &&
+                              (session_->followsCamera || !session_->hasCameraKeys());
     const bool hasNewStage = shownStage_ != session_->stage().name;
     shownStage_ = session_->stage().name;
     const scene_file::Stage* const stage = scene_file::findStage(shownStage_);
@@ -100,7 +103,7 @@ void EmbeddedEditor::showDocument(uint64_t revision)
 void EmbeddedEditor::takeCamera()
 {
     const scene_file::CameraPath& camera = preview_->scene().camera;
-    const scene_file::CameraPose pose = camera.at(0.0);
+    const scene_file::CameraPose pose = camera.at(session_->playback.time());
     session_->camera.look(pose.position, pose.target);
     session_->camera.fovYDegrees = camera.fovYDegrees;
 }
@@ -138,6 +141,8 @@ void EmbeddedEditor::updatePicture()
     const Clock::time_point start = Clock::now();
     if (const uint64_t revision = session_->shownRevision(); revision != shownRevision_)
         showDocument(revision);
+    if (session_->followsCamera && session_->hasCameraKeys() && preview_->hasScene())
+        takeCamera();
     const PreviewFrame frame = frameOf(*session_, state_->pictureSize);
     const PictureKey key = keyOf(frame);
     hideOldError();
@@ -298,12 +303,16 @@ base::Status EmbeddedEditor::startBudget()
                 onStage(choice.shown(session.document.json(), schema), subject.kind, session.stage()));
         };
         SoloMute none;
+        std::map<std::string, SoloMute> without; // by technique
         for (const std::string& element : soloElements(session.document.json(), schema)) {
             SoloMute one;
             one.setSolo(element, true);
             subject.elements.emplace_back(element, textWith(one));
             none.setMuted(element, true);
+            without[Json::json_pointer(element).parent_pointer().to_string()].setMuted(element, true);
         }
+        for (const auto& [technique, choice] : without)
+            subject.techniques.emplace_back(technique, textWith(choice));
         subject.empty = textWith(none);
     }
     auto run = BudgetRun::create(loader_, std::move(subject));
@@ -343,7 +352,8 @@ base::Status EmbeddedEditor::startRender()
     const Session& session = *session_;
     auto run = RenderRun::create(loader_, {state_->render.request, session.shownText(), session.name(),
                                            session.document.kind(), session.camera, session.exposureEv100,
-                                           session.playback.time(), session.playback.end, session.motion()});
+                                           session.playback.time(), session.playback.end, session.motion(),
+                                           session.followsCamera && session.hasCameraKeys()});
     if (run)
         render_ = std::move(*run);
     return run.status();

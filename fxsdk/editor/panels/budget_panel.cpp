@@ -57,15 +57,20 @@ void stagesAndQualities(const BudgetReport& report)
     ImGui::EndTable();
 }
 
-void elements(const PanelState& state, const BudgetReport& report)
+/// Techniques or elements, with what their times are uncertain by.
+void parts(PanelState& state, const char* title, const std::vector<PartCost>& costs)
 {
-    if (report.elements.empty() || !beginTable("elements", {"element", "drawing"}))
+    if (costs.empty() || !beginTable(title, {title, "simulation", "lights", "effects", "sum", "noise"}))
         return;
-    for (const ElementCost& element : report.elements) {
-        cell(elementTitle(state.session.document, element.pointer));
-        cell(milliseconds(element.drawing));
+    for (const PartCost& part : costs) {
+        cell(elementTitle(state.session.document, part.pointer));
+        for (const double value :
+             {part.times.simulation, part.times.lights, part.times.effects, part.total()})
+            cell(milliseconds(value));
+        cell("\xC2\xB1 " + milliseconds(part.noise));
     }
     ImGui::EndTable();
+    state.mark(std::string("budget/") + title);
 }
 
 void pictures(PanelState& state, const BudgetReport& report)
@@ -75,7 +80,7 @@ void pictures(PanelState& state, const BudgetReport& report)
     for (const QualityCost& quality : report.qualities) {
         ImGui::BeginGroup();
         ImGui::TextUnformatted(quality.name.c_str());
-        ImGui::Image((ImTextureID)(uintptr_t)quality.texture, {width, height}, {0, 1}, {1, 0});
+        ImGui::Image(imageOf(quality.texture), {width, height}, {0, 1}, {1, 0});
         ImGui::EndGroup();
         state.mark("budget/" + quality.name);
         if (&quality != &report.qualities.back())
@@ -141,7 +146,8 @@ void budgetPanel(PanelState& state)
     if (!budget.failure.empty())
         ImGui::TextColored({1.0f, 0.45f, 0.40f, 1.0f}, "%s", budget.failure.c_str());
     else if (report.width == 0)
-        ImGui::TextDisabled("what elements, stages of a frame and qualities cost on this machine");
+        ImGui::TextDisabled(
+            "what techniques, elements, stages of a frame and qualities cost on this machine");
     else
         ImGui::TextDisabled("at %.2f s, %d x %d%s", report.time, report.width, report.height,
                             budget.isOld ? ", before the last change" : "");
@@ -149,8 +155,11 @@ void budgetPanel(PanelState& state)
     if (report.width > 0) {
         moments(state, report);
         stagesAndQualities(report);
+        parts(state, "technique", report.techniques);
+        parts(state, "element", report.elements);
+        if (report.unmeasured > 0)
+            ImGui::TextDisabled("%zu more elements are not measured", report.unmeasured);
         pictures(state, report);
-        elements(state, report);
     }
     ImGui::EndChild();
 }

@@ -22,15 +22,6 @@ double channelOf(const Json& value, size_t channel)
     return value.is_number() ? value.get<double>() : 0.0;
 }
 
-/// Six significant digits: what is dragged needs no more.
-double rounded(double value)
-{
-    if (value == 0.0 || !std::isfinite(value))
-        return 0.0;
-    const double unit = std::pow(10.0, 5.0 - std::floor(std::log10(std::abs(value))));
-    return std::round(value * unit) / unit;
-}
-
 /// Ratio of Planck's law at a wavelength [m] to that at 550 nm.
 double planckRatio(double wavelength, double kelvin)
 {
@@ -83,28 +74,42 @@ double curveAt(const Json& keys, double t, size_t channel)
     return (1.0 - part) * channelOf(keys[next - 1][1], channel) + part * channelOf(keys[next][1], channel);
 }
 
-void moveKeys(Json& ioKeys, const std::vector<size_t>& selected, double time, double value, double lowest,
-              double highest)
+double roundedKey(double value)
+{
+    if (value == 0.0 || !std::isfinite(value))
+        return 0.0;
+    const double unit = std::pow(10.0, 5.0 - std::floor(std::log10(std::abs(value))));
+    return std::round(value * unit) / unit;
+}
+
+std::pair<double, double> freeWay(const Json& keys, const std::vector<size_t>& selected)
 {
     const auto isMoved = [&](size_t i) {
         return std::find(selected.begin(), selected.end(), i) != selected.end();
     };
     double least = -1.0;
     double most = 1.0;
-    for (const size_t i : selected) { // the way that is free
-        const double at = ioKeys[i][0].get<double>();
-        const double before = i == 0 ? 0.0 : ioKeys[i - 1][0].get<double>() + kCloser;
-        const double after = i + 1 == ioKeys.size() ? 1.0 : ioKeys[i + 1][0].get<double>() - kCloser;
+    for (const size_t i : selected) {
+        const double at = keys[i][0].get<double>();
+        const double before = i == 0 ? 0.0 : keys[i - 1][0].get<double>() + kCloser;
+        const double after = i + 1 == keys.size() ? 1.0 : keys[i + 1][0].get<double>() - kCloser;
         if (i == 0 || !isMoved(i - 1))
             least = std::max(least, std::min(before - at, 0.0));
-        if (i + 1 == ioKeys.size() || !isMoved(i + 1))
+        if (i + 1 == keys.size() || !isMoved(i + 1))
             most = std::min(most, std::max(after - at, 0.0));
     }
+    return {least, most};
+}
+
+void moveKeys(Json& ioKeys, const std::vector<size_t>& selected, double time, double value, double lowest,
+              double highest)
+{
+    const auto [least, most] = freeWay(ioKeys, selected);
     const double way = std::clamp(time, least, most);
     for (const size_t i : selected) {
-        ioKeys[i][0] = rounded(std::clamp(ioKeys[i][0].get<double>() + way, 0.0, 1.0));
+        ioKeys[i][0] = roundedKey(std::clamp(ioKeys[i][0].get<double>() + way, 0.0, 1.0));
         if (ioKeys[i][1].is_number())
-            ioKeys[i][1] = rounded(std::clamp(ioKeys[i][1].get<double>() + value, lowest, highest));
+            ioKeys[i][1] = roundedKey(std::clamp(ioKeys[i][1].get<double>() + value, lowest, highest));
     }
 }
 
@@ -137,11 +142,11 @@ float fromDisplay(float display)
 
 size_t addKey(Json& ioKeys, double t)
 {
-    t = rounded(std::clamp(t, 0.0, 1.0));
-    Json value = rounded(curveAt(ioKeys, t));
+    t = roundedKey(std::clamp(t, 0.0, 1.0));
+    Json value = roundedKey(curveAt(ioKeys, t));
     if (ioKeys[0][1].is_array())
-        value = Json::array(
-            {rounded(curveAt(ioKeys, t, 0)), rounded(curveAt(ioKeys, t, 1)), rounded(curveAt(ioKeys, t, 2))});
+        value = Json::array({roundedKey(curveAt(ioKeys, t, 0)), roundedKey(curveAt(ioKeys, t, 1)),
+                             roundedKey(curveAt(ioKeys, t, 2))});
     size_t index = 0;
     while (index < ioKeys.size() && ioKeys[index][0].get<double>() <= t)
         ++index;
@@ -174,7 +179,7 @@ Json curvePreset(const std::string& name, double low, double high)
         Json keys = Json::array();
         for (int i = 0; i <= 8; ++i) {
             const double t = i / 8.0;
-            keys.push_back(Json::array({t, rounded(low + (high - low) * t * t * (3.0 - 2.0 * t))}));
+            keys.push_back(Json::array({t, roundedKey(low + (high - low) * t * t * (3.0 - 2.0 * t))}));
         }
         return keys;
     }
@@ -190,8 +195,8 @@ Json temperatureRamp(double coldest, double hottest, size_t count)
         const double red = planckRatio(612e-9, kelvin);
         const double blue = planckRatio(465e-9, kelvin);
         const double most = std::max({red, 1.0, blue});
-        keys.push_back(
-            Json::array({rounded(t), {rounded(red / most), rounded(1.0 / most), rounded(blue / most)}}));
+        keys.push_back(Json::array(
+            {roundedKey(t), {roundedKey(red / most), roundedKey(1.0 / most), roundedKey(blue / most)}}));
     }
     return keys;
 }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fx::editor {
@@ -22,6 +23,13 @@ Json curveOf(const Json& value, Json keys);
 
 /// Interpolated number, or channel of a color, at `t`. @param channel 0 to 2; ignored for numbers
 double curveAt(const Json& keys, double t, size_t channel = 0);
+
+/// How far the keys `selected` can move together, backwards (<= 0) and forwards (>= 0): none passes a key
+/// that is not moved.
+std::pair<double, double> freeWay(const Json& keys, const std::vector<size_t>& selected);
+
+/// A number of a key: six significant digits, what is dragged needs no more.
+double roundedKey(double value);
 
 /// Moves the keys `selected` together. They keep their order: none passes a key that is not moved.
 /// @param lowest, highest limits of values

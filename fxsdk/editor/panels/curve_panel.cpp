@@ -1,82 +1,88 @@
-#include "fxsdk/editor/inspector/member.h"
-#include "fxsdk/editor/panels/curve_keys.h"
+#include "fxsdk/editor/panels/curve_view.h"
 #include "fxsdk/editor/panels/number_field.h"
 #include "fxsdk/editor/panels/panels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <limits>
 #include <optional>
+#include <tuple>
 
 namespace fx::editor {
 
 namespace {
 
-constexpr float kKeyRadius = 6.0f; // [pixel]
+constexpr float kKeyRadius = 6.0f;                         // [pixel]
+constexpr ImU32 kFirstColor = IM_COL32(255, 196, 92, 255); // of the curve that was clicked
+constexpr ImU32 kBackground = IM_COL32(24, 27, 33, 255);
 
-/// Where the canvas is and what it shows.
+/// Where the canvas is.
 struct Canvas
 {
     ImVec2 low;
     ImVec2 size;
-    double lowest;  ///< value at the lower edge
-    double highest; ///< value at the upper edge
 
-    ImVec2 at(double t, double value) const
+    ImVec2 at(double t, double share) const
     {
-        return {low.x + size.x * float(t),
-                low.y + size.y * (1.0f - float((value - lowest) / (highest - lowest)))};
+        return {low.x + size.x * float(t), low.y + size.y * (1.0f - float(share))};
+    }
+    ImVec2 of(const ShownCurve& curve, double t, double value) const
+    {
+        return at(t, (value - curve.lowest) / (curve.highest - curve.lowest));
+    }
+    /// Keys of a gradient are at the lower edge.
+    ImVec2 ofKey(const ShownCurve& curve, size_t index) const
+    {
+        const Json& key = curve.keys[index];
+        return curve.isColor() ? at(key[0].get<double>(), 0.0)
+                               : of(curve, key[0].get<double>(), key[1].get<double>());
     }
 };
 
-void commit(PanelState& state, const Member& member, Json keys, uint64_t gesture = 0)
-{
-    state.session.run(state.session.document.set(
-        member.pointer, curveOf(valueOf(state.session.document, member), std::move(keys)), gesture));
-}
-
-bool isSelected(const PanelState& state, size_t key)
+bool isSelected(const PanelState& state, const SelectedKey& key)
 {
     return std::find(state.keys.begin(), state.keys.end(), key) != state.keys.end();
 }
 
-/// Index of the key under the mouse; the number of keys if there is none.
-size_t keyAt(const Canvas& canvas, const Json& keys, bool isColor, ImVec2 mouse)
+/// The key under the mouse.
+std::optional<SelectedKey> keyAt(const Canvas& canvas, const std::vector<CurveView>& views, ImVec2 mouse)
 {
-    for (size_t i = 0; i < keys.size(); ++i) {
-        const double value = isColor ? 0.0 : keys[i][1].get<double>();
-        const ImVec2 at = canvas.at(keys[i][0].get<double>(), isColor ? canvas.lowest : value);
-        if (std::hypot(at.x - mouse.x, at.y - mouse.y) <= 1.6f * kKeyRadius)
-            return i;
-    }
-    return keys.size();
+    for (const CurveView& view : views)
+        for (size_t i = 0; i < view.curve.keys.size(); ++i) {
+            const ImVec2 at = canvas.ofKey(view.curve, i);
+            if (std::hypot(at.x - mouse.x, at.y - mouse.y) <= 1.6f * kKeyRadius)
+                return SelectedKey{view.curve.pointer, i};
+        }
+    return std::nullopt;
 }
 
-void drawCurve(const Canvas& canvas, const Json& keys)
+/// Lines of the scale, with the values of the first curve.
+void drawScale(const Canvas& canvas, const ShownCurve& curve)
 {
     ImDrawList* const draw = ImGui::GetWindowDrawList();
     for (int i = 0; i <= 4; ++i) {
-        const double value = canvas.lowest + (canvas.highest - canvas.lowest) * i / 4.0;
         char label[24];
-        std::snprintf(label, sizeof label, "%.3g", value);
-        const ImVec2 left = canvas.at(0.0, value);
-        draw->AddLine(left, canvas.at(1.0, value), IM_COL32(255, 255, 255, 24));
+        std::snprintf(label, sizeof label, "%.3g", curve.lowest + (curve.highest - curve.lowest) * i / 4.0);
+        const ImVec2 left = canvas.at(0.0, i / 4.0);
+        draw->AddLine(left, canvas.at(1.0, i / 4.0), IM_COL32(255, 255, 255, 24));
         const float line = ImGui::GetFontSize();
         if (i == 0 || i == 4 ||
             canvas.size.y > 8.0f * line) // labels of a low curve would lie over each other
             draw->AddText({left.x + 4, left.y - (i == 0 ? line + 2.0f : 0.0f)}, IM_COL32(160, 165, 175, 255),
                           label);
-        draw->AddLine(canvas.at(i / 4.0, canvas.lowest), canvas.at(i / 4.0, canvas.highest),
-                      IM_COL32(255, 255, 255, 24));
+        draw->AddLine(canvas.at(i / 4.0, 0.0), canvas.at(i / 4.0, 1.0), IM_COL32(255, 255, 255, 24));
     }
+}
+
+void drawCurve(const Canvas& canvas, const CurveView& view)
+{
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
     constexpr int kSegments = 128;
     for (int i = 0; i < kSegments; ++i) {
         const double t0 = double(i) / kSegments;
         const double t1 = double(i + 1) / kSegments;
-        draw->AddLine(canvas.at(t0, curveAt(keys, t0)), canvas.at(t1, curveAt(keys, t1)),
-                      IM_COL32(255, 196, 92, 255), 2.0f);
+        draw->AddLine(canvas.of(view.curve, t0, curveAt(view.curve.keys, t0)),
+                      canvas.of(view.curve, t1, curveAt(view.curve.keys, t1)), view.color, 2.0f);
     }
 }
 
@@ -99,177 +105,173 @@ void drawGradient(const Canvas& canvas, const Json& keys)
     constexpr int kSegments = 96;
     ImDrawList* const draw = ImGui::GetWindowDrawList();
     for (int i = 0; i < kSegments; ++i)
-        draw->AddRectFilled(canvas.at(double(i) / kSegments, canvas.highest),
-                            canvas.at(double(i + 1) / kSegments, canvas.lowest),
+        draw->AddRectFilled(canvas.at(double(i) / kSegments, 1.0), canvas.at(double(i + 1) / kSegments, 0.0),
                             displayColor(keys, (i + 0.5) / kSegments));
 }
 
-void drawKeys(PanelState& state, const Canvas& canvas, const Json& keys, bool isColor)
+/// @param prefix of the places of the keys
+void drawKeys(PanelState& state, const Canvas& canvas, const CurveView& view, const std::string& prefix)
 {
-    for (size_t i = 0; i < keys.size(); ++i) {
-        const double t = keys[i][0].get<double>();
-        const ImVec2 at = canvas.at(t, isColor ? canvas.lowest : keys[i][1].get<double>());
-        ImDrawList* const draw = ImGui::GetWindowDrawList();
-        draw->AddCircleFilled(at, kKeyRadius, isColor ? displayColor(keys, t) : IM_COL32(40, 44, 52, 255));
-        draw->AddCircle(at, kKeyRadius,
-                        isSelected(state, i) ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 196, 92, 255), 0,
-                        2.0f);
-        state.places["curve/key/" + std::to_string(i)] = {{at.x - kKeyRadius, at.y - kKeyRadius},
-                                                          {at.x + kKeyRadius, at.y + kKeyRadius}};
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    for (size_t i = 0; i < view.curve.keys.size(); ++i) {
+        const ImVec2 at = canvas.ofKey(view.curve, i);
+        const ImU32 inner = view.curve.isColor()
+                                ? displayColor(view.curve.keys, view.curve.keys[i][0].get<double>())
+                                : IM_COL32(40, 44, 52, 255);
+        const bool isChosen = isSelected(state, {view.curve.pointer, i});
+        draw->AddCircleFilled(at, kKeyRadius, isChosen ? view.color : inner);
+        draw->AddCircle(at, kKeyRadius, isChosen ? IM_COL32_WHITE : view.color, 0, 2.0f);
+        state.places[prefix + std::to_string(i)] = {{at.x - kKeyRadius, at.y - kKeyRadius},
+                                                    {at.x + kKeyRadius, at.y + kKeyRadius}};
     }
 }
 
-/// Clicks and drags on the canvas.
-void editCanvas(PanelState& state, const Canvas& canvas, const Member& member, Json keys, bool isColor)
+/// Adds a key to the curve that is nearest to the mouse.
+void addAt(PanelState& state, const Canvas& canvas, const std::vector<CurveView>& views, ImVec2 mouse)
+{
+    const double t = std::clamp(double((mouse.x - canvas.low.x) / canvas.size.x), 0.0, 1.0);
+    const auto away = [&](const CurveView& view) {
+        return view.curve.isColor()
+                   ? 0.0f
+                   : std::abs(canvas.of(view.curve, t, curveAt(view.curve.keys, t)).y - mouse.y);
+    };
+    const auto nearest = std::min_element(views.begin(), views.end(),
+                                          [&](const auto& a, const auto& b) { return away(a) < away(b); });
+    std::vector<ShownCurve> changed{nearest->curve};
+    state.keys = {{nearest->curve.pointer, addKey(changed[0].keys, t)}};
+    commitCurves(state, changed, 0);
+}
+
+void remove(PanelState& state, const std::vector<CurveView>& views, const std::vector<SelectedKey>& keys)
+{
+    std::vector<ShownCurve> changed = curvesOf(views);
+    removeTogether(changed, keys);
+    state.keys.clear();
+    commitCurves(state, changed, 0);
+}
+
+/// The mouse goes down: on a key, or beside all of them, where a rectangle begins that selects.
+void begin(PanelState& state, const std::vector<CurveView>& views, const std::optional<SelectedKey>& hit)
+{
+    const bool adds = ImGui::GetIO().KeyShift;
+    ++state.gesture;
+    state.draggedCurves = curvesOf(views);
+    state.draggedFrom = ImGui::GetIO().MousePos;
+    state.grabbedKey = hit;
+    if (hit && adds && isSelected(state, *hit)) {
+        std::erase(state.keys, *hit);
+        state.grabbedKey.reset();
+        state.draggedCurves.clear(); // neither moves nor selects
+        return;
+    }
+    if (!adds && !(hit && isSelected(state, *hit)))
+        state.keys.clear();
+    if (hit && !isSelected(state, *hit))
+        state.keys.push_back(*hit);
+    state.keysBefore = state.keys;
+}
+
+/// Selects what is in the rectangle from the beginning of the drag to the mouse.
+void selectInside(PanelState& state, const Canvas& canvas, const std::vector<CurveView>& views)
 {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const size_t hit = keyAt(canvas, keys, isColor, mouse);
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && hit == keys.size()) {
-        state.keys = {addKey(keys, (mouse.x - canvas.low.x) / canvas.size.x)};
-        return commit(state, member, std::move(keys));
-    }
-    if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(1) && hit < keys.size()) {
-        removeKeys(keys, {hit});
-        state.keys.clear();
-        return commit(state, member, std::move(keys));
-    }
-    if (ImGui::IsItemActivated()) {
-        ++state.gesture;
-        state.draggedKeys = keys;
-        state.draggedFrom = mouse;
-        if (hit == keys.size())
-            state.keys.clear();
-        else if (!isSelected(state, hit)) {
-            if (!ImGui::GetIO().KeyShift)
-                state.keys.clear();
-            state.keys.push_back(hit);
+    const ImVec2 from = state.draggedFrom;
+    const ImVec2 low(std::min(from.x, mouse.x), std::min(from.y, mouse.y));
+    const ImVec2 high(std::max(from.x, mouse.x), std::max(from.y, mouse.y));
+    ImGui::GetWindowDrawList()->AddRectFilled(low, high, IM_COL32(255, 255, 255, 24));
+    ImGui::GetWindowDrawList()->AddRect(low, high, IM_COL32(255, 255, 255, 120));
+    state.keys = state.keysBefore;
+    for (const CurveView& view : views)
+        for (size_t i = 0; i < view.curve.keys.size(); ++i) {
+            const ImVec2 at = canvas.ofKey(view.curve, i);
+            const SelectedKey key{view.curve.pointer, i};
+            if (at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y && !isSelected(state, key))
+                state.keys.push_back(key);
         }
-        state.grabbedKey = hit;
-        return; // a click that moves nothing is no edit
-    }
-    const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    if (!ImGui::IsItemActive() || state.keys.empty() || (moved.x == 0.0f && moved.y == 0.0f) ||
-        state.draggedKeys.size() != keys.size())
-        return;
-    KeyMove move;
-    move.time = double((mouse.x - state.draggedFrom.x) / canvas.size.x);
-    move.value = -double((mouse.y - state.draggedFrom.y) / canvas.size.y) * (canvas.highest - canvas.lowest);
+}
+
+/// Moves the selected keys from where they were when the drag began, so that limits do not add up.
+void moveSelected(PanelState& state, const Canvas& canvas)
+{
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    std::vector<ShownCurve> curves = state.draggedCurves;
+    double time = double((mouse.x - state.draggedFrom.x) / canvas.size.x);
+    double share = -double((mouse.y - state.draggedFrom.y) / canvas.size.y);
     if (ImGui::GetIO().KeyCtrl)
-        move = snapped(state.draggedKeys[std::min(state.grabbedKey, state.draggedKeys.size() - 1)], move,
-                       canvas.highest - canvas.lowest);
-    keys = state.draggedKeys; // the way from the beginning of the drag, so that limits do not add up
-    moveKeys(keys, state.keys, move.time, move.value, member.minimum.value_or(-1e9),
-             member.maximum.value_or(1e9));
-    commit(state, member, std::move(keys), state.gesture);
+        for (const ShownCurve& curve : curves)
+            if (curve.pointer == state.grabbedKey->curve && state.grabbedKey->index < curve.keys.size()) {
+                const double range = curve.highest - curve.lowest;
+                const KeyMove move =
+                    snapped(curve.keys[state.grabbedKey->index], {time, share * range}, range);
+                time = move.time;
+                share = move.value / range;
+            }
+    moveTogether(curves, state.keys, time, share);
+    commitCurves(state, curves, state.gesture);
 }
 
-/// The selected color, as three numbers, as one for all three, and as it is displayed.
-void colorFields(PanelState& state, const Member& member, Json keys)
+/// Clicks, drags and keys on the canvas. Call it after its item.
+void editCanvas(PanelState& state, const Canvas& canvas, const std::vector<CurveView>& views)
 {
-    Json& key = keys[state.keys[0]];
-    float color[3];
-    for (size_t c = 0; c < 3; ++c)
-        color[c] = key[1][c].get<float>();
-    Member part = member;
-    part.kind = MemberKind::Number;
-    const float width = ImGui::GetFontSize() * 4.2f;
-    std::optional<NumberEdit> edit;
-    const auto field = [&](const std::string& name, double value, size_t from, size_t to) {
-        if (const auto changed = numberField(state, name, value, part, width)) {
-            edit = changed;
-            for (size_t c = from; c < to; ++c)
-                color[c] = float(limited(part, changed->value).get<double>());
-        }
-        ImGui::SameLine(0.0f, 2.0f);
-    };
-    for (size_t c = 0; c < 3; ++c)
-        field("curve/color/" + std::to_string(c), double(color[c]), c, c + 1);
-    ImGui::TextUnformatted("linear");
-    sameLineIfItFits("all 000000000");
-    ImGui::TextUnformatted("all");
-    ImGui::SameLine(0.0f, 2.0f);
-    const bool isGray = color[0] == color[1] && color[1] == color[2];
-    field("curve/color/all", isGray ? double(color[0]) : std::numeric_limits<double>::quiet_NaN(), 0, 3);
-    ImGui::NewLine();
-    sameLineIfItFits("000000000000000000000 display");
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 13.0f);
-    float shown[3] = {toDisplay(color[0]), toDisplay(color[1]), toDisplay(color[2])};
-    if (ImGui::ColorEdit3("display", shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
-        for (size_t c = 0; c < 3; ++c)
-            if (shown[c] != toDisplay(color[c])) // the others would change by their rounding
-                color[c] = fromDisplay(shown[c]);
-        edit = NumberEdit{0.0, state.dragOf()};
-    } else
-        (void)state.dragOf();
-    state.mark("curve/display color");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("The same color as values of sRGB");
-    if (!edit)
+    const ImGuiIO& io = ImGui::GetIO();
+    const std::optional<SelectedKey> hit = keyAt(canvas, views, io.MousePos);
+    if (ImGui::IsItemHovered()) {
+        if (ImGui::IsMouseDoubleClicked(0) && !hit)
+            return addAt(state, canvas, views, io.MousePos);
+        if (ImGui::IsMouseClicked(1) && hit)
+            return remove(state, views, {*hit});
+        if (isKeyPressed(ImGuiKey_Delete) && !state.keys.empty() && !io.WantTextInput)
+            return remove(state, views, state.keys);
+    }
+    if (ImGui::IsItemActivated())
+        return begin(state, views, hit);
+    if (!ImGui::IsItemActive() || state.draggedCurves.size() != views.size())
         return;
-    for (size_t c = 0; c < 3; ++c)
-        key[1][c] = std::strtod(numberText(double(color[c])).c_str(), nullptr);
-    commit(state, member, std::move(keys), edit->gesture);
+    for (size_t i = 0; i < views.size(); ++i) // an undo during the drag may have changed them
+        if (state.draggedCurves[i].pointer != views[i].curve.pointer ||
+            state.draggedCurves[i].keys.size() != views[i].curve.keys.size())
+            return;
+    if (!state.grabbedKey)
+        return selectInside(state, canvas, views);
+    if (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)
+        moveSelected(state, canvas);
 }
 
-/// Time and value of the selected key as numbers.
-void keyFields(PanelState& state, const Member& member, Json keys, bool isColor)
+/// The view of a curve, on a scale from the lowest value, at most 0, to a little above the highest.
+CurveView viewOf(PanelState& state, const Member& member, const Json& value, ImU32 color)
 {
-    if (state.keys.size() != 1 || state.keys[0] >= keys.size()) {
-        ImGui::TextDisabled(
-            "click: select  shift: several  drag: move  ctrl: snap  double click: add  right click: remove");
-        return;
-    }
-    Json& key = keys[state.keys[0]];
-    Member time;
-    time.minimum = 0.0;
-    time.maximum = 1.0;
-    time.kind = MemberKind::Number;
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("t");
-    ImGui::SameLine();
-    const float width = ImGui::GetFontSize() * 7.0f;
-    if (const auto edit = numberField(state, "curve/t", key[0].get<double>(), time, width)) {
-        Json moved = keys;
-        moveKeys(moved, state.keys, edit->value - key[0].get<double>(), 0.0, -1e30, 1e30);
-        return commit(state, member, std::move(moved), edit->gesture);
-    }
-    ImGui::SameLine();
-    if (!isColor) {
-        ImGui::TextUnformatted("value");
-        ImGui::SameLine();
-        Member value = member;
-        value.kind = MemberKind::Number;
-        if (const auto edit = numberField(state, "curve/value", key[1].get<double>(), value, width)) {
-            key[1] = limited(value, edit->value);
-            commit(state, member, std::move(keys), edit->gesture);
+    CurveView view{member, {member.pointer, keysOf(value)}, color};
+    ShownCurve& curve = view.curve;
+    curve.least = member.minimum.value_or(curve.least);
+    curve.most = member.maximum.value_or(curve.most);
+    double highest = 1e-6;
+    if (!curve.isColor())
+        for (const Json& key : curve.keys) {
+            highest = std::max(highest, key[1].get<double>());
+            curve.lowest = std::min(curve.lowest, key[1].get<double>());
         }
-        return;
-    }
-    colorFields(state, member, std::move(keys));
+    curve.highest = curve.isColor() ? 1.0 : 1.1 * highest;
+    const auto held = state.curveScales.find(member.pointer);
+    if (!ImGui::IsMouseDown(0) || held == state.curveScales.end())
+        state.curveScales[member.pointer] = {curve.lowest, curve.highest};
+    else // the scale holds during a drag
+        std::tie(curve.lowest, curve.highest) = held->second;
+    return view;
 }
 
-void presetButtons(PanelState& state, const Member& member, const Json& keys, bool isColor)
+/// Curves of numbers of the object around a member that the document states.
+std::vector<Member> curvesAround(const Session& session, const Member& first)
 {
-    if (isColor) {
-        if (button(state, "temperature ramp", "curve/ramp"))
-            commit(state, member, temperatureRamp(1000.0, 3000.0, 5));
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("Colors of a black body from 1000 K to 3000 K");
-        return;
+    const std::string parent = Json::json_pointer(first.pointer).parent_pointer().to_string();
+    std::vector<Member> curves;
+    for (const Member& member : membersOf(session.document, parent)) {
+        if (member.kind != MemberKind::Curve || !member.isPresent)
+            continue;
+        const Json value = valueOf(session.document, member);
+        if (isCurve(value) && !keysOf(value)[0][1].is_array())
+            curves.push_back(member);
     }
-    double high = 0.0;
-    for (const Json& key : keys)
-        high = std::max(high, key[1].get<double>());
-    bool isFirst = true;
-    for (const std::string& name : curvePresetNames()) {
-        if (!isFirst)
-            sameLineIfItFits(name.c_str());
-        isFirst = false;
-        if (button(state, name.c_str(), "curve/" + name)) {
-            state.keys.clear();
-            commit(state, member, curvePreset(name, member.minimum.value_or(0.0), high > 0.0 ? high : 1.0));
-        }
-    }
+    return curves;
 }
 
 } // namespace
@@ -287,39 +289,41 @@ void curvePanel(PanelState& state)
         ImGui::TextDisabled("These are no keys [time, value]; mend them in the inspector.");
         return;
     }
-    const Json keys = keysOf(curve);
-    const bool isColor = member->kind == MemberKind::ColorCurve;
-    std::erase_if(state.keys, [&](size_t key) { return key >= keys.size(); });
-    ImGui::Text("%s%s%s", member->title.c_str(), member->unit.empty() ? "" : "  ", member->unit.c_str());
+    std::vector<CurveView> views{viewOf(state, *member, curve, kFirstColor)};
+    const bool isColor = views[0].curve.isColor();
+    const std::vector<Member> around = isColor ? std::vector<Member>() : curvesAround(session, *member);
+    for (size_t i = 0; i < around.size(); ++i)
+        if (around[i].pointer != member->pointer && state.shownCurves.contains(around[i].name))
+            views.push_back(viewOf(state, around[i], valueOf(session.document, around[i]), curveColor(i)));
+    std::erase_if(state.keys, [&](const SelectedKey& key) {
+        return std::none_of(views.begin(), views.end(), [&](const CurveView& view) {
+            return view.curve.pointer == key.curve && key.index < view.curve.keys.size();
+        });
+    });
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kFirstColor), "%s%s%s", member->title.c_str(),
+                       member->unit.empty() ? "" : "  ", member->unit.c_str());
     ImGui::SameLine(0.0f, 24.0f);
-    presetButtons(state, *member, keys, isColor);
-    keyFields(state, *member, keys, isColor);
+    curvePresets(state, views);
+    curveChoices(state, views, around);
+    curveFields(state, views);
 
-    double highest = 1e-6;
-    double lowest = 0.0;
-    if (!isColor)
-        for (const Json& key : keys) {
-            highest = std::max(highest, key[1].get<double>());
-            lowest = std::min(lowest, key[1].get<double>());
-        }
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const ImVec2 low = ImGui::GetCursorScreenPos();
-    const ImVec2 size(std::max(room.x, 50.0f), std::max(room.y, 40.0f));
-    Canvas canvas{{low.x + 10, low.y + 8}, {size.x - 20, size.y - 18}, lowest, isColor ? 1.0 : highest * 1.1};
-    if (!ImGui::IsMouseDown(0))
-        state.curveHighest = canvas.highest;
-    else if (state.curveHighest > canvas.lowest)
-        canvas.highest = state.curveHighest; // the scale holds during a drag
+    const ImVec2 size(std::max(room.x, 50.0f), std::max(room.y, 60.0f));
+    const Canvas canvas{{low.x + 10, low.y + 8}, {size.x - 20, size.y - 18}};
     ImGui::InvisibleButton("canvas", size);
     state.mark("curve/canvas");
-    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},
-                                              IM_COL32(24, 27, 33, 255));
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y}, kBackground);
     if (isColor)
-        drawGradient(canvas, keys);
+        drawGradient(canvas, views[0].curve.keys);
     else
-        drawCurve(canvas, keys);
-    drawKeys(state, canvas, keys, isColor);
-    editCanvas(state, canvas, *member, keys, isColor);
+        drawScale(canvas, views[0].curve);
+    for (size_t i = views.size(); i-- > 0;) { // the clicked one over the others
+        if (!isColor)
+            drawCurve(canvas, views[i]);
+        drawKeys(state, canvas, views[i], i == 0 ? "curve/key/" : "curve/key/" + views[i].member.name + "/");
+    }
+    editCanvas(state, canvas, views);
 }
 
 } // namespace fx::editor

@@ -70,13 +70,8 @@ void shortcuts(Session& session)
         session.undo();
     else if (isKeyPressed(ImGuiKey_Y) || (isKeyPressed(ImGuiKey_Z) && io.KeyShift))
         session.redo();
-#if IMGUI_VERSION_NUM >= 18700
-    else if (isKeyPressed(ImGuiKey_S))
+    else if (isLetterPressed('S'))
         session.save();
-#else
-    else if (ImGui::IsKeyPressed('S', false)) // GLFW and scripts number letters as ASCII does
-        session.save();
-#endif
 }
 
 } // namespace
@@ -102,7 +97,7 @@ void applyStyle(float scale)
     for (const char* font : kFonts)
         if (std::filesystem::exists(font) && io.Fonts->AddFontFromFileTTF(font, 16.0f * scale))
             return;
-    io.FontGlobalScale = 1.25f * scale; // the built-in font has 13 pixels
+    setTextScale(1.25f * scale); // the built-in font has 13 pixels
 }
 
 void drawEditor(PanelState& state, ImVec2 low, ImVec2 size)

@@ -40,9 +40,8 @@ std::string boundsText(const Member& member)
 /// @param unused why the member would have no effect; empty: it has one
 void helpOf(const Member& member, const std::string& unused = {})
 {
-    if (!ImGui::IsItemHovered())
+    if (!ImGui::IsItemHovered() || !beginTooltip())
         return;
-    ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
     ImGui::TextUnformatted((member.title + " (" + member.name + ")").c_str());
     ImGui::TextUnformatted(member.help.c_str());

@@ -2,6 +2,7 @@
 #include "fxsdk/editor/inspector/member.h"
 #include "fxsdk/editor/panels/panels.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace fx::editor {
@@ -17,19 +18,53 @@ void toggle(PanelState& state, const char* label, const std::string& name, bool 
     ImGui::PopStyleColor();
 }
 
-/// Particles of the element in the picture, and what drawing them has cost.
-std::string costText(const PanelState& state, const std::string& pointer)
+/// What has been measured of an element or a technique, if it is of the present document; otherwise null.
+const PartCost* costOf(const PanelState& state, const std::vector<PartCost>& costs,
+                       const std::string& pointer)
+{
+    const auto found = std::find_if(costs.begin(), costs.end(),
+                                    [&](const PartCost& part) { return part.pointer == pointer; });
+    return found == costs.end() || state.budget.isOld ? nullptr : &*found;
+}
+
+std::string millisecondsOf(const PartCost& cost)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g ms", cost.total());
+    return text;
+}
+
+/// The stages of a cost, for a tooltip.
+std::string stagesOf(const PartCost* cost)
+{
+    if (!cost)
+        return "\"Budget\" measures its milliseconds";
+    char text[160];
+    std::snprintf(text, sizeof text, "simulation %.3g ms, lights %.3g ms, effects %.3g ms, \xC2\xB1 %.2g ms",
+                  cost->times.simulation, cost->times.lights, cost->times.effects, cost->noise);
+    return text;
+}
+
+/// Particles of the element in the picture, and what it has cost.
+std::string costText(const PanelState& state, const std::string& pointer, const PartCost* cost)
 {
     std::string text;
     if (const auto found = state.picture.elements.find(pointer); found != state.picture.elements.end())
         text = std::to_string(found->second);
-    for (const ElementCost& element : state.budget.report.elements)
-        if (element.pointer == pointer && !state.budget.isOld) {
-            char part[32];
-            std::snprintf(part, sizeof part, "  %.3g ms", element.drawing);
-            text += part;
-        }
-    return text;
+    return cost ? text + "  " + millisecondsOf(*cost) : text;
+}
+
+/// The technique of the rows below it, where there are several or its cost is known.
+void techniqueRow(PanelState& state, const std::string& technique, bool isOnly)
+{
+    const PartCost* const cost = costOf(state, state.budget.report.techniques, technique);
+    if (isOnly && !cost)
+        return;
+    ImGui::TextDisabled("%s%s%s", elementTitle(state.session.document, technique).c_str(), cost ? "  " : "",
+                        cost ? millisecondsOf(*cost).c_str() : "");
+    state.mark("technique" + technique);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("All of this technique: %s", stagesOf(cost).c_str());
 }
 
 void row(PanelState& state, const std::string& pointer)
@@ -49,7 +84,8 @@ void row(PanelState& state, const std::string& pointer)
     if (!choice.isShown(pointer))
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     const bool wasShown = choice.isShown(pointer);
-    const std::string cost = costText(state, pointer);
+    const PartCost* const measured = costOf(state, state.budget.report.elements, pointer);
+    const std::string cost = costText(state, pointer, measured);
     const float room = ImGui::GetContentRegionAvail().x;
     const float costWidth = ImGui::CalcTextSize(cost.c_str()).x;
     ImGui::AlignTextToFramePadding();
@@ -61,9 +97,42 @@ void row(PanelState& state, const std::string& pointer)
     ImGui::TextDisabled("%s", cost.c_str());
     state.mark("cost" + pointer);
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Particles in the picture; drawing in ms where \"Budget\" has measured it");
+        ImGui::SetTooltip("Particles in the picture; %s", stagesOf(measured).c_str());
     if (!wasShown)
         ImGui::PopStyleColor();
+}
+
+/// The elements of a preset by their techniques.
+void elementRows(PanelState& state)
+{
+    const Session& session = state.session;
+    const std::vector<std::string> elements =
+        soloElements(session.document.json(), session.document.schema());
+    const auto techniqueOf = [](const std::string& pointer) {
+        return Json::json_pointer(pointer).parent_pointer().to_string();
+    };
+    const bool isOnly = elements.empty() || techniqueOf(elements.front()) == techniqueOf(elements.back());
+    std::string technique;
+    for (const std::string& pointer : elements) {
+        if (std::string present = techniqueOf(pointer); present != technique) {
+            technique = std::move(present);
+            techniqueRow(state, technique, isOnly);
+        }
+        row(state, pointer);
+    }
+}
+
+/// The instances of a scene.
+void instanceRows(PanelState& state)
+{
+    Session& session = state.session;
+    for (const Member& instance : elementsOf(session.document, "/instances")) {
+        const std::string& pointer = instance.pointer;
+        const bool isSelected = (session.selection + "/").starts_with(pointer + "/");
+        if (ImGui::Selectable((elementTitle(session.document, pointer) + "##" + pointer).c_str(), isSelected))
+            session.selection = pointer;
+        state.mark("select" + pointer);
+    }
 }
 
 /// Duplicate, move and remove the selected element.
@@ -163,6 +232,9 @@ std::string elementTitle(const Document& document, const std::string& pointer)
 {
     if (pointer.empty())
         return document.kind() == DocumentKind::Preset ? "Effect" : "Scene";
+    if (pointer.find('/', 1) == std::string::npos && document.json().contains(Json::json_pointer(pointer)) &&
+        document.json().at(Json::json_pointer(pointer)).is_array())
+        return "all " + pointer.substr(1);
     const Json::json_pointer at(pointer);
     const auto member = memberAt(document, pointer);
     std::string title = member ? member->title : at.back();
@@ -185,8 +257,9 @@ void outlinerPanel(PanelState& state)
     state.mark("select");
     ImGui::Separator();
     if (session.document.kind() == DocumentKind::Preset)
-        for (const std::string& pointer : soloElements(session.document.json(), session.document.schema()))
-            row(state, pointer);
+        elementRows(state);
+    else
+        instanceRows(state);
     ImGui::Separator();
     addMenu(state);
     elementButtons(state);

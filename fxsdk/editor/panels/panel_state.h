@@ -3,16 +3,19 @@
 #pragma once
 
 #include "fxsdk/editor/document/text_difference.h"
+#include "fxsdk/editor/panels/curve_selection.h"
+#include "fxsdk/editor/panels/imgui_version.h"
 #include "fxsdk/editor/session/budget_report.h"
 #include "fxsdk/editor/session/render_request.h"
 #include "fxsdk/editor/session/session.h"
 #include "fxsdk/livelink/client/live_edit.h"
 
-#include <imgui.h>
-
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fx::editor {
@@ -100,24 +103,6 @@ struct GameLink
     bool hasLooked = false;
 };
 
-/// Whether a key went down, or is down; before 1.87 ImGui knows keys by the numbers of their host.
-inline bool isKeyPressed(ImGuiKey key)
-{
-#if IMGUI_VERSION_NUM >= 18700
-    return ImGui::IsKeyPressed(key, false);
-#else
-    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
-#endif
-}
-inline bool isKeyDown(ImGuiKey key)
-{
-#if IMGUI_VERSION_NUM >= 18700
-    return ImGui::IsKeyDown(key);
-#else
-    return ImGui::IsKeyDown(ImGui::GetKeyIndex(key));
-#endif
-}
-
 struct PanelState
 {
     explicit PanelState(Session& shown) : session(shown) {}
@@ -134,19 +119,24 @@ struct PanelState
     std::string scrolledTo;                 ///< name of a widget that its panel scrolls to; empty: none
     ImVec2 pictureSize{640.0f, 360.0f};     ///< [pixel] wanted for the next picture
 
-    std::string heldHandle;    ///< name of the handle that is dragged; empty: none
-    std::string heldMark;      ///< name of the mark of the timeline that is dragged; empty: none
-    ImVec2 heldOffset;         ///< [pixel] from the mouse to the handle
-    ImGuiID typedField = 0;    ///< field that is being typed into
-    std::string typed;         ///< its text
-    uint64_t gesture = 0;      ///< number of the last drag
-    std::vector<size_t> keys;  ///< selected keys of the curve
-    Json draggedKeys;          ///< of the curve when the drag began
-    size_t grabbedKey = 0;     ///< key under the mouse when the drag began
-    ImVec2 draggedFrom;        ///< [pixel] where the drag began
-    double curveHighest = 1.0; ///< upper end of the scale of the curve
-    std::string search;        ///< text of the search over members
-    std::string saveAs;        ///< name in the dialog "save as"
+    std::string heldHandle;                ///< name of the handle that is dragged; empty: none
+    std::string heldMark;                  ///< name of the mark of the timeline that is dragged; empty: none
+    std::string triggered;                 ///< pointer of the instance that the choice of triggers belongs to
+    std::vector<std::string> triggerNames; ///< events that it listens to
+    ImVec2 heldOffset;                     ///< [pixel] from the mouse to the handle
+    ImGuiID typedField = 0;                ///< field that is being typed into
+    std::string typed;                     ///< its text
+    uint64_t gesture = 0;                  ///< number of the last drag
+    std::vector<SelectedKey> keys;         ///< selected keys of the curves
+    std::vector<SelectedKey> keysBefore;   ///< the same when the drag began
+    std::set<std::string> shownCurves;     ///< names of members whose curves are shown beside the clicked one
+    std::vector<ShownCurve> draggedCurves; ///< curves when the drag began
+    std::optional<SelectedKey> grabbedKey; ///< key under the mouse when the drag began; empty: none
+    ImVec2 draggedFrom;                    ///< [pixel] where the drag began
+    /// Lower and upper end of the scale of each curve.
+    std::map<std::string, std::pair<double, double>> curveScales;
+    std::string search; ///< text of the search over members
+    std::string saveAs; ///< name in the dialog "save as"
     bool wantsClose = false;
     bool asksCamera = false; ///< the host shall look through the camera of the document
     bool asksWhy = false;    ///< the host shall answer "why is nothing visible"

@@ -29,7 +29,7 @@ void startLink(PanelState& state, const link::Address& address);
 /// State of the link, for people, such as "my-game: shown by 3 instances".
 std::string linkText(const PanelState& state);
 
-/// Title of an element for people, such as "Emitter flames".
+/// Title of an element for people, such as "Emitter: flames"; of the array of a technique "all emitters".
 std::string elementTitle(const Document& document, const std::string& pointer);
 
 /// Draws what the session chooses over the picture: wires, overdraw. @param view of the picture
@@ -38,6 +38,9 @@ void drawOverlays(PanelState& state, const ViewProjection& view, ImVec2 low, ImV
 /// Handles of shapes, of the sun and of the comparison: draws them, and moves the one that is held. Call it
 /// after the item of the picture. @return whether the mouse holds one
 bool viewportHandles(PanelState& state, const ViewProjection& view, ImVec2 low, ImVec2 high);
+
+/// Numbers and color of the sky. @param prefix of the places of the widgets
+void skyFields(PanelState& state, const std::string& prefix, StageChoice& io);
 
 /// A button with a place. @return true when it was clicked
 bool button(PanelState& state, const char* label, const std::string& name);

@@ -1,5 +1,6 @@
 #include "fxsdk/editor/panels/number_field.h"
 #include "fxsdk/editor/panels/panels.h"
+#include "fxsdk/editor/session/time_edits.h"
 #include "fxsdk/editor/session/time_marks.h"
 
 #include <algorithm>
@@ -45,6 +46,55 @@ void transport(PanelState& state)
         playback.speed = std::clamp(edit->value, 0.0, 16.0);
 }
 
+void tooltip(const char* text)
+{
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", text);
+}
+
+/// Adds a trigger at the present time; where an instance listens to several events, one of them is chosen.
+void triggerButton(PanelState& state)
+{
+    Session& session = state.session;
+    sameLineIfItFits("+ trigger");
+    if (button(state, "+ trigger", "timeline/trigger")) {
+        state.triggered = triggeredInstance(session.document, session.selection);
+        state.triggerNames = triggerNames(session.document, session.name(), state.triggered);
+        if (state.triggerNames.empty())
+            session.message =
+                "Nothing listens to a trigger: an emitter needs an event with \"on\": \"host\" and a name.";
+        else if (state.triggerNames.size() > 1)
+            ImGui::OpenPopup("trigger popup");
+        else
+            session.run(addTrigger(session.document, state.triggered, state.triggerNames[0],
+                                   session.playback.time()));
+    }
+    tooltip("Triggers an event of the host at the present time; of a scene: that of the selected instance");
+    if (!ImGui::BeginPopup("trigger popup"))
+        return;
+    for (const std::string& name : state.triggerNames) {
+        if (ImGui::Selectable(name.c_str()))
+            session.run(addTrigger(session.document, state.triggered, name, session.playback.time()));
+        state.mark("timeline/trigger/" + name);
+    }
+    ImGui::EndPopup();
+}
+
+void cameraButtons(PanelState& state)
+{
+    Session& session = state.session;
+    sameLineIfItFits("+ camera key");
+    if (button(state, "+ camera key", "timeline/camera key"))
+        session.run(addCameraKey(session.document, session.camera, session.playback.time()));
+    tooltip("Lets the camera of the document be at this view at the present time");
+    if (!session.hasCameraKeys())
+        return;
+    sameLineIfItFits(ImGui::CalcTextSize("follow camera").x + ImGui::GetFrameHeight() + 8.0f);
+    ImGui::Checkbox("follow camera", &session.followsCamera);
+    state.mark("timeline/follow");
+    tooltip("Looks through the camera of the document while its keys are played, until the view is moved");
+}
+
 constexpr float kMarkGrab = 6.0f; // [pixel]
 
 ImU32 colorOf(MarkKind kind)
@@ -56,8 +106,38 @@ ImU32 colorOf(MarkKind kind)
         return IM_COL32(255, 140, 90, 220);
     case MarkKind::Event:
         return IM_COL32(170, 230, 120, 220);
+    case MarkKind::Trigger:
+        return IM_COL32(255, 110, 200, 230);
+    case MarkKind::CameraKey:
+        return IM_COL32(240, 235, 150, 230);
     }
     return IM_COL32_WHITE;
+}
+
+/// A ball for what the effect does, a diamond for what is done to it.
+void drawMark(const TimeMark& mark, float x, ImVec2 low, float height, bool isHeld)
+{
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const ImU32 color = colorOf(mark.kind);
+    const float radius = isHeld ? 5.0f : 3.5f;
+    draw->AddLine({x, low.y + 2}, {x, low.y + height - 2}, color, isHeld ? 4.0f : 2.0f);
+    if (mark.isRemovable())
+        draw->AddNgonFilled({x, low.y + (mark.kind == MarkKind::Trigger ? 16.0f : 8.0f)}, radius + 2.0f,
+                            color, 4);
+    else
+        draw->AddCircleFilled({x, low.y + height - 4}, radius, color);
+}
+
+/// What is under the mouse: its name, and its end by a click of the right button. @return whether it is gone
+bool touchMark(PanelState& state, const TimeMark& mark)
+{
+    Session& session = state.session;
+    ImGui::SetTooltip("%s%s", markText(session.document, mark).c_str(),
+                      mark.isRemovable() ? "\ndrag: move   right click: remove" : "\ndrag: move");
+    if (!mark.isRemovable() || !ImGui::IsMouseClicked(1))
+        return false;
+    session.run(removeTimed(session.document, mark.pointer));
+    return true;
 }
 
 /// Draws the marks, and drags the one that is held. Call it after the item of the bar.
@@ -71,23 +151,26 @@ bool marks(PanelState& state, ImVec2 low, ImVec2 size)
     const bool isActive = ImGui::IsItemActive();
     if (!isActive)
         state.heldMark.clear();
-    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const bool isHovered = ImGui::IsItemHovered();
     const std::vector<TimeMark> all = timeMarks(session.document);
     float nearest = kMarkGrab;
+    const TimeMark* touched = nullptr;
     for (const TimeMark& mark : all) {
         if (mark.time > end)
             continue;
         const float x = low.x + size.x * float(mark.time / end);
         const std::string name = "mark" + mark.pointer;
         state.places[name] = {{x - 3, low.y}, {x + 3, low.y + size.y}, true};
-        if (isTaken && std::abs(mouse.x - x) < nearest) {
+        if (std::abs(mouse.x - x) < nearest) {
             nearest = std::abs(mouse.x - x);
-            state.heldMark = name;
+            touched = &mark;
+            if (isTaken)
+                state.heldMark = name;
         }
-        const bool isHeld = state.heldMark == name;
-        draw->AddLine({x, low.y + 2}, {x, low.y + size.y - 2}, colorOf(mark.kind), isHeld ? 4.0f : 2.0f);
-        draw->AddCircleFilled({x, low.y + size.y - 4}, isHeld ? 5.0f : 3.5f, colorOf(mark.kind));
+        drawMark(mark, x, low, size.y, state.heldMark == name);
     }
+    if (touched && isHovered && !isActive && touchMark(state, *touched))
+        return true;
     if (isTaken)
         ++state.gesture;
     if (state.heldMark.empty() || isTaken || ImGui::GetIO().MouseDelta.x == 0.0f)
@@ -131,6 +214,8 @@ void bar(PanelState& state)
 void timelinePanel(PanelState& state)
 {
     transport(state);
+    triggerButton(state);
+    cameraButtons(state);
     bar(state);
 }
 

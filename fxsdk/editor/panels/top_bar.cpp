@@ -25,8 +25,7 @@ void textField(PanelState& state, const char* label, const std::string& name, fl
 
 void sameLineIfItFits(float width)
 {
-    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= right)
+    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= rightEnd())
         ImGui::SameLine();
 }
 

@@ -20,7 +20,7 @@ void closeByEscape()
 void stageNames(PanelState& state, StageChoice& io)
 {
     const auto choose = [&](const std::string& name, const char* label, const char* place) {
-        if (ImGui::Selectable(label, io.name == name, ImGuiSelectableFlags_DontClosePopups))
+        if (ImGui::Selectable(label, io.name == name, kKeepsPopup))
             io.name = name;
         state.mark(place);
     };
@@ -69,6 +69,7 @@ void lightFields(PanelState& state, StageChoice& io)
         io.sunIlluminance = edit->value;
     if (const auto edit = field("sky [cd/m2]", "stage/sky", light.skyLuminance, 0.0, kBrightest))
         io.skyLuminance = edit->value;
+    skyFields(state, "stage/sky", io);
 }
 
 void stagePopup(PanelState& state)
@@ -162,7 +163,9 @@ void cameraPopup(PanelState& state)
     };
     if (choose(std::string("look through the camera of the ") + of, "camera/look"))
         state.asksCamera = true;
-    if (choose(std::string("take this view as the camera of the ") + of, "camera/take"))
+    if (choose(std::string("take this view as the camera of the ") + of +
+                   (state.session.hasCameraKeys() ? ", instead of its keys" : ""),
+               "camera/take"))
         state.session.keepCamera();
     ImGui::EndPopup();
 }

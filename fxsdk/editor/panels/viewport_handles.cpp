@@ -1,3 +1,5 @@
+#include "fxsdk/editor/panels/curve_keys.h"
+#include "fxsdk/editor/panels/number_field.h"
 #include "fxsdk/editor/panels/panels.h"
 #include "fxsdk/editor/session/shape_handles.h"
 
@@ -51,6 +53,50 @@ glm::dvec3 sunFromDial(ImVec2 place, const ViewProjection& view, ImVec2 middle)
     return directionOf(glm::degrees(heading), 90.0 - 90.0 * away);
 }
 
+/// A bar under the dial, on which the strength of a light is dragged: a decade on each equal part of its
+/// height, and nothing at its lower end.
+struct LightBar
+{
+    static constexpr double kFirst = -2.0, kLast = 5.0;     // decades
+    static constexpr float kLength = 110.0f, kWidth = 8.0f; // [pixel]
+    static constexpr float kShortest = 40.0f;               // [pixel] below, no bar is shown
+
+    ImVec2 top;
+    float length = 0.0f;
+
+    LightBar(ImVec2 low, ImVec2 high, float side)
+    {
+        const ImVec2 dial = dialOf(low, high);
+        top = {dial.x + side * 0.5f * kDial, dial.y + kDial + 14.0f};
+        length = std::min(kLength, high.y - 12.0f - top.y);
+    }
+    bool isShown() const { return length >= kShortest; }
+    ImVec2 at(double value) const
+    {
+        const double decade = value > 0.0 ? std::log10(value) : kFirst;
+        const double share = std::clamp((decade - kFirst) / (kLast - kFirst), 0.0, 1.0);
+        return {top.x, top.y + length * float(1.0 - share)};
+    }
+    /// Three digits are enough for a drag.
+    double valueAt(float y) const
+    {
+        const double share = std::clamp(1.0 - double((y - top.y) / length), 0.0, 1.0);
+        if (share <= 0.0)
+            return 0.0;
+        const double decade = kFirst + share * (kLast - kFirst);
+        const double unit = std::pow(10.0, 2.0 - std::floor(decade));
+        return std::round(std::pow(10.0, decade) * unit) / unit;
+    }
+};
+
+/// Color of a light on the display, without its strength.
+ImU32 colorOf(const glm::dvec3& light)
+{
+    const double most = std::max({light.x, light.y, light.z, 1e-9});
+    const auto channel = [&](double value) { return toDisplay(float(value / most)); };
+    return ImGui::GetColorU32({channel(light.x), channel(light.y), channel(light.z), 1.0f});
+}
+
 StageLightValues shownLight(const Session& session)
 {
     return lightOf(onStage(session.document.json(), session.document.kind(), session.stage()),
@@ -62,7 +108,7 @@ class Handles
 public:
     Handles(PanelState& state, const ViewProjection& view, ImVec2 low, ImVec2 high)
         : state_(state), session_(state.session), view_(view), low_(low), high_(high),
-          sun_(shownLight(state.session))
+          sun_(shownLight(state.session)), skyBar_(low, high, -1.0f), sunBar_(low, high, 1.0f)
     {
         if (session_.document.kind() == DocumentKind::Preset)
             placement_ = state.picture.placement;
@@ -73,6 +119,10 @@ public:
             if (const auto place = view_.project(placement_.toWorld(wires_.handles[i].place)))
                 add(nameOf(wires_.handles[i]), toScreen(*place));
         add("handle/sun", sunOnDial(sun_.sunDirection, view_, dialOf(low_, high_)));
+        if (!skyBar_.isShown())
+            return;
+        add("handle/sky", skyBar_.at(sun_.skyLuminance));
+        add("handle/sunlight", sunBar_.at(sun_.sunIlluminance));
     }
 
     void take()
@@ -82,6 +132,10 @@ public:
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         if (ImGui::IsItemActivated() && ImGui::IsMouseDown(0) && !ImGui::GetIO().KeyShift)
             grab(mouse);
+        constexpr float kStill = 4.0f; // [pixel2]
+        if (ImGui::IsItemDeactivated() && state_.heldHandle == "handle/sky" &&
+            ImGui::GetIO().MouseDragMaxDistanceSqr[0] < kStill)
+            ImGui::OpenPopup("sky popup");
         if (!ImGui::IsItemActive())
             state_.heldHandle.clear();
         else if (!state_.heldHandle.empty())
@@ -99,6 +153,12 @@ public:
             const bool isField = handle.name.find("/forces/") != std::string::npos;
             if (handle.name == "handle/sun")
                 dial(draw, handle.place, isHeld);
+            else if (handle.name == "handle/sky")
+                bar(draw, skyBar_, handle.place, colorOf(sun_.sky), "sky", isHeld,
+                    numberText(sun_.skyLuminance) + " cd/m2");
+            else if (handle.name == "handle/sunlight")
+                bar(draw, sunBar_, handle.place, IM_COL32(255, 226, 120, 255), "sun", isHeld,
+                    numberText(sun_.sunIlluminance) + " lx");
             else if (handle.name == "handle/split")
                 split(draw, isHeld);
             else {
@@ -154,6 +214,11 @@ private:
             StageChoice choice = session_.stage();
             choice.sunDirection = sunFromDial(to, view_, dialOf(low_, high_));
             session_.setStage(std::move(choice));
+        } else if (state_.heldHandle == "handle/sky" || state_.heldHandle == "handle/sunlight") {
+            StageChoice choice = session_.stage();
+            const bool isSky = state_.heldHandle == "handle/sky";
+            (isSky ? choice.skyLuminance : choice.sunIlluminance) = (isSky ? skyBar_ : sunBar_).valueAt(to.y);
+            session_.setStage(std::move(choice));
         } else {
             for (const ShapeHandle& handle : wires_.handles)
                 if (nameOf(handle) == state_.heldHandle)
@@ -188,6 +253,24 @@ private:
         draw->AddCircle(sun, isHeld ? 7.0f : 5.5f, IM_COL32(60, 40, 0, 255), 0, 1.2f);
     }
 
+    /// @param text the strength, which is shown while it is dragged
+    void bar(ImDrawList* draw, const LightBar& of, ImVec2 handle, ImU32 color, const char* label, bool isHeld,
+             const std::string& text) const
+    {
+        const float half = 0.5f * LightBar::kWidth;
+        const ImVec2 low(of.top.x - half, of.top.y), high(of.top.x + half, of.top.y + of.length);
+        draw->AddRectFilled(low, high, IM_COL32(20, 26, 38, 150), half);
+        draw->AddRectFilled({low.x, handle.y}, high, (color & 0x00FFFFFFu) | 0x90000000u, half);
+        draw->AddRect(low, high, IM_COL32(255, 255, 255, 110), half);
+        draw->AddCircleFilled(handle, isHeld ? 7.0f : 5.5f, color);
+        draw->AddCircle(handle, isHeld ? 7.0f : 5.5f, IM_COL32(30, 30, 30, 255), 0, 1.2f);
+        const std::string& shown = isHeld ? text : std::string(label);
+        const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
+        const float x = isHeld ? low.x - size.x - 10.0f : of.top.x - 0.5f * size.x;
+        draw->AddText({x, isHeld ? handle.y - 0.5f * size.y : high.y + 2.0f}, IM_COL32(255, 255, 255, 220),
+                      shown.c_str());
+    }
+
     void split(ImDrawList* draw, bool isHeld) const
     {
         const float x = splitX();
@@ -204,11 +287,28 @@ private:
     const ViewProjection& view_;
     ImVec2 low_, high_;
     StageLightValues sun_;
+    LightBar skyBar_, sunBar_;
     EffectPlacement placement_;
     ShapeWires wires_;
     std::vector<ScreenHandle> screen_;
     bool movesFrom_ = false;
 };
+
+/// Numbers and color of the sky, which a click on its handle opens.
+void skyPopup(PanelState& state)
+{
+    if (!ImGui::BeginPopup("sky popup"))
+        return;
+    if (isKeyPressed(ImGuiKey_Escape))
+        ImGui::CloseCurrentPopup();
+    Session& session = state.session;
+    StageChoice choice = session.stage();
+    skyFields(state, "sky", choice);
+    session.setStage(std::move(choice));
+    if (button(state, "keep in the document", "sky/keep"))
+        session.keepStage();
+    ImGui::EndPopup();
+}
 
 } // namespace
 
@@ -219,6 +319,7 @@ bool viewportHandles(PanelState& state, const ViewProjection& view, ImVec2 low, 
     ImGui::GetWindowDrawList()->PushClipRect(low, high, true);
     handles.draw();
     ImGui::GetWindowDrawList()->PopClipRect();
+    skyPopup(state);
     return !state.heldHandle.empty();
 }
 

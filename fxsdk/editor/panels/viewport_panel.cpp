@@ -19,10 +19,13 @@ void moveByMouse(PanelState& state)
 {
     OrbitCamera& camera = state.session.camera;
     const ImGuiIO& io = ImGui::GetIO();
-    if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f)
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
         camera.zoom(std::pow(0.88, double(io.MouseWheel)));
-    if (!ImGui::IsItemActive())
+        state.session.followsCamera = false;
+    }
+    if (!ImGui::IsItemActive() || (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f))
         return;
+    state.session.followsCamera = false;
     const bool isPan = ImGui::IsMouseDown(2) || ImGui::IsMouseDown(1) || io.KeyShift;
     if (isPan)
         camera.pan(-kPan * io.MouseDelta.x, kPan * io.MouseDelta.y);
@@ -40,8 +43,10 @@ void flyByKeys(PanelState& state)
                          isDown(ImGuiKey_PageUp) - isDown(ImGuiKey_PageDown),
                          isDown(ImGuiKey_UpArrow) - isDown(ImGuiKey_DownArrow));
     const double step = 0.5 * state.session.camera.distance() * double(ImGui::GetIO().DeltaTime);
-    if (way != glm::dvec3(0.0))
-        state.session.camera.fly(step * way);
+    if (way == glm::dvec3(0.0))
+        return;
+    state.session.camera.fly(step * way);
+    state.session.followsCamera = false;
 }
 
 /// A text on a dark plate.
@@ -51,11 +56,6 @@ void plate(const std::string& text, ImVec2 at)
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     draw->AddRectFilled(at, {at.x + extent.x + 12, at.y + extent.y + 8}, IM_COL32(0, 0, 0, 150), 4.0f);
     draw->AddText({at.x + 6, at.y + 4}, IM_COL32_WHITE, text.c_str());
-}
-
-ImTextureID imageOf(uint32_t texture)
-{
-    return (ImTextureID)(uintptr_t)texture; // a pointer, or from 1.91 on an integer
 }
 
 /// The present picture, the one of before left of the line, or the error.

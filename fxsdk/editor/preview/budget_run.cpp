@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace fx::editor {
 
@@ -21,11 +22,6 @@ struct Level
 constexpr std::array<Level, 3> kLevels{
     {{"low", PreviewQuality::Low}, {"medium", PreviewQuality::Medium}, {"high", PreviewQuality::High}}};
 
-double drawingOf(const StageTimes& times)
-{
-    return times.lights + times.effects;
-}
-
 } // namespace
 
 base::Result<std::unique_ptr<BudgetRun>> BudgetRun::create(const render::GlLoader& loader,
@@ -38,9 +34,13 @@ base::Result<std::unique_ptr<BudgetRun>> BudgetRun::create(const render::GlLoade
 }
 
 BudgetRun::BudgetRun(std::unique_ptr<Preview> preview, BudgetSubject subject)
-    : device_(preview->sharedDevice()), preview_(std::move(preview)), subject_(std::move(subject)),
-      pieces_((subject_.elements.empty() ? 0 : 1 + subject_.elements.size()) + kLevels.size() + kMoments)
+    : device_(preview->sharedDevice()), preview_(std::move(preview)), subject_(std::move(subject)), pieces_(0)
 {
+    if (subject_.elements.size() > kMostElements) {
+        report_.unmeasured = subject_.elements.size() - kMostElements;
+        subject_.elements.resize(kMostElements);
+    }
+    pieces_ = kLevels.size() + partPieces() + kMoments;
     preview_->setMotion(subject_.motion);
     report_.time = subject_.time;
     report_.width = subject_.frame.width;
@@ -66,37 +66,71 @@ base::Status BudgetRun::step()
 
 base::Status BudgetRun::measure(size_t piece)
 {
-    const size_t elements = subject_.elements.empty() ? 0 : 1 + subject_.elements.size();
     if (piece < kLevels.size())
         return measureQuality(piece);
     piece -= kLevels.size();
-    return piece < elements ? measureElement(piece) : measureMoment(piece - elements);
+    return piece < partPieces() ? measurePart(piece) : measureMoment(piece - partPieces());
 }
 
-/// The first piece draws no element, the others one each.
-base::Status BudgetRun::measureElement(size_t piece)
+/// No element, all of them, each one, all without each technique, and all again.
+size_t BudgetRun::partPieces() const
+{
+    return subject_.elements.empty() ? 0 : 3 + subject_.elements.size() + subject_.techniques.size();
+}
+
+base::Status BudgetRun::measurePart(size_t piece)
 {
     preview_->setSimulationQuality(FX_QUALITY_DEFAULT);
-    StageTimes times;
-    uint32_t particles = 0;
-    const std::string& text = piece == 0 ? subject_.empty : subject_.elements[piece - 1].second;
-    const base::Status status = measureText(text, subject_.time, subject_.frame, times, particles);
+    const size_t elements = subject_.elements.size(), techniques = subject_.techniques.size();
     if (piece == 0)
-        without_ = drawingOf(times);
-    else
-        report_.elements.push_back(
-            {subject_.elements[piece - 1].first, std::max(drawingOf(times) - without_, 0.0)});
+        return measureText(subject_.empty, subject_.frame, none_);
+    if (piece == 1)
+        return measureText(subject_.text, subject_.frame, all_);
+    piece -= 2;
+    Sample sample;
+    const bool isElement = piece < elements, isTechnique = !isElement && piece - elements < techniques;
+    if (!isElement && !isTechnique) {
+        const base::Status status = measureText(subject_.text, subject_.frame, sample);
+        addDrift(sample);
+        return status;
+    }
+    const auto& [pointer, text] =
+        isElement ? subject_.elements[piece] : subject_.techniques[piece - elements];
+    const base::Status status = measureText(text, subject_.frame, sample);
+    if (status.ok() && isElement)
+        report_.elements.push_back(costOf(pointer, sample, none_));
+    else if (status.ok())
+        report_.techniques.push_back(costOf(pointer, all_, sample));
     return status;
 }
 
-base::Status BudgetRun::measureText(const std::string& text, double time, const PreviewFrame& frame,
-                                    StageTimes& outTimes, uint32_t& outParticles)
+PartCost BudgetRun::costOf(const std::string& pointer, const Sample& with, const Sample& without)
+{
+    PartCost cost{pointer, {}, with.range + without.range};
+    for (double StageTimes::*member : {&StageTimes::simulation, &StageTimes::lights, &StageTimes::effects})
+        cost.times.*member = std::max(with.times.*member - without.times.*member, 0.0);
+    return cost;
+}
+
+/// The machine may have become slower or faster meanwhile.
+void BudgetRun::addDrift(const Sample& all)
+{
+    const auto sumOf = [](const StageTimes& times) {
+        return times.simulation + times.lights + times.effects;
+    };
+    const double drift = std::abs(sumOf(all.times) - sumOf(all_.times));
+    for (std::vector<PartCost>* const parts : {&report_.elements, &report_.techniques})
+        for (PartCost& part : *parts)
+            part.noise += drift;
+}
+
+base::Status BudgetRun::measureText(const std::string& text, const PreviewFrame& frame, Sample& out)
 {
     base::Status status = preview_->show(text, subject_.name, subject_.kind);
     if (status.ok())
-        status = preview_->seek(time);
-    outParticles = preview_->particles();
-    return status.ok() ? preview_->measure(frame, outTimes) : status;
+        status = preview_->seek(subject_.time);
+    out.particles = preview_->particles();
+    return status.ok() ? preview_->measure(frame, out.times, &out.range) : status;
 }
 
 base::Status BudgetRun::measureQuality(size_t level)
@@ -107,7 +141,10 @@ base::Status BudgetRun::measureQuality(size_t level)
     frame.quality = kLevels[level].quality;
     preview_->setSimulationQuality(frame.quality == PreviewQuality::Low ? FX_QUALITY_LOW
                                                                         : FX_QUALITY_DEFAULT);
-    base::Status status = measureText(subject_.text, subject_.time, frame, cost.times, cost.particles);
+    Sample sample;
+    base::Status status = measureText(subject_.text, frame, sample);
+    cost.times = sample.times;
+    cost.particles = sample.particles;
     frame.height = std::max(frame.height * kSmallWidth / std::max(frame.width, 1), 8);
     frame.width = kSmallWidth;
     if (status.ok())

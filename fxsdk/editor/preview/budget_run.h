@@ -23,6 +23,8 @@ struct BudgetSubject
     std::string empty; ///< text with all elements hidden; presets only
     /// Texts that show one element each, by its pointer; presets only.
     std::vector<std::pair<std::string, std::string>> elements;
+    /// Texts without the elements of a technique each, by its pointer; presets only.
+    std::vector<std::pair<std::string, std::string>> techniques;
     double time = 0.0; ///< [s] of the picture
     double end = 5.0;  ///< [s] of the timeline
     PreviewFrame frame;
@@ -32,6 +34,8 @@ struct BudgetSubject
 class BudgetRun
 {
 public:
+    static constexpr size_t kMostElements = 64; ///< that are measured
+
     /// @param loader functions of the current OpenGL context
     static base::Result<std::unique_ptr<BudgetRun>> create(const render::GlLoader& loader,
                                                            BudgetSubject subject);
@@ -49,9 +53,18 @@ public:
 private:
     BudgetRun(std::unique_ptr<Preview> preview, BudgetSubject subject);
     base::Status measure(size_t piece);
-    base::Status measureText(const std::string& text, double time, const PreviewFrame& frame,
-                             StageTimes& outTimes, uint32_t& outParticles);
-    base::Status measureElement(size_t piece);
+    /// Times of a text, and the half of the range of their sum.
+    struct Sample
+    {
+        StageTimes times;
+        double range = 0.0; ///< [ms]
+        uint32_t particles = 0;
+    };
+    base::Status measureText(const std::string& text, const PreviewFrame& frame, Sample& out);
+    size_t partPieces() const;
+    base::Status measurePart(size_t piece);
+    static PartCost costOf(const std::string& pointer, const Sample& with, const Sample& without);
+    void addDrift(const Sample& all);
     base::Status measureQuality(size_t level);
     base::Status measureMoment(size_t moment);
 
@@ -59,7 +72,8 @@ private:
     std::unique_ptr<Preview> preview_;         ///< until the run is done
     BudgetSubject subject_;
     BudgetReport report_;
-    double without_ = 0.0; ///< [ms] of drawing no element
+    Sample none_; ///< without any element
+    Sample all_;  ///< the whole effect
     size_t pieces_;
     size_t next_ = 0;
 };

@@ -71,9 +71,12 @@ public:
 
     /// Draws some frames of the present moment and steps beyond it, and takes the time. The next picture
     /// needs a seek().
-    base::Status measure(const PreviewFrame& frame, StageTimes& outTimes);
+    /// @param outRange receives the half of the range [ms] of the sum of simulation, lights and effects; may
+    /// be null
+    base::Status measure(const PreviewFrame& frame, StageTimes& outTimes, double* outRange = nullptr);
     /// Time [ms] of a step of 1/60 s. The next picture needs a seek().
-    base::Status measureStep(double& outMilliseconds);
+    /// @param outRange receives the half of the range of the steps [ms]; may be null
+    base::Status measureStep(double& outMilliseconds, double* outRange = nullptr);
     /// Motion of the instances from the next show() on. What is played is exact too: it is played from the
     /// beginning wherever the time goes back.
     void setMotion(const MotionChoice& motion) { motion_ = motion; }

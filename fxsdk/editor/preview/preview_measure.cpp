@@ -18,10 +18,20 @@ base::Status statusOf(const fxsdk::Error& error)
     return {base::Code(error.code()), error.what()};
 }
 
-double medianOf(std::array<double, 3> values)
+constexpr size_t kLaps = 5; // frames and steps
+
+using Laps = std::array<double, kLaps>;
+
+double medianOf(Laps values)
 {
     std::sort(values.begin(), values.end());
-    return values[1];
+    return values[kLaps / 2];
+}
+
+double halfRangeOf(const Laps& values)
+{
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return 0.5 * (*most - *least);
 }
 
 double millisecondsSince(std::chrono::steady_clock::time_point start)
@@ -31,9 +41,9 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
 
 } // namespace
 
-base::Status Preview::measureStep(double& outMilliseconds)
+base::Status Preview::measureStep(double& outMilliseconds, double* outRange)
 {
-    std::array<double, 3> laps{};
+    Laps laps{};
     try {
         for (double& lap : laps) {
             const auto start = std::chrono::steady_clock::now();
@@ -45,22 +55,34 @@ base::Status Preview::measureStep(double& outMilliseconds)
         return statusOf(error);
     }
     outMilliseconds = medianOf(laps);
+    if (outRange)
+        *outRange = halfRangeOf(laps);
     for (Shown& shown : shown_)
         shown.at = -1.0; // it is elsewhere now
     return {};
 }
 
-base::Status Preview::measure(const PreviewFrame& frame, StageTimes& outTimes)
+base::Status Preview::measure(const PreviewFrame& frame, StageTimes& outTimes, double* outRange)
 {
     if (base::Status status = renderStages(frame, nullptr); !status) // makes textures
         return status;
-    std::array<StageTimes, 3> laps;
+    std::array<StageTimes, kLaps> laps;
     for (StageTimes& lap : laps)
         if (base::Status status = renderStages(frame, &lap); !status)
             return status;
+    const auto lapsOf = [&](auto&& value) {
+        Laps values{};
+        std::transform(laps.begin(), laps.end(), values.begin(), value);
+        return values;
+    };
     for (double StageTimes::*member : {&StageTimes::lights, &StageTimes::stage, &StageTimes::effects})
-        outTimes.*member = medianOf({laps[0].*member, laps[1].*member, laps[2].*member});
-    return measureStep(outTimes.simulation);
+        outTimes.*member = medianOf(lapsOf([&](const StageTimes& lap) { return lap.*member; }));
+    double range = 0.0;
+    const base::Status status = measureStep(outTimes.simulation, &range);
+    if (outRange)
+        *outRange =
+            range + halfRangeOf(lapsOf([](const StageTimes& lap) { return lap.lights + lap.effects; }));
+    return status;
 }
 
 /// @param outTimes receives the time of each stage, for which the GPU finishes it; null: no time is measured

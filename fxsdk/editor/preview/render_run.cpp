@@ -88,11 +88,17 @@ base::Status RenderRun::step()
     return status;
 }
 
-PreviewFrame RenderRun::frameAt(int index) const
+PreviewFrame RenderRun::frameAt(int index, double time) const
 {
     OrbitCamera camera = subject_.camera;
     if (subject_.request.kind == RenderKind::Turntable)
         camera.orbit(2.0 * std::numbers::pi * index / frames_, 0.0);
+    const RenderKind kind = subject_.request.kind;
+    if (subject_.followsCamera && (kind == RenderKind::Sequence || kind == RenderKind::Video)) {
+        const scene_file::CameraPose pose = preview_->scene().camera.at(time);
+        camera.look(pose.position, pose.target);
+        camera.fovYDegrees = preview_->scene().camera.fovYDegrees;
+    }
     PreviewFrame frame;
     frame.pose.position = camera.position();
     frame.pose.target = camera.target();
@@ -111,7 +117,7 @@ base::Status RenderRun::writeFrame()
     if (isPlayed(preview_->scene())) // in steps
         time = std::round(time * kStepsPerSecond) / kStepsPerSecond;
     base::Status status = preview_->seek(time);
-    const PreviewFrame frame = frameAt(next_);
+    const PreviewFrame frame = frameAt(next_, time);
     if (status.ok())
         status = preview_->render(frame);
     if (!status.ok())

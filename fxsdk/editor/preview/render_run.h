@@ -29,6 +29,7 @@ struct RenderSubject
     double time = 0.0;                  ///< [s] of picture and turntable
     double end = 5.0;                   ///< [s] of sequence and video
     MotionChoice motion;
+    bool followsCamera = false; ///< sequences and videos look through the camera of the document
 };
 
 class RenderRun
@@ -51,7 +52,7 @@ public:
 private:
     RenderRun(std::unique_ptr<Preview> preview, RenderSubject subject, cli::OutputTarget target);
     base::Status writeFrame();
-    PreviewFrame frameAt(int index) const;
+    PreviewFrame frameAt(int index, double time) const;
 
     std::unique_ptr<Preview> preview_;
     RenderSubject subject_;

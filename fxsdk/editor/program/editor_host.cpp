@@ -7,6 +7,16 @@
 
 namespace fx::editor {
 
+ImGuiOwner::ImGuiOwner()
+{
+    ImGui::CreateContext();
+}
+
+ImGuiOwner::~ImGuiOwner()
+{
+    ImGui::DestroyContext();
+}
+
 base::Result<std::unique_ptr<EditorHost>> EditorHost::create(std::unique_ptr<Session> session,
                                                              const render::GlLoader& loader)
 {

@@ -12,6 +12,16 @@
 
 namespace fx::editor {
 
+/// A context of ImGui.
+class ImGuiOwner
+{
+public:
+    ImGuiOwner();
+    ~ImGuiOwner();
+    ImGuiOwner(const ImGuiOwner&) = delete;
+    ImGuiOwner& operator=(const ImGuiOwner&) = delete;
+};
+
 class EditorHost
 {
 public:

@@ -28,14 +28,6 @@ constexpr uint64_t kScriptBytes = uint64_t(1) << 20;
 constexpr double kFrameSeconds = 1.0 / 60.0;
 constexpr std::chrono::seconds kGameTime{60}; ///< that a game has for an answer
 
-struct ImGuiOwner
-{
-    ImGuiOwner() { ImGui::CreateContext(); }
-    ~ImGuiOwner() { ImGui::DestroyContext(); }
-    ImGuiOwner(const ImGuiOwner&) = delete;
-    ImGuiOwner& operator=(const ImGuiOwner&) = delete;
-};
-
 class Runner
 {
 public:
@@ -63,6 +55,7 @@ public:
                 return cli::interruptedStatus();
             ImGui::GetIO().DisplaySize = {float(options_.width), float(options_.height)};
             ImGui::GetIO().DeltaTime = float(kFrameSeconds);
+            applyInput(queue_.take());
             if (base::Status status = host_.frame(kFrameSeconds, framebuffer_); !status)
                 return status;
         }
@@ -272,9 +265,18 @@ private:
                 "quality %s: %u particles, simulation %.3f, lights %.3f, stage %.3f, effects %.3f ms\n",
                 of.name.c_str(), of.particles, of.times.simulation, of.times.lights, of.times.stage,
                 of.times.effects);
-        for (const ElementCost& of : budget.report.elements)
-            std::printf("%s: %u particles, drawing %.3f ms\n", of.pointer.c_str(),
-                        host_.state().picture.elements[of.pointer], of.drawing);
+        const auto costOf = [](const PartCost& of) {
+            std::printf("simulation %.3f, lights %.3f, effects %.3f, noise %.3f ms\n", of.times.simulation,
+                        of.times.lights, of.times.effects, of.noise);
+        };
+        for (const PartCost& of : budget.report.techniques) {
+            std::printf("technique %s: ", of.pointer.c_str());
+            costOf(of);
+        }
+        for (const PartCost& of : budget.report.elements) {
+            std::printf("%s: %u particles, ", of.pointer.c_str(), host_.state().picture.elements[of.pointer]);
+            costOf(of);
+        }
         for (const MomentCost& of : budget.report.moments)
             std::printf("at %.2f s: %u particles, simulation %.3f ms\n", of.time, of.particles,
                         of.simulation);
@@ -308,6 +310,8 @@ private:
             (void)pressKey(key, false);
             return status.ok() ? frames(2) : status;
         }
+        if (verb == "strike")
+            return strike(words);
         words >> x;
         if (verb == "time")
             host_.session().playback.scrub(double(x));
@@ -322,8 +326,21 @@ private:
         return frames(1);
     }
 
+    /// Keys that are pressed and released before the next frame.
+    base::Status strike(std::istringstream& words)
+    {
+        for (std::string key; words >> key;)
+            if (!strikeKey(key, queue_))
+                return {base::Code::InvalidArgument, "the key \"" + key + "\" is unknown"};
+        base::Status status = frames(1);
+        while (status.ok() && queue_.size() > 0)
+            status = frames(1);
+        return status.ok() ? frames(1) : status;
+    }
+
     EditorHost& host_;
     const HeadlessOptions& options_;
+    InputQueue queue_;
     uint32_t texture_ = 0;
     uint32_t framebuffer_ = 0;
 };

@@ -10,6 +10,7 @@
 ///   at NAME FX FY         clicks at fractions of the widget's width and height
 ///   type TEXT             types the rest of the line
 ///   key KEY               presses a key such as enter, ctrl+z
+///   strike KEY KEY ...    presses and releases keys one after the other before the next frame
 ///   move X Y, press B, release B, wheel N    events of the mouse; B is 0, 1 or 2
 ///   shot FILE             writes the window as PNG
 ///   text FILE             writes the document as the editor would save it

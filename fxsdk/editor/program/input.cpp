@@ -1,7 +1,8 @@
 #include "fxsdk/editor/program/input.h"
 
-#include <imgui.h>
+#include "fxsdk/editor/panels/imgui_version.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -31,6 +32,14 @@ constexpr auto kKeys = std::to_array<NamedKey>({
 #endif
 });
 
+constexpr int kShift = 340, kControl = 341; // of GLFW
+constexpr int kRightOf = 4;                 // from a modifier on the left to that on the right
+
+bool isModifier(int code, int left)
+{
+    return code == left || code == left + kRightOf;
+}
+
 } // namespace
 
 #if IMGUI_VERSION_NUM >= 18700
@@ -57,11 +66,17 @@ void set(const NamedKey& key, bool isDown)
 }
 void setControl(bool isDown)
 {
-    ImGui::GetIO().AddKeyEvent(ImGuiMod_Ctrl, isDown);
+    ImGui::GetIO().AddKeyEvent(kControlKey, isDown);
 }
 void setShift(bool isDown)
 {
-    ImGui::GetIO().AddKeyEvent(ImGuiMod_Shift, isDown);
+    ImGui::GetIO().AddKeyEvent(kShiftKey, isDown);
+}
+void setCode(int code, bool isDown)
+{
+    for (const NamedKey& key : kKeys)
+        if (key.code == code)
+            set(key, isDown);
 }
 
 } // namespace
@@ -107,35 +122,103 @@ void setShift(bool isDown)
     ImGui::GetIO().KeyShift = isDown;
 }
 
+void setCode(int code, bool isDown)
+{
+    if (code >= 0 && code < IM_ARRAYSIZE(ImGui::GetIO().KeysDown))
+        ImGui::GetIO().KeysDown[code] = isDown;
+}
+
 } // namespace
 
 #endif
+
+void applyInput(const std::vector<InputEvent>& events)
+{
+    for (const InputEvent& event : events)
+        switch (event.kind) {
+        case InputKind::Key:
+            if (isModifier(event.code, kControl))
+                setControl(event.isDown);
+            if (isModifier(event.code, kShift))
+                setShift(event.isDown);
+            setCode(event.code, event.isDown);
+            break;
+        case InputKind::Text:
+            ImGui::GetIO().AddInputCharacter(unsigned(event.code));
+            break;
+        case InputKind::Button:
+            if (event.code >= 0 && event.code < 3)
+                pressMouse(event.code, event.isDown);
+            break;
+        case InputKind::Motion:
+            moveMouse(float(event.x), float(event.y));
+            break;
+        case InputKind::Wheel:
+            turnWheel(float(event.y));
+            break;
+        }
+}
 
 void typeText(const std::string& text)
 {
     ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
 }
 
-bool pressKey(const std::string& name, bool isDown)
+namespace {
+
+/// A key with what is held with it.
+struct Chord
 {
-    std::string_view rest = name;
+    bool isControl = false;
+    bool isShift = false;
+    const NamedKey* key = nullptr; ///< null: it is unknown
+};
+
+Chord chordOf(std::string_view name)
+{
     const auto takePrefix = [&](std::string_view prefix) {
-        const bool has = rest.starts_with(prefix);
-        rest.remove_prefix(has ? prefix.size() : 0);
+        const bool has = name.starts_with(prefix);
+        name.remove_prefix(has ? prefix.size() : 0);
         return has;
     };
-    const bool isControl = takePrefix("ctrl+");
-    const bool isShift = takePrefix("shift+");
-    for (const NamedKey& key : kKeys)
-        if (key.name == rest) {
-            if (isControl)
-                setControl(isDown);
-            if (isShift)
-                setShift(isDown);
-            set(key, isDown);
-            return true;
-        }
-    return false;
+    Chord chord;
+    chord.isControl = takePrefix("ctrl+");
+    chord.isShift = takePrefix("shift+");
+    const auto* const found =
+        std::find_if(kKeys.begin(), kKeys.end(), [&](const NamedKey& key) { return key.name == name; });
+    chord.key = found == kKeys.end() ? nullptr : found;
+    return chord;
+}
+
+} // namespace
+
+bool pressKey(const std::string& name, bool isDown)
+{
+    const Chord chord = chordOf(name);
+    if (!chord.key)
+        return false;
+    if (chord.isControl)
+        setControl(isDown);
+    if (chord.isShift)
+        setShift(isDown);
+    set(*chord.key, isDown);
+    return true;
+}
+
+bool strikeKey(const std::string& name, InputQueue& io)
+{
+    const Chord chord = chordOf(name);
+    if (!chord.key)
+        return false;
+    const auto push = [&](int code, bool isDown) { io.push({InputKind::Key, code, isDown, 0.0, 0.0}); };
+    for (const bool isDown : {true, false}) {
+        if (chord.isControl)
+            push(kControl, isDown);
+        if (chord.isShift)
+            push(kShift, isDown);
+        push(chord.key->code, isDown);
+    }
+    return true;
 }
 
 } // namespace fx::editor

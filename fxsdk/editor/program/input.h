@@ -2,7 +2,10 @@
 /// Mouse and keyboard of a program without a display, for every version of ImGui from 1.86 on.
 #pragma once
 
+#include "fxsdk/editor/session/input_queue.h"
+
 #include <string>
+#include <vector>
 
 namespace fx::editor {
 
@@ -15,5 +18,10 @@ void turnWheel(float steps);              ///< above 0: away from the user
 void typeText(const std::string& text);   ///< UTF-8
 /// Presses or releases a key such as "ctrl+z" or "enter". @return false if it is unknown
 bool pressKey(const std::string& name, bool isDown);
+
+/// Gives ImGui the events of a frame, in their order. Numbers of keys are those of GLFW.
+void applyInput(const std::vector<InputEvent>& events);
+/// Appends the press and the release of a key such as "ctrl+z". @return false if it is unknown
+bool strikeKey(const std::string& name, InputQueue& io);
 
 } // namespace fx::editor

@@ -2,12 +2,12 @@
 
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/editor/program/editor_host.h"
+#include "fxsdk/editor/program/window_input.h"
 #include "rendering/platform/gl_context.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
-#include <imgui_impl_glfw.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,29 +17,6 @@
 namespace fx::editor {
 
 namespace {
-
-/// ImGui that listens to a window.
-class WindowImGui
-{
-public:
-    explicit WindowImGui(GLFWwindow* window)
-    {
-        ImGui::CreateContext();
-        isListening_ = ImGui_ImplGlfw_InitForOpenGL(window, true);
-    }
-    ~WindowImGui()
-    {
-        if (isListening_)
-            ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
-    }
-    WindowImGui(const WindowImGui&) = delete;
-    WindowImGui& operator=(const WindowImGui&) = delete;
-    bool isListening() const { return isListening_; }
-
-private:
-    bool isListening_ = false;
-};
 
 /// Such as "torch.fx.json, 3 edits, not saved - fx edit".
 std::string titleOf(const Session& session)
@@ -68,8 +45,9 @@ base::Status runWindow(std::unique_ptr<Session> session, const WindowOptions& op
     GLFWwindow* const window = glfwGetCurrentContext();
     float ofMonitor = 1.0f;
     glfwGetWindowContentScale(window, &ofMonitor, nullptr);
-    const WindowImGui imgui(window);
-    if (!imgui.isListening())
+    const ImGuiOwner imgui;
+    WindowInput input(window);
+    if (!input.isListening())
         return {base::Code::GlUnsupported, "Dear ImGui cannot listen to the window"};
     applyStyle(options.scale > 0.0f ? options.scale : std::max(ofMonitor, 1.0f));
     auto host = EditorHost::create(std::move(session), (*context)->loader());
@@ -79,7 +57,7 @@ base::Status runWindow(std::unique_ptr<Session> session, const WindowOptions& op
         (*host)->session().run((*host)->link(options.link));
     std::string title;
     while (!(*context)->closeRequested() && !cli::interruptRequested()) {
-        ImGui_ImplGlfw_NewFrame();
+        input.beginFrame();
         if (base::Status status = (*host)->frame(double(ImGui::GetIO().DeltaTime), 0); !status)
             return status;
         (*context)->swapBuffers();

@@ -1,5 +1,6 @@
 /// @file budget_report.h
-/// What an effect costs on this machine: by element, by stage of a frame, by quality and over time.
+/// What an effect costs on this machine: by element, by technique, by stage of a frame, by quality and over
+/// time.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,19 @@ struct StageTimes
     double effects = 0.0;    ///< of the effects
 };
 
-struct ElementCost
+/// What an element or a technique adds. A difference that is below zero counts as 0.
+struct PartCost
 {
-    std::string pointer;  ///< such as "/emitters/0"
-    double drawing = 0.0; ///< [ms] lights and effects with this element alone, less those without any
+    std::string pointer; ///< of an element, such as "/emitters/0", or of a technique, such as "/emitters"
+    /// Of an element: with it alone, less without any. Of a technique: with all elements, less without its
+    /// own. The stage is 0.
+    StageTimes times;
+    /// [ms] by which the sum of the times is uncertain: half the ranges of the repeated frames of both, and
+    /// what the whole effect took more or less at the end than at the beginning.
+    double noise = 0.0;
+
+    double drawing() const { return times.lights + times.effects; }
+    double total() const { return times.simulation + drawing(); }
 };
 
 struct QualityCost
@@ -43,7 +53,9 @@ struct BudgetReport
     double time = 0.0; ///< [s] that elements, stages and qualities were measured at
     int width = 0;     ///< [pixel]
     int height = 0;    ///< [pixel]
-    std::vector<ElementCost> elements;
+    std::vector<PartCost> elements;
+    std::vector<PartCost> techniques;
+    size_t unmeasured = 0; ///< elements beyond the largest number that is measured
     std::vector<QualityCost> qualities;
     std::vector<MomentCost> moments;
 };

@@ -1,6 +1,7 @@
 #include "fxsdk/editor/session/session.h"
 
 #include "fxsdk/editor/document/starter.h"
+#include "fxsdk/editor/session/time_edits.h"
 
 #include <chrono>
 #include <cmath>
@@ -38,15 +39,6 @@ Json partOf(const Json& document, const char* pointer)
 {
     const Json::json_pointer at(pointer);
     return document.contains(at) ? document.at(at) : Json();
-}
-
-Json roundedOf(const glm::dvec3& place)
-{
-    constexpr double kThousandths = 1e3; // [1/m] as of handles
-    Json rounded = Json::array();
-    for (int i = 0; i < 3; ++i)
-        rounded.push_back(std::round(place[i] * kThousandths) / kThousandths);
-    return rounded;
 }
 
 } // namespace
@@ -158,6 +150,13 @@ bool Session::followPreview()
     return hasChanged;
 }
 
+bool Session::hasCameraKeys() const
+{
+    const Json::json_pointer keys(std::string(cameraOf(document.kind())) + "/keys");
+    return document.json().contains(keys) && document.json().at(keys).is_array() &&
+           !document.json().at(keys).empty();
+}
+
 void Session::keepCamera()
 {
     const char* const pointer = cameraOf(document.kind());
@@ -166,8 +165,8 @@ void Session::keepCamera()
         kept = Json::object();
     kept.erase("keys");
     kept.erase("orthographicHeight"); // the picture is in perspective
-    kept["position"] = roundedOf(camera.position());
-    kept["target"] = roundedOf(camera.target());
+    kept["position"] = placeOf(camera.position());
+    kept["target"] = placeOf(camera.target());
     kept["fovYDegrees"] = std::round(100.0 * double(camera.fovYDegrees)) / 100.0;
     run(document.set(pointer, std::move(kept)));
 }

@@ -49,6 +49,7 @@ public:
     Playback playback;
     OrbitCamera camera;
     OverlayChoice overlays;
+    bool followsCamera = false; ///< the picture looks through the camera of the document at each time
     Comparison comparison;
     std::optional<float> exposureEv100; ///< [EV100] empty: that of the preview
     std::string selection;              ///< JSON pointer of the object in the inspector; "" is the document
@@ -76,6 +77,8 @@ public:
     /// call.
     /// @return whether the camera of the document has changed
     bool followPreview();
+    /// Whether the camera of the document moves through keys.
+    bool hasCameraKeys() const;
     /// Writes the camera of the picture into the document, as one edit; keys of a camera path go.
     void keepCamera();
 

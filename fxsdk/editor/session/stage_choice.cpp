@@ -68,9 +68,37 @@ void setSky(Json& io, Json& ioLighting, double luminance)
     io["background"] = std::move(background);
 }
 
+double fiveDigits(double value)
+{
+    if (!(value > 0.0))
+        return 0.0;
+    const double unit = std::pow(10.0, 4.0 - std::floor(std::log10(value)));
+    return std::round(value * unit) / unit;
+}
+
+/// Changes the ratios of red and blue to green, of the background as of the sky.
+void setSkyColor(Json& io, Json& ioLighting, const glm::dvec3& color)
+{
+    constexpr double kMost = 1e6; // [cd/m2]
+    const Json before = ioLighting["skyLuminance"];
+    const auto colored = [&](const Json& triple) {
+        Json result = Json::array();
+        for (int i = 0; i < 3; ++i) {
+            const double was = numberIn(before, size_t(i)), green = numberIn(before, 1);
+            const double ratio = was > 0.0 ? numberIn(triple, size_t(i)) / was : numberIn(triple, 1) / green;
+            result.push_back(fiveDigits(std::min(green > 0.0 ? ratio * green * color[i] : 0.0, kMost)));
+        }
+        return result;
+    };
+    ioLighting["skyLuminance"] = colored(before);
+    for (const char* member : {"color", "horizon"})
+        if (io["background"].contains(member))
+            io["background"][member] = colored(io["background"][member]);
+}
+
 void setLight(Json& io, const StageChoice& choice)
 {
-    if (!choice.sunDirection && !choice.sunIlluminance && !choice.skyLuminance)
+    if (!choice.sunDirection && !choice.sunIlluminance && !choice.skyLuminance && !choice.skyColor)
         return;
     Json lighting = lightingOf(&io);
     if (choice.sunDirection) {
@@ -81,8 +109,10 @@ void setLight(Json& io, const StageChoice& choice)
     }
     if (choice.sunIlluminance)
         lighting["sunIlluminance"] = withGreen(lighting["sunIlluminance"], *choice.sunIlluminance);
-    if (choice.skyLuminance)
-        setSky(io, lighting, *choice.skyLuminance);
+    if (choice.skyLuminance || choice.skyColor)
+        setSky(io, lighting, choice.skyLuminance.value_or(numberIn(lighting["skyLuminance"], 1)));
+    if (choice.skyColor)
+        setSkyColor(io, lighting, *choice.skyColor);
     io["lighting"] = std::move(lighting);
 }
 
@@ -94,8 +124,20 @@ StageLightValues lightOf(const Json& document, DocumentKind kind)
     const Json& direction = lighting["sunDirection"];
     const glm::dvec3 sun(numberIn(direction, 0), numberIn(direction, 1), numberIn(direction, 2));
     const double length = glm::length(sun);
-    return {length > 0.0 ? sun / length : glm::dvec3(0.0, 1.0, 0.0), numberIn(lighting["sunIlluminance"], 1),
-            numberIn(lighting["skyLuminance"], 1)};
+    return {length > 0.0 ? sun / length : glm::dvec3(0.0, 1.0, 0.0),
+            numberIn(lighting["sunIlluminance"], 1),
+            numberIn(lighting["skyLuminance"], 1),
+            {numberIn(lighting["skyLuminance"], 0), numberIn(lighting["skyLuminance"], 1),
+             numberIn(lighting["skyLuminance"], 2)}};
+}
+
+void setSky(StageChoice& io, const glm::dvec3& sky)
+{
+    constexpr double kLeastGreen = 1e-3; // of the brightest channel
+    const double green = std::max(sky.y, kLeastGreen * std::max(sky.x, sky.z));
+    io.skyLuminance = green;
+    if (green > 0.0)
+        io.skyColor = glm::dvec3(sky.x / green, 1.0, sky.z / green);
 }
 
 bool hasFigure(const Json& document)

@@ -24,6 +24,9 @@ struct StageChoice
     std::optional<double> sunIlluminance;   ///< [lx] of the channel green, >= 0
     /// [cd/m2] of the channel green, >= 0. The background changes in proportion.
     std::optional<double> skyLuminance;
+    /// Color of the sky: ratios of its channels to green, whose own is 1. The background changes in
+    /// proportion.
+    std::optional<glm::dvec3> skyColor;
 
     bool operator==(const StageChoice&) const = default;
 };
@@ -34,8 +37,13 @@ struct StageLightValues
     glm::dvec3 sunDirection{0.0, 1.0, 0.0}; ///< unit vector
     double sunIlluminance = 0.0;            ///< [lx] of the channel green
     double skyLuminance = 0.0;              ///< [cd/m2] of the channel green
+    glm::dvec3 sky{0.0};                    ///< [cd/m2] of all channels
 };
 StageLightValues lightOf(const Json& document, DocumentKind kind);
+
+/// Sets luminance and color of the sky. A sky without green gets a little of it.
+/// @param sky [cd/m2] of all channels, >= 0
+void setSky(StageChoice& io, const glm::dvec3& sky);
 
 /// Whether a person stands beside the effect of a preset.
 bool hasFigure(const Json& document);

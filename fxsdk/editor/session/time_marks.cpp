@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 namespace fx::editor {
@@ -67,6 +68,55 @@ void addElement(const Json& element, const std::string& pointer, std::vector<Tim
         });
 }
 
+double timeOf(const Json& element, double otherwise)
+{
+    const auto found = element.is_object() ? element.find("time") : element.end();
+    return element.is_object() && found != element.end() && found->is_number() ? found->get<double>()
+                                                                               : otherwise;
+}
+
+/// Marks of a list in order of time. @param gap [s] smallest distance of two of them
+void addOrdered(const Json& holder, const char* member, const std::string& pointer, MarkKind kind,
+                double first, double gap, std::vector<TimeMark>& io)
+{
+    forEachIn(holder, member, pointer, [&](const Json& element, const std::string& where) {
+        if (!element.contains("time") || !element["time"].is_number())
+            return;
+        const Json& list = holder[member];
+        const size_t index = std::stoul(where.substr(where.rfind('/') + 1));
+        TimeMark mark{where + "/time", kind, timeOf(element, 0.0)};
+        mark.least = index > 0 ? std::max(timeOf(list[index - 1], first) + gap, first) : first;
+        if (index + 1 < list.size())
+            mark.most = timeOf(list[index + 1], mark.most) - gap;
+        io.push_back(std::move(mark));
+    });
+}
+
+void addTriggers(const Json& instance, const std::string& where, std::vector<TimeMark>& io)
+{
+    const Json& start = instance.value("start", Json(0.0));
+    addOrdered(instance, "triggers", where, MarkKind::Trigger, start.is_number() ? start.get<double>() : 0.0,
+               0.0, io);
+}
+
+void addCameraKeys(const Json& holder, const std::string& where, std::vector<TimeMark>& io)
+{
+    const auto camera = holder.find("camera");
+    if (camera != holder.end() && camera->is_object())
+        addOrdered(*camera, "keys", where + "/camera", MarkKind::CameraKey, 0.0, 1.0 / kHundredths, io);
+}
+
+void addPreview(const Json& preset, std::vector<TimeMark>& io)
+{
+    const auto preview = preset.find("preview");
+    if (preview == preset.end() || !preview->is_object())
+        return;
+    const auto instance = preview->find("instance");
+    if (instance != preview->end() && instance->is_object())
+        addTriggers(*instance, "/preview/instance", io);
+    addCameraKeys(*preview, "/preview", io);
+}
+
 } // namespace
 
 std::vector<TimeMark> timeMarks(const Document& document)
@@ -77,7 +127,9 @@ std::vector<TimeMark> timeMarks(const Document& document)
     if (document.kind() == DocumentKind::Scene) {
         forEachIn(document.json(), "instances", "", [&](const Json& instance, const std::string& where) {
             add(instance, "start", where, MarkKind::Start, 0.0, marks);
+            addTriggers(instance, where, marks);
         });
+        addCameraKeys(document.json(), "", marks);
         return marks;
     }
     for (const std::string& pointer : soloElements(document.json(), document.schema()))
@@ -90,12 +142,37 @@ std::vector<TimeMark> timeMarks(const Document& document)
         mark.time -= before;
         mark.begin -= before;
     }
+    addPreview(document.json(), marks); // what the host does counts from the beginning of the picture
     return marks;
+}
+
+std::string markText(const Document& document, const TimeMark& mark)
+{
+    const Json& element = document.json().at(Json::json_pointer(mark.pointer).parent_pointer());
+    const auto text = [&]() -> std::string {
+        switch (mark.kind) {
+        case MarkKind::Start:
+            return "start";
+        case MarkKind::Burst:
+            return "burst";
+        case MarkKind::Event:
+            return "event at an age";
+        case MarkKind::Trigger:
+            return "trigger " + element.value("name", Json("?")).dump();
+        case MarkKind::CameraKey:
+            return "camera key";
+        }
+        return {};
+    };
+    char at[32];
+    std::snprintf(at, sizeof at, " at %.2f s", mark.time);
+    return text() + at;
 }
 
 Json timeAt(const Document& document, const TimeMark& mark, double time)
 {
-    const double value = std::max(std::round((time - mark.begin) * kHundredths) / kHundredths, 0.0);
+    const double rounded = std::round((time - mark.begin) * kHundredths) / kHundredths;
+    const double value = std::max(std::min(rounded, mark.most), mark.least);
     const Json* const schema = schemaAt(document.schema(), document.json(), Json::json_pointer(mark.pointer));
     const auto limit = [&](const char* name, double otherwise) {
         return schema && schema->contains(name) ? (*schema)[name].get<double>() : otherwise;
