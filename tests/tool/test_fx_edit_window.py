@@ -255,6 +255,29 @@ class EditWindow(FxTest):
         files["recovered"] = document.read_text()
         return files
 
+    def test_keys_and_clicks_faster_than_frames_are_all_seen(self):
+        document, recovery = self.folder / "balls.fx.json", self.folder / "recovery"
+        document.write_text(PRESET)
+        places = self.places(document, "click select/emitters/0\n", "--recovery", self.folder / "spare")
+        window = Window(self.display, document, recovery, places)
+        try:
+            window.click("select/emitters/0")
+            window.xdotool("mousemove", "--window", window.window, *window.middle("outliner/down"))
+            window.rest(3)
+            # Four clicks: the element goes down; at the end of the list the others edit nothing.
+            window.xdotool("click", "--repeat", 4, "--delay", 0, 1)
+            window.wait_for_edits(1)
+            window.click("outliner/up", edits=2)
+            window.click("outliner/down", edits=3)
+            # Presses that are closer than some milliseconds are one for GLFW.
+            window.xdotool("key", "--delay", 12, "ctrl+z", "ctrl+z", "ctrl+z", "ctrl+y", "ctrl+z")
+            window.wait_for_edits(0)
+            window.xdotool("key", "--delay", 12, "ctrl+y", "ctrl+y")
+            window.wait_for_edits(2)
+        finally:
+            window.end()
+        self.assertEqual(document.read_text(), PRESET)
+
     def test_a_session_of_mouse_and_keyboard_gives_the_same_files_again(self):
         files = self.session("first")
         parsed = {step: json.loads(text)["emitters"] for step, text in files.items()}
