@@ -21,8 +21,10 @@ void main()
 #endif
     vec4 m = texelFetch(media, p, 0);
 #if FX_DISPLAY
-    // of the effects alone: codes show already what the picture behind them went through
-    m.rgb += fxFilmCrosstalk(max(max(m.r, m.g), m.b), display.x) * ((m.r + m.g + m.b) / 3.0 - m.rgb);
+    // Of the effects alone: codes show already what the picture behind them went through. As in tone mapping, light
+    // above white counts as white; glare gets it in the channel where it is.
+    vec3 light = min(m.rgb, display.x);
+    m.rgb += fxFilmCrosstalk(max(max(light.r, light.g), light.b), display.x) * ((light.r + light.g + light.b) / 3.0 - light);
 #endif
 #if FX_BLEND
     if (m == vec4(0.0))

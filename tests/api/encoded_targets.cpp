@@ -156,11 +156,15 @@ std::vector<double> EncodedTargetTest::byHand(const Media& media, const std::vec
     std::vector<double> out(codes.size());
     for (size_t i = 0; i < codes.size(); i += 4) {
         const float* light = &media.light[i];
-        const double mean = (double(light[0]) + double(light[1]) + double(light[2])) / 3.0;
-        const double peak = std::max({light[0], light[1], light[2]});
+        double limited[3], mean = 0.0; // as tone mapping limits light before the crosstalk
+        for (size_t c = 0; c < 3; ++c) {
+            limited[c] = std::min(double(light[c]), white);
+            mean += limited[c] / 3.0;
+        }
+        const double peak = std::max({limited[0], limited[1], limited[2]});
         const double mix = isDisplay ? f::fxFilmCrosstalk(peak, white) : 0.0;
         for (size_t c = 0; c < 3; ++c)
-            out[i + c] = encoded(double(light[c]) + mix * (mean - double(light[c])) +
+            out[i + c] = encoded(double(light[c]) + mix * (mean - limited[c]) +
                                  double(media.share[i + c]) * decoded(double(codes[i + c])));
         out[i + 3] = double(light[3]) + double(media.share[i + 3]) * double(codes[i + 3]);
     }

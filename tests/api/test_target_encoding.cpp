@@ -257,6 +257,35 @@ TEST_F(TargetEncoding, glareReachesCodesBesideTheFireAsItReachesLight)
     }
 }
 
+TEST_F(TargetEncoding, fireAboveWhiteHasTheColorsOfTheToneMappedLinearPicture)
+{
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.dazzle = 0;
+    settings.shimmerStrength = 0;
+    settings.exposureEv100 = 7.0f; // the brightest channel is far above white
+    const std::vector<float> black(size_t(kSize * kSize * 4), 0.0f);
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+    const std::vector<float> light = reference(frame(), black);
+    settings.toneMap = 1;
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+    const std::vector<float> wanted = reference(frame(), black);
+    settings.toneMap = 0;
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+    const EncodedTarget target = targetsOf(GL_RGBA32F).front();
+    store(target, black);
+    ASSERT_EQ(render(frameOf(target, {}, FX_TARGET_DISPLAY_SRGB)).result, FX_OK);
+    const std::vector<float> shown = stored(target);
+    size_t bright = 0;
+    for (size_t i = 0; i < shown.size(); ++i)
+        if (i % 4 != 3) {
+            // A channel above white loses some light by crosstalk in the linear picture, up to 2.1/255, and
+            // none here.
+            ASSERT_NEAR(shown[i], wanted[i], 3.0 / 255) << "value " << i;
+            bright += light[i] > 16.0f ? 1 : 0;
+        }
+    EXPECT_GT(bright, 10u);
+}
+
 TEST_F(TargetEncoding, aPictureFromATextureComesOutWholeInCodes)
 {
     for (const GLenum source : {GL_RGBA8, GL_SRGB8_ALPHA8}) {
