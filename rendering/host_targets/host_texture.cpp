@@ -23,6 +23,32 @@ GLint levelParameter(const GlFunctions& gl, uint32_t texture, GLenum what)
     return value;
 }
 
+struct TargetBinding
+{
+    GLenum target;
+    GLenum binding; ///< name of the query of the bound texture
+};
+
+/// The targets that messages name; those that frames use are tried first.
+constexpr TargetBinding kTargetBindings[] = {
+    {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
+    {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE},
+    {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
+    {GL_TEXTURE_2D_MULTISAMPLE_ARRAY, GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY},
+    {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP},
+    {GL_TEXTURE_CUBE_MAP_ARRAY, GL_TEXTURE_BINDING_CUBE_MAP_ARRAY},
+    {GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE},
+    {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D},
+    {GL_TEXTURE_1D, GL_TEXTURE_BINDING_1D},
+    {GL_TEXTURE_1D_ARRAY, GL_TEXTURE_BINDING_1D_ARRAY}};
+
+/// A context keeps at most one error of each kind, so that few calls empty it; a lost one always has one.
+void forgetErrors(const GlFunctions& gl)
+{
+    for (int i = 0; i < 8 && gl.GetError() != GL_NO_ERROR; ++i) {
+    }
+}
+
 std::string targetFault(GLenum target, HostUse use)
 {
     const std::string is = "is a " + glTargetName(target);
@@ -65,6 +91,23 @@ std::string stateFault(const HostTexture& facts)
 
 } // namespace
 
+GLint textureTargetOf(const GlFunctions& gl, uint32_t name)
+{
+    if (const GLint target = parameter(gl, name, GL_TEXTURE_TARGET); target != GL_NONE)
+        return target;
+    forgetErrors(gl);
+    for (const TargetBinding& tried : kTargetBindings) {
+        GLint bound = 0;
+        gl.GetIntegerv(tried.binding, &bound);
+        gl.BindTexture(tried.target, name);
+        const bool isTarget = gl.GetError() == GL_NO_ERROR;
+        gl.BindTexture(tried.target, static_cast<GLuint>(bound));
+        if (isTarget)
+            return static_cast<GLint>(tried.target);
+    }
+    return GL_NONE;
+}
+
 HostTexture HostTextureCheck::factsOf(uint32_t name, HostUse use) const
 {
     const GlFunctions& gl = device_.gl;
@@ -77,7 +120,7 @@ HostTexture HostTextureCheck::factsOf(uint32_t name, HostUse use) const
     // a buffer has no parameters that could be asked for, not even its target; its height is 1
     const bool isBuffer =
         facts.height == 1 && levelParameter(gl, name, GL_TEXTURE_BUFFER_DATA_STORE_BINDING) != 0;
-    facts.target = isBuffer ? GL_TEXTURE_BUFFER : parameter(gl, name, GL_TEXTURE_TARGET);
+    facts.target = isBuffer ? GL_TEXTURE_BUFFER : textureTargetOf(gl, name);
     if (facts.target != GL_TEXTURE_2D && !facts.hasSamples())
         return facts;
     facts.baseLevel = parameter(gl, name, GL_TEXTURE_BASE_LEVEL);

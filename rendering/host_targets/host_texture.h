@@ -16,6 +16,7 @@
 namespace fx::render {
 
 class GlDevice;
+struct GlFunctions;
 
 /// Use of a host texture in a frame.
 enum class HostUse : uint8_t
@@ -32,6 +33,12 @@ constexpr bool isDepth(HostUse use)
 {
     return use == HostUse::ReadDepth || use == HostUse::ReadShadow;
 }
+
+/// Target of a texture, such as GL_TEXTURE_2D. Mesa answers the query GL_TEXTURE_TARGET in core profiles
+/// only; in other contexts the texture is bound on trial, and the host's texture is bound again.
+/// @param name an existing texture
+/// @return GL_NONE if the texture has none of the targets that a frame can use or name
+GLint textureTargetOf(const GlFunctions& gl, uint32_t name);
 
 /// Properties of a texture that can be queried from OpenGL in a few calls. The result of the check depends
 /// only on these properties. So the result is still valid if the host has replaced the texture by a new

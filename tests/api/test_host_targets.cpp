@@ -196,6 +196,71 @@ TEST_F(HostTargets, namesThatAreNoTexturesAreRefusedWithoutAnOpenGlError)
     EXPECT_EQ(host_->gl.GetError(), GLenum(GL_NO_ERROR));
 }
 
+namespace {
+
+PFNGLGETTEXTUREPARAMETERIVPROC realGetTextureParameter = nullptr;
+
+/// Mesa's answer outside of core profiles.
+void APIENTRY refuseTarget(GLuint texture, GLenum what, GLint* out)
+{
+    realGetTextureParameter(texture, what == GL_TEXTURE_TARGET ? GLenum(GL_INVALID_ENUM) : what, out);
+}
+
+void* findWithoutTarget(void* user, const char* name)
+{
+    const auto& loader = *static_cast<const fx::render::GlLoader*>(user);
+    void* const real = loader.getProcAddress(loader.user, name);
+    if (std::strcmp(name, "glGetTextureParameteriv") != 0)
+        return real;
+    realGetTextureParameter = reinterpret_cast<PFNGLGETTEXTUREPARAMETERIVPROC>(real);
+    return reinterpret_cast<void*>(&refuseTarget);
+}
+
+} // namespace
+
+TEST_F(HostTargets, texturesAreKnownInContextsThatDoNotTellTheirTarget)
+{
+    const fx::render::GlLoader loader = gl_->loader();
+    FxContextDef contextDef = fxDefaultContextDef();
+    contextDef.gl = {const_cast<fx::render::GlLoader*>(&loader), &findWithoutTarget};
+    FxContext* context = nullptr;
+    FxScene* scene = nullptr;
+    FxView* view = nullptr;
+    FxInstanceDef instance = fxDefaultInstanceDef();
+    FxInstanceId id{};
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    ASSERT_EQ(fxCreateContext(&contextDef, &context), FX_OK) << fxGetLastErrorMessage();
+    ASSERT_EQ(fxLoadPresetLibrary(context, "campfire", &instance.preset), FX_OK);
+    ASSERT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
+    ASSERT_EQ(fxScene_CreateInstance(scene, &instance, &id), FX_OK);
+    ASSERT_EQ(fxCreateView(context, scene, nullptr, &view), FX_OK);
+    for (int i = 0; i < 20; ++i)
+        ASSERT_EQ(fxScene_Update(scene, 1.0 / 60), FX_OK);
+    const GLuint array = textures_.make(GL_TEXTURE_2D_ARRAY, GL_RGBA16F, kSize, kSize);
+    const GLuint bound = textures_.make2D(GL_RGBA8, kSize);
+    textures_.gl.BindTexture(GL_TEXTURE_2D, bound);
+    messages_.reset(); // OpenGL reports the queries and bindings that are tried
+    FxFrameDef def = frame();
+    const std::vector<float> before = picture();
+    EXPECT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_NE(picture(), before);
+    for (const GLuint name : {array, textures_.make(GL_TEXTURE_3D, GL_RGBA16F, kSize, kSize)}) {
+        def.colorTexture = name;
+        EXPECT_EQ(fxView_Render(view, &def), FX_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(
+            std::strstr(fxGetLastErrorMessage(), name == array ? "GL_TEXTURE_2D_ARRAY" : "GL_TEXTURE_3D"),
+            nullptr)
+            << fxGetLastErrorMessage();
+    }
+    GLint now = 0;
+    textures_.gl.GetIntegerv(GL_TEXTURE_BINDING_2D, &now);
+    EXPECT_EQ(GLuint(now), bound);
+    textures_.gl.BindTexture(GL_TEXTURE_2D, 0);
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
+    EXPECT_EQ(host_->gl.GetError(), GLenum(GL_NO_ERROR));
+    messages_ = std::make_unique<fx::render::GlMessages>(*host_);
+}
+
 TEST_F(HostTargets, whatTheViewItselfDrawsToIsRefusedAndAnotherViewsIsNot)
 {
     FxViewSettings settings = fxDefaultViewSettings();
