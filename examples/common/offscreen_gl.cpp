@@ -90,16 +90,20 @@ void Picture::writePng(const std::string& path) const
     for (size_t y = 0; y < size_t(height_); ++y) // GL's rows begin at the bottom
         std::transform(&values[y * row], &values[y * row] + row, &bytes[(size_t(height_) - 1 - y) * row],
                        byteOf);
+    example::writePng(path, width_, height_, bytes);
+}
 
+void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb)
+{
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), std::fclose);
     const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
     spng_ihdr header{};
-    header.width = uint32_t(width_);
-    header.height = uint32_t(height_);
+    header.width = uint32_t(width);
+    header.height = uint32_t(height);
     header.bit_depth = 8;
     header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
     if (!file || !png || spng_set_png_file(png.get(), file.get()) || spng_set_ihdr(png.get(), &header) ||
-        spng_encode_image(png.get(), bytes.data(), bytes.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE) ||
+        spng_encode_image(png.get(), rgb.data(), rgb.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE) ||
         std::fflush(file.get()))
         throw std::runtime_error("cannot write " + path);
 }

@@ -5,6 +5,7 @@
 /// Threads: the thread that created the context.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ private:
 
 /// Finds a function of OpenGL. @param user not used
 void* findOffscreenFunction(void* user, const char* name);
+
+/// Writes a PNG file. Throws std::runtime_error on failure.
+/// @param rgb 8 bits each, the upper row first
+void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
 
 /// The textures that effects are drawn into: exposed color in 32-bit floats, and depth.
 class Picture

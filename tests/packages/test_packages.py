@@ -194,6 +194,29 @@ class Editor(unittest.TestCase):
         self.assertFalse(list(folder.glob("sdk/share/fxsdk/editor/fxsdk/editor/program")))  # windows stay outside
 
 
+class ExampleHosts(unittest.TestCase):
+    """Each example host is a project of its own, which finds the installed package."""
+
+    def test_hosts_are_built_from_the_installed_examples(self):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, folder)
+        for component in ("runtime", "dev", "doc"):
+            run("cmake", "--install", BUILD, "--prefix", folder / "sdk", "--component", component)
+        hosts = folder / "sdk/share/doc/fxsdk/examples/hosts"
+        built = {path.name for path in (BUILD / "bin").glob("host_*")}
+        self.assertIn("host_ldr", built)
+        for host in ("deferred", "glfw_c", "ldr", "ogre", "sdl2"):
+            if f"host_{host}" not in built:
+                continue  # its library is missing
+            run("cmake", "-G", "Ninja", "-S", hosts / host, "-B", folder / host, f"-DCMAKE_PREFIX_PATH={folder / 'sdk'}")
+            targets = run("ninja", "-C", folder / host, "-t", "targets", "all")
+            self.assertIn(f"host_{host}: ", targets)
+        run("cmake", "--build", folder / "ldr")
+        out = run(folder / "ldr/host_ldr", "--headless", folder / "ldr.png", "--frames", "20", "--size", "64x36")
+        self.assertIn('"pixels_outside_changed": 0', out)
+        self.assertTrue(drawn(folder / "ldr.png"))
+
+
 class Sources(unittest.TestCase):
     """The sources as a part of another project, by add_subdirectory."""
 

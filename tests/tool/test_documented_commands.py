@@ -27,6 +27,8 @@ EXCEPTIONS = {
     "cmake -G Ninja -B build -DFXSDK_BUILD_TOOLS=OFF -DFXSDK_BUILD_EXAMPLES=OFF -DFXSDK_BUILD_TESTS=OFF": "builds; packages.Sources configures so",
     "cmake --build build": "builds",
     "cmake --install build --prefix /usr/local": "writes to the system; the tests packages.* install",
+    "build/bin/host_ldr --headless ldr.png --frames 30 --size 64x36": "tool.example_hosts",
+    "scripts/host_table.py --size 64x36 --frames 80 ldr": "tool.example_hosts",
     "./scripts/package": "the tests packages.*",
     "./scripts/package --archive": "packages.Archive",
     "cc -std=c99 game.c $(pkg-config --cflags --libs fxsdk) -o game": "packages.DebianPackages",

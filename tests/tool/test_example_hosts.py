@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""The example hosts: effects are seen in each, and neither its picture nor its GL state changes elsewhere.
+
+HOSTS names the folder of the programs, HOSTS_BUILT those that this build has, with blanks between.
+"""
+import importlib.util
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+from png_pixels import Pixels
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAMS = pathlib.Path(os.environ.get("HOSTS", ROOT / "build/bin"))
+BUILT = os.environ.get("HOSTS_BUILT", "deferred ldr").split()
+WIDTH, HEIGHT, FRAMES = 160, 90, 80
+FIRE = (46, 44, 60, 62)       # left, top, right, bottom of the campfire
+EXPLOSION = (80, 10, 125, 50)
+SKY = (2, 2, 40, 20)          # without effects
+
+spec = importlib.util.spec_from_file_location("host_table", ROOT / "scripts/host_table.py")
+host_table = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(host_table)
+
+
+def brightest(picture, rectangle):
+    """The pixel with the most red."""
+    rows = Pixels(picture, rectangle).rows
+    return max((tuple(row[i:i + 3]) for row in rows for i in range(0, len(row), 3)), key=sum)
+
+
+def mean_difference(first, second):
+    """Of two pictures, in steps of 8 bits."""
+    pairs = [(a, b) for x, y in zip(Pixels(first).rows, Pixels(second).rows) for a, b in zip(x, y)]
+    return sum(abs(a - b) for a, b in pairs) / len(pairs)
+
+
+class ExampleHosts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.rows = {}
+
+    def row_of(self, host):
+        """What a host prints; each runs once. Skips the test when it cannot run."""
+        command, reason = host_table.command_of(PROGRAMS / f"host_{host}")
+        if host not in BUILT or not command:
+            self.skipTest(f"{host} {reason or 'is not built: its library is missing'}")
+        if host not in self.rows:
+            self.rows[host] = host_table.run(PROGRAMS / f"host_{host}", self.folder / f"{host}.png", f"{WIDTH}x{HEIGHT}", FRAMES)
+        return self.rows[host]
+
+    def check(self, host):
+        row = self.row_of(host)
+        self.assertEqual(row["host"], host)
+        self.assertGreater(row["pixels_covered"], 1000)
+        self.assertGreater(row["pixels_visible"], 200)
+        self.assertEqual(row["pixels_visible_changed"], row["pixels_visible"])
+        self.assertEqual(row["pixels_outside_changed"], 0)
+        self.assertFalse(row["later_frame_changed"])
+        self.assertLessEqual(row["media_error"], host_table.LARGEST_MEDIA_ERROR[row["samples"]])
+        self.assertGreaterEqual(row["gl_state_values"], 90)
+        self.assertEqual(row["gl_state_differences"], 0)
+        self.assertGreater(row["gl_calls"], row["state_calls"])
+        self.assertGreater(row["state_calls"], row["state_queries"])
+        self.assertGreater(row["state_queries"], 0)
+        self.assertTrue(host_table.is_right(row))
+        for place in (FIRE, EXPLOSION):
+            red, green, blue = brightest(self.folder / f"{host}.png", place)
+            self.assertGreater(red, 200, (host, place))
+            self.assertGreater(red, blue + 20, (host, place))
+        self.assertLess(max(brightest(self.folder / f"{host}.png", SKY)), 120)
+
+    def test_glfw_in_c(self):
+        self.check("glfw_c")
+
+    def test_sdl2(self):
+        self.check("sdl2")
+
+    def test_ogre(self):
+        self.check("ogre")
+
+    def test_deferred(self):
+        self.check("deferred")
+
+    def test_ldr(self):
+        self.check("ldr")
+
+    def test_all_hosts_show_the_same_picture(self):
+        self.row_of("ldr")
+        for host in host_table.HOSTS:
+            with self.subTest(host):
+                self.row_of(host)
+                self.assertLess(mean_difference(self.folder / "ldr.png", self.folder / f"{host}.png"), 1.0)
+
+    def test_a_host_that_restores_its_state_draws_the_same_picture(self):
+        self.row_of("sdl2")
+        own = self.folder / "own.png"
+        row = host_table.run(PROGRAMS / "host_sdl2", own, f"{WIDTH}x{HEIGHT}", FRAMES, "--host-restores")
+        self.assertEqual(Pixels(own), Pixels(self.folder / "sdl2.png"))
+        self.assertGreater(row["gl_state_differences"], 0)  # so the comparison of states can see one
+        self.assertFalse(row["later_frame_changed"])
+        self.assertLess(row["gl_calls"], self.rows["sdl2"]["gl_calls"])
+
+    def test_the_page_has_the_table_and_its_commands_work(self):
+        page = (ROOT / "docs/howto/example-hosts.md").read_text()
+        for host in host_table.HOSTS:
+            with self.subTest(host):
+                row = self.row_of(host)
+                self.assertIn(f"| `{host}` | {row['target_format']} | {row['depth']} | {row['samples']} | right | 0 | 0 of {row['gl_state_values']} |",
+                              page)
+        (self.folder / "build").mkdir()
+        (self.folder / "build/bin").symlink_to(PROGRAMS.resolve())
+        (self.folder / "scripts").symlink_to(ROOT / "scripts")
+        commands = re.findall(r"^```sh\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(commands), 2)
+        for command in commands:
+            done = subprocess.run(["bash", "-c", command], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("ldr", done.stdout)
+
+    def test_arguments_and_files_that_are_wrong_are_refused(self):
+        for arguments in (["--frames", "0"], ["--size", "8x8"], ["--size", "64x64x"], ["--headless"], ["--nothing"]):
+            done = subprocess.run([PROGRAMS / "host_ldr", *arguments], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn("usage: ", done.stderr)
+        done = subprocess.run([PROGRAMS / "host_ldr", "--headless", "/nowhere/a.png", "--frames", "1", "--size", "32x32"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot write /nowhere/a.png", done.stderr)
+        done = subprocess.run([ROOT / "scripts/host_table.py", "--programs", "/nowhere"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("ldr is left out: it is not built", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
