@@ -20,6 +20,7 @@ HOSTS = ("glfw_c", "sdl2", "ogre", "deferred", "ldr")
 # Root mean square difference from the media over 32-bit floats with one sample. Depth of one of several samples is that of
 # another surface at edges.
 LARGEST_MEDIA_ERROR = {1: 0.002, 4: 0.03}
+LARGEST_DISPLAY_ERROR = 1.0  # mean over the covered pixels [steps of 8 bits]; formats round to half a step
 
 
 def command_of(program):
@@ -46,7 +47,7 @@ def run(program, picture, size, frames, *options):
 def is_right(row):
     """Whether effects have the right place, depth and light in the target of the host."""
     return (0 < row["pixels_visible"] == row["pixels_visible_changed"] and not row["later_frame_changed"] and
-            row["media_error"] <= LARGEST_MEDIA_ERROR[row["samples"]])
+            row["media_error"] <= LARGEST_MEDIA_ERROR[row["samples"]] and row["display_error"] <= LARGEST_DISPLAY_ERROR)
 
 
 def line_of(row):

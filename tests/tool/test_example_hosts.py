@@ -64,6 +64,7 @@ class ExampleHosts(unittest.TestCase):
         self.assertEqual(row["pixels_outside_changed"], 0)
         self.assertFalse(row["later_frame_changed"])
         self.assertLessEqual(row["media_error"], host_table.LARGEST_MEDIA_ERROR[row["samples"]])
+        self.assertLessEqual(row["display_error"], host_table.LARGEST_DISPLAY_ERROR)
         self.assertGreaterEqual(row["gl_state_values"], 90)
         self.assertEqual(row["gl_state_differences"], 0)
         self.assertGreater(row["gl_calls"], row["state_calls"])

@@ -98,11 +98,12 @@ Floats mediaOf(HostEffects& effects, FxFrameDef frame)
 
 /// The media before the same scene, with camera and depth of this file: 32-bit floats, near to far, one
 /// sample.
-Floats referenceMedia(HostEffects& effects, int width, int height)
+/// @param outLight receives the scene without the media: RGBA, exposed
+Floats referenceMedia(HostEffects& effects, int width, int height, Floats& outLight)
 {
     example::Picture picture(width, height);
-    const float black[4] = {};
-    picture.clear(black);
+    const float sky[4] = {kHostSky[0], kHostSky[1], kHostSky[2], 1.0f};
+    picture.clear(sky);
     GLuint framebuffer = 0;
     glCreateFramebuffers(1, &framebuffer);
     glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, picture.color(), 0);
@@ -130,6 +131,9 @@ Floats referenceMedia(HostEffects& effects, int width, int height)
     glUniformMatrix4fv(0, 1, GL_FALSE, camera);
     glBindVertexArray(mesh);
     glDrawArrays(GL_TRIANGLES, 0, count);
+    outLight.resize(size_t(width) * size_t(height) * 4);
+    glGetTextureImage(picture.color(), 0, GL_RGBA, GL_FLOAT, GLsizei(outLight.size() * sizeof(float)),
+                      outLight.data());
     frame.depthTexture = picture.depth();
     frame.width = width;
     frame.height = height;
@@ -179,6 +183,42 @@ double errorOf(const Floats& media, const Floats& wanted)
         }
     }
     return count ? std::sqrt(sum / double(count)) : 0.0;
+}
+
+/// Codes of the display for exposed light, as kHostToneMapGlsl.
+void toneMap(float rgb[3])
+{
+    constexpr float kWhite = 8.0f, kGray = 0.18f, kRest = 1.0f - kGray, kLargest = (kWhite - kGray) / kRest;
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = std::clamp(rgb[c], 0.0f, kWhite);
+    const float mean = (rgb[0] + rgb[1] + rgb[2]) / 3.0f;
+    const float share = 0.22f * std::max({rgb[0], rgb[1], rgb[2]}) / kWhite;
+    for (int c = 0; c < 3; ++c) {
+        const float light = rgb[c] + share * (mean - rgb[c]);
+        const float t = std::max(light - kGray, 0.0f) / kRest;
+        const float y = std::min(light, kGray) + kRest * t * (1.0f + t / (kLargest * kLargest)) / (1.0f + t);
+        rgb[c] = y <= 0.0031308f ? 12.92f * y : 1.055f * std::pow(y, 1.0f / 2.4f) - 0.055f;
+    }
+}
+
+/// Mean difference of the display's picture, in steps of 8 bits and over the covered pixels, from the media
+/// over the scene with the same curve.
+double displayErrorOf(const Floats& shown, const Floats& media, const Floats& light)
+{
+    double sum = 0.0;
+    size_t count = 0;
+    for (size_t i = 0; i < media.size(); i += 4) {
+        if (media[i + 3] <= 0.0f)
+            continue;
+        float rgb[3];
+        for (size_t c = 0; c < 3; ++c)
+            rgb[c] = media[i + c] + (1.0f - media[i + 3]) * light[i + c];
+        toneMap(rgb);
+        for (size_t c = 0; c < 3; ++c)
+            sum += std::abs(double(shown[i + c]) - double(rgb[c])) * 255.0;
+        count += 3;
+    }
+    return count ? sum / double(count) : 0.0;
 }
 
 /// Turns rows around.
@@ -240,6 +280,7 @@ void run(const HostReport& report, const HostOptions& options, HostEffects& effe
     measured.isOn = true;
     const Floats with = draw(1);
     measured.isOn = false;
+    const Floats shown = readTarget(report.displayFramebuffer, options.width, options.height);
     FxViewStatistics statistics = {};
     statistics.structSize = sizeof statistics;
     check(fxView_GetStatistics(effects.view, &statistics));
@@ -248,7 +289,9 @@ void run(const HostReport& report, const HostOptions& options, HostEffects& effe
     const Floats later = draw(0);
     // The depth of the host still lies in its target.
     const Floats media = mediaOf(effects, measured.frame);
-    const Floats wanted = referenceMedia(effects, options.width, options.height);
+    Floats light;
+    const Floats wanted = referenceMedia(effects, options.width, options.height, light);
+    const double displayError = displayErrorOf(shown, wanted, light);
     const double error = errorOf(report.isMirrored ? mirrored(media, options.width) : media, wanted);
     const Comparison result = compare(without, with, media);
     const int differences = host::printDifferences(measured.before, measured.after);
@@ -258,12 +301,14 @@ void run(const HostReport& report, const HostOptions& options, HostEffects& effe
         "%d, "
         "\"pixels_covered\": %d, \"pixels_visible\": %d, \"pixels_visible_changed\": %d, "
         "\"pixels_outside_changed\": %d, \"later_frame_changed\": %s, \"media_error\": %.6f, "
+        "\"display_error\": %.3f, "
         "\"gl_state_values\": %zu, \"gl_state_differences\": %d, \"gl_calls\": %llu, \"state_calls\": %llu, "
         "\"state_queries\": %llu, \"state_cost_ratio\": %.3f}\n";
     std::printf(text, report.name, reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
                 report.targetFormat, report.depth, report.samples, result.covered, result.visible,
                 result.visibleChanged, result.outsideChanged, later == without ? "false" : "true", error,
-                measured.before.size(), differences, static_cast<unsigned long long>(measured.counts.calls),
+                displayError, measured.before.size(), differences,
+                static_cast<unsigned long long>(measured.counts.calls),
                 static_cast<unsigned long long>(cost.calls), static_cast<unsigned long long>(cost.queries),
                 cost.ratio);
 }
