@@ -51,7 +51,8 @@ def is_right(row):
 
 
 def line_of(row):
-    return (f"| `{row['host']}` | {row['target_format']} | {row['depth']} | {row['samples']} | {'right' if is_right(row) else 'wrong'} "
+    verdict = "right" if is_right(row) else "wrong"
+    return (f"| `{row['host']}` | {row['target_format']} | {row['depth']} | {row['samples']} | {verdict} "
             f"| {row['pixels_outside_changed']} | {row['gl_state_differences']} of {row['gl_state_values']} | {row['gl_calls']} "
             f"| {row['state_calls']} | {row['state_cost_ratio']:.2f} |")
 
