@@ -2,7 +2,9 @@
 
 #include "fxsdk/presets/layer_names.h"
 
+#include <array>
 #include <span>
+#include <utility>
 
 namespace fx::preset {
 
@@ -16,6 +18,13 @@ void readStillMedium(const PresetValue& element, sim::StillMediumDef& out)
     element.read("fireShare", out.fireShare);
     element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayerNames),
                  out.layer);
+}
+
+void readSequenceEnd(const PresetValue& element, sim::SequenceEnd& out)
+{
+    static constexpr std::array<std::pair<std::string_view, sim::SequenceEnd>, 2> kEnds{
+        {{"hold", sim::SequenceEnd::Hold}, {"loop", sim::SequenceEnd::Loop}}};
+    element.read("end", std::span<const std::pair<std::string_view, sim::SequenceEnd>>(kEnds), out);
 }
 
 } // namespace fx::preset

@@ -1,7 +1,10 @@
 #include "rendering/vdb/vdb_reader.h"
 
+#include "rendering/vdb/vdb_points.h"
+
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/points/PointDataGrid.h>
 #include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
@@ -315,6 +318,20 @@ void readLattice(const openvdb::math::Transform& transform, double scale, Medium
         refuse(Code::Parse, "the transform has voxels without a volume");
 }
 
+/// Balls beside the voxels, which fx export --balls-below writes. Points of other programs have no attributes
+/// of a medium, and are left out.
+void readBalls(const openvdb::GridBase& grid, double scale, MediumGrid& io)
+{
+    uint64_t dropped = 0;
+    io.balls = ballsOfPoints(grid, scale, dropped);
+    std::ranges::stable_sort(io.balls, [](const VoxelBall& a, const VoxelBall& b) {
+        return std::pair(a.instance, a.id) < std::pair(b.instance, b.id);
+    });
+    if (dropped > 0)
+        io.warnings.push_back(std::to_string(dropped) + " points of " + quoted(grid.getName()) +
+                              " have numbers out of their range; left out");
+}
+
 MediumGrid readGrids(const std::string& path, const VdbReadOptions& options)
 {
     OpenFile file(path);
@@ -339,6 +356,9 @@ MediumGrid readGrids(const std::string& path, const VdbReadOptions& options)
     if (const auto found = file.find(options.velocity, {"v", "vel", "velocity"}, "--velocity"))
         medium.velocity = readVectors(*file.read<openvdb::Vec3SGrid>(*found, options), lattice,
                                       options.lengthScale, -kFast, kFast, medium);
+    using Points = openvdb::points::PointDataGrid;
+    if (const auto found = file.find("", {"points"}, ""); found && found->type() == Points::gridType())
+        readBalls(*file.read<Points>(*found, options), options.lengthScale, medium);
     return medium;
 }
 

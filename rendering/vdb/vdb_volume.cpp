@@ -145,9 +145,9 @@ void VdbVolume::add(std::span<const VoxelBlock> blocks)
     }
 }
 
-void VdbVolume::addPoints(std::span<const VoxelBall> balls)
+void VdbVolume::addPoints(std::span<const VoxelBall> balls, bool areMedium)
 {
-    grids_->points = makePoints(balls, grids_->voxelSize);
+    grids_->points = makePoints(balls, grids_->voxelSize, areMedium);
 }
 
 uint64_t VdbVolume::voxels() const

@@ -45,7 +45,9 @@ public:
 
     /// Adds the grid `points`: one point at the center of each ball. The attributes of a point are `id`,
     /// `instance`, the velocity `v` [m/s] and the radius `pscale` [m].
-    void addPoints(std::span<const VoxelBall> balls);
+    /// @param areMedium whether the balls are medium that no voxel has. Then their points also have
+    ///        `section` [m2], `temperature` [K], `luminance` [cd/m2], `Cd` (albedo) and `streak` [m]
+    void addPoints(std::span<const VoxelBall> balls, bool areMedium = false);
 
     /// Number of active voxels.
     uint64_t voxels() const;

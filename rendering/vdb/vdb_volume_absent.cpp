@@ -23,7 +23,7 @@ base::Status checkVdb()
 VdbVolume::VdbVolume(double) {}
 VdbVolume::~VdbVolume() = default;
 void VdbVolume::add(std::span<const VoxelBlock>) {}
-void VdbVolume::addPoints(std::span<const VoxelBall>) {}
+void VdbVolume::addPoints(std::span<const VoxelBall>, bool) {}
 
 uint64_t VdbVolume::voxels() const
 {

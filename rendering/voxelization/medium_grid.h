@@ -30,6 +30,7 @@ struct MediumGrid
     std::vector<float> flame;          ///< [cd/m3] luminance that a meter of the medium emits, >= 0
     std::vector<glm::vec3> albedo;     ///< [1] 0..1
     std::vector<glm::vec3> velocity;   ///< [m/s] world
+    std::vector<VoxelBall> balls;      ///< medium beside the voxels, rising by instance, then id
     std::vector<std::string> warnings; ///< what was not taken from the file as it is
 
     /// [m] center of a voxel; its index may have fractions.
@@ -58,6 +59,12 @@ constexpr size_t voxelInBlock(int x, int y, int z)
 {
     return size_t((x * kBlockSide + y) * kBlockSide + z);
 }
+
+constexpr size_t kMostGridBalls = size_t(1) << 20;
+
+/// Whether the numbers of a ball are finite and in the ranges of files of balls
+/// (simulation/cloud/ball_list.h).
+bool isInRange(const VoxelBall& ball);
 
 /// The grid as bytes of this machine, for another process.
 std::string toBytes(const MediumGrid& grid);

@@ -13,7 +13,7 @@
 namespace fx::render {
 namespace {
 
-constexpr uint64_t kMark = 0x31646972676d7866; // "fxmgrid1"
+constexpr uint64_t kMark = 0x32646972676d7866; // "fxmgrid2"
 constexpr uint64_t kMostBlocks = uint64_t(1) << 24;
 constexpr uint64_t kMostWarnings = 64;
 constexpr uint64_t kMostText = 4096; // [byte] of a warning
@@ -92,6 +92,9 @@ bool isValid(const MediumGrid& grid)
         if (i > 0 && !(key(grid.blocks[i - 1]) < key(grid.blocks[i])))
             return false;
     }
+    for (const VoxelBall& ball : grid.balls)
+        if (!isInRange(ball))
+            return false;
     const double volume = grid.voxelVolume();
     constexpr float kFast = 1e9f; // [m/s]
     return std::isfinite(volume) && volume > 0.0 &&
@@ -101,6 +104,18 @@ bool isValid(const MediumGrid& grid)
 }
 
 } // namespace
+
+bool isInRange(const VoxelBall& ball)
+{
+    constexpr double kFar = 1e6, kFast = 1e9;
+    const auto isIn = [](double value, double low, double high) { return value >= low && value <= high; };
+    for (int a = 0; a < 3; ++a)
+        if (!isIn(ball.center[a], -kFar, kFar) || !isIn(ball.velocity[a], -kFast, kFast) ||
+            !isIn(ball.streak[a], -kFar, kFar) || !isIn(ball.albedo[a], 0.0, 1.0))
+            return false;
+    return isIn(ball.radius, 1e-6, kFar) && isIn(ball.crossSection, 0.0, 1e12) &&
+           isIn(ball.temperature, 0.0, 1e5) && isIn(ball.luminance, 0.0, 1e11);
+}
 
 std::string toBytes(const MediumGrid& grid)
 {
@@ -114,6 +129,7 @@ std::string toBytes(const MediumGrid& grid)
     put(bytes, grid.flame.data(), grid.flame.size());
     put(bytes, grid.albedo.data(), grid.albedo.size());
     put(bytes, grid.velocity.data(), grid.velocity.size());
+    put(bytes, grid.balls.data(), grid.balls.size());
     const uint64_t warnings = std::min<uint64_t>(grid.warnings.size(), kMostWarnings);
     put(bytes, &warnings, 1);
     for (size_t i = 0; i < warnings; ++i)
@@ -135,7 +151,8 @@ base::Result<MediumGrid> mediumGridFromBytes(std::string_view bytes)
         !parts.take(grid.blocks, kMostBlocks) || !parts.take(grid.density, kMostVoxels) ||
         !parts.take(grid.temperature, kMostVoxels) || !parts.take(grid.flame, kMostVoxels) ||
         !parts.take(grid.albedo, kMostVoxels) || !parts.take(grid.velocity, kMostVoxels) ||
-        !parts.take(warnings, 1) || warnings.size() != 1 || warnings[0] > kMostWarnings)
+        !parts.take(grid.balls, kMostGridBalls) || !parts.take(warnings, 1) || warnings.size() != 1 ||
+        warnings[0] > kMostWarnings)
         return damaged;
     grid.axes = axes[0];
     grid.origin = origin[0];

@@ -23,6 +23,7 @@ struct VoxelBall
     double luminance = 0.0;
     glm::dvec3 velocity{0.0}; ///< [m/s] velocity in the world
     glm::dvec3 albedo{0.0};   ///< [1]
+    glm::dvec3 streak{0.0};   ///< [m] way of the ball while the shutter is open; 0: none
     uint64_t id = 0;          ///< id of the ball in its effect
     uint64_t instance = 0;    ///< instance of the effect in the scene
 };

@@ -1,5 +1,5 @@
 /// @file ball_list.h
-/// Balls of a medium that does not move, from files.
+/// Balls of medium from files: a medium that does not move, or a frame of one that does.
 ///
 /// A file `*.fxballs` is a text header followed by binary numbers:
 ///     fxballs 1
@@ -7,7 +7,9 @@
 ///     data                followed by a line feed
 ///     N * 12 binary32 numbers, little endian, one ball after another: x y z [m], radius [m], cross section
 ///     [m2], temperature [K], albedo r g b, emission r g b [cd/m2]
-/// The lines of the header have this order. Each ends with a line feed; spaces separate their words.
+/// A frame of a sequence has `fxballs 2` and N from 0. Behind the 12 numbers of a ball are 6 more, velocity x
+/// y z [m/s] and streak x y z [m], and its number as a 64-bit integer, little endian; numbers rise from ball
+/// to ball. The lines of the header have this order. Each ends with a line feed; spaces separate their words.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -24,7 +26,7 @@
 namespace fx::sim {
 
 constexpr size_t kMaxListedBalls = size_t(1) << 20;
-constexpr uint64_t kMaxBallListBytes = uint64_t(kMaxListedBalls) * 48 + 64; ///< [byte] maximum size of a file
+constexpr uint64_t kMaxBallListBytes = uint64_t(kMaxListedBalls) * 80 + 64; ///< [byte] maximum size of a file
 
 /// One ball with the kernel of foundation/snapshot/blob_kind.h.
 struct ListedBall
@@ -39,10 +41,27 @@ struct ListedBall
 
 using BallList = std::vector<ListedBall>;
 
+/// One ball of a frame.
+struct MovingBall
+{
+    ListedBall ball;
+    glm::vec3 velocity{0.0f}; ///< [m/s] components within 1e9
+    glm::vec3 streak{0.0f};   ///< [m] way of the ball while the shutter is open, components within 1e6
+    uint64_t number = 0;      ///< the same in all frames that show the ball
+};
+
+using MovingBalls = std::vector<MovingBall>; ///< rising by their numbers
+
 /// Reads a file. @return Parse with the byte, Version, TooLarge, InvalidArgument with the number of the ball
 base::Result<std::shared_ptr<const BallList>> parseBallList(std::string_view bytes);
 
 /// The file of a list; the inverse of parseBallList().
 std::string writeBallList(const BallList& balls);
+
+/// Reads a frame of a sequence; errors as those of parseBallList().
+base::Result<std::shared_ptr<const MovingBalls>> parseMovingBalls(std::string_view bytes);
+
+/// The inverse of parseMovingBalls().
+std::string writeMovingBalls(const MovingBalls& balls);
 
 } // namespace fx::sim

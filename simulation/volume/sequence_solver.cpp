@@ -10,8 +10,6 @@
 namespace fx::sim {
 namespace {
 
-constexpr base::Ticks kAlways = INT64_MAX / 4;              ///< later than any event
-constexpr base::Ticks kLongestStep = base::kTicksPerSecond; ///< between two snapshots
 /// [1] Share of a cross section that balls keep whose frame is not shown now, but was shown in this step:
 /// renderers need them to find the bricks.
 constexpr float kLeastShare = 1e-6f;
@@ -95,12 +93,7 @@ public:
     bool canSeek(const StepContext&, base::Ticks) const override { return true; }
     bool finished(base::Ticks) const override { return false; }
 
-    base::Ticks restsUntil(base::Ticks tick) const override
-    {
-        const auto last = double(def_.sequence->count() - 1);
-        const bool isOver = def_.end == SequenceEnd::Hold && def_.frameAt(tick - kLongestStep) >= last;
-        return isOver || def_.sequence->count() == 1 ? std::max(tick, kAlways) : tick;
-    }
+    base::Ticks restsUntil(base::Ticks tick) const override { return def_.time().restsUntil(tick); }
 
     void save(StateWriter& writer) const override { writer.value(tick_); }
     void restore(StateReader& reader) override { tick_ = reader.value<base::Ticks>(); }
@@ -142,15 +135,6 @@ void SequenceDef::setSequence(std::shared_ptr<base::VolumeSequence> frames)
     const uint32_t count = sequence->count();
     for (uint32_t i = 0; i < count; ++i) // a step begins and ends between frames
         mostCells = std::max(mostCells, uint32_t(blend(*sequence, partsOf(i, i + 1.5, count)).size()));
-}
-
-double SequenceDef::frameAt(base::Ticks tick) const
-{
-    const auto count = double(sequence->count());
-    const double frame = std::max(base::toSeconds(tick), 0.0) * double(framesPerSecond);
-    if (end == SequenceEnd::Hold)
-        return std::min(frame, count - 1.0);
-    return std::min(std::fmod(frame, count), std::nextafter(count, 0.0));
 }
 
 std::unique_ptr<Solver> SequenceDef::create(const base::SnapshotSchema& schema, const Quality&,

@@ -4,19 +4,13 @@
 
 #include "foundation/assets/asset_table.h"
 #include "foundation/assets/volume_sequence.h"
+#include "simulation/solver/sequence_time.h"
 #include "simulation/solver/still_medium.h"
 
 #include <memory>
 #include <vector>
 
 namespace fx::sim {
-
-/// What follows the last frame.
-enum class SequenceEnd : uint8_t
-{
-    Hold, ///< the last frame stays
-    Loop, ///< the first frame follows, interpolated like all others
-};
 
 struct SequenceDef final : StillMediumDef
 {
@@ -29,8 +23,10 @@ struct SequenceDef final : StillMediumDef
     /// Sets `sequence` and `mostCells`.
     void setSequence(std::shared_ptr<base::VolumeSequence> frames);
 
-    /// The frame that is shown at a local time: 0 to below the number of frames, with a fraction.
-    double frameAt(base::Ticks tick) const;
+    /// With a sequence only.
+    SequenceTime time() const { return {sequence->count(), framesPerSecond, end}; }
+    /// See SequenceTime.
+    double frameAt(base::Ticks tick) const { return time().frameAt(tick); }
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;

@@ -1,5 +1,7 @@
+#include "fxsdk/assets/asset_resolver.h"
 #include "fxsdk/presets/preset_loader.h"
 #include "simulation/cloud/cloud_solver.h"
+#include "simulation/cloud/moving_cloud.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -14,6 +16,31 @@ sim::BallList twoBalls()
     list[0] = {{1, 2, 3}, 0.5f, 2.0f, 900.0f, {0.1f, 0.2f, 0.3f}, {4, 5, 6}};
     list[1] = {{-4, 0, 0}, 2.0f, 1.0f, 293.0f, {0.8f, 0.8f, 0.8f}, {0, 0, 0}};
     return list;
+}
+
+constexpr glm::vec3 kPlace{1, 2, 3}, kSpeed{4, -5, 6}, kAcceleration{-7, 8, 9.5f};
+
+/// A ball with an even acceleration, at a time [s].
+sim::MovingBall thrown(float time, uint64_t number)
+{
+    sim::MovingBall ball;
+    ball.ball = twoBalls()[0];
+    ball.ball.center = kPlace + time * kSpeed + 0.5f * time * time * kAcceleration;
+    ball.velocity = kSpeed + time * kAcceleration;
+    ball.streak = 0.1f * ball.velocity;
+    ball.number = number;
+    return ball;
+}
+
+/// Frames 0 and 1, 0.1 s apart. Ball 5 is in both, ball 2 in the first, ball 9 in the second.
+sim::MovingCloudDef thrownBalls()
+{
+    sim::MovingCloudDef def;
+    def.framesPerSecond = 10.0f;
+    def.setFrames(
+        {std::make_shared<const sim::MovingBalls>(sim::MovingBalls{thrown(0.0f, 2), thrown(0.0f, 5)}),
+         std::make_shared<const sim::MovingBalls>(sim::MovingBalls{thrown(0.1f, 5), thrown(0.1f, 9)})});
+    return def;
 }
 
 } // namespace
@@ -78,4 +105,103 @@ TEST(Clouds, presetsWithoutAFileOrWithAnotherOneAreErrors)
     const auto missing = preset::loadPresetText(R"({"version": 1, "clouds": [{}]})", "t");
     ASSERT_FALSE(missing.ok());
     EXPECT_NE(missing.status().message().find("fxballs"), std::string::npos) << missing.status().message();
+}
+
+TEST(MovingBalls, areReadAsTheyWereWritten)
+{
+    const sim::MovingBalls balls{thrown(0.3f, 3), thrown(0.4f, uint64_t(1) << 63)};
+    const std::string bytes = sim::writeMovingBalls(balls);
+    const auto read = sim::parseMovingBalls(bytes);
+    ASSERT_TRUE(read.ok()) << read.status().message();
+    EXPECT_EQ(sim::writeMovingBalls(**read), bytes);
+    EXPECT_EQ((**read)[1].velocity, balls[1].velocity);
+    EXPECT_EQ((**read)[1].streak, balls[1].streak);
+    EXPECT_EQ((**read)[1].number, balls[1].number);
+    const auto none = sim::parseMovingBalls(sim::writeMovingBalls({}));
+    ASSERT_TRUE(none.ok()) << none.status().message();
+    EXPECT_TRUE((*none)->empty());
+}
+
+TEST(MovingBalls, damagedFilesAreRefused)
+{
+    const std::string bytes = sim::writeMovingBalls({thrown(0.3f, 3), thrown(0.4f, 4)});
+    for (size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_FALSE(sim::parseMovingBalls(std::string_view(bytes).substr(0, size)).ok()) << size;
+    EXPECT_EQ(sim::parseMovingBalls("fxballs 1\ncount 0\ndata\n").status().code(), base::Code::Version);
+    EXPECT_FALSE(sim::parseMovingBalls(sim::writeMovingBalls({thrown(0.3f, 4), thrown(0.4f, 4)})).ok());
+    for (size_t number = 0; number < 18; ++number) {
+        std::string damaged = bytes;
+        damaged.replace(bytes.size() - 80 + 4 * number, 4, "\xff\xff\xff\xff"); // no number
+        const auto read = sim::parseMovingBalls(damaged);
+        ASSERT_FALSE(read.ok()) << number;
+        EXPECT_NE(read.status().message().find("ball 1"), std::string::npos);
+    }
+}
+
+TEST(MovingCloud, aBallOfTwoFramesMovesWithItsVelocities)
+{
+    const sim::MovingCloudDef def = thrownBalls();
+    EXPECT_EQ(def.capacity(), 3u);
+    for (const float share : {0.0f, 0.25f, 0.5f, 0.9f}) {
+        const sim::MovingBalls shown = def.at(double(share));
+        const sim::MovingBall &own = shown[1], wanted = thrown(0.1f * share, 5);
+        ASSERT_EQ(own.number, 5u);
+        EXPECT_LT(glm::length(own.ball.center - wanted.ball.center), 1e-6f) << share; // an even acceleration
+        EXPECT_LT(glm::length(own.streak - wanted.streak), 1e-6f) << share;
+        EXPECT_NEAR(own.ball.crossSection, wanted.ball.crossSection, 1e-6f) << share;
+        EXPECT_NEAR(own.ball.emission.x, 4.0f, 1e-5f) << share;
+    }
+}
+
+TEST(MovingCloud, aBallOfOneFrameFadesAsItMoves)
+{
+    const sim::MovingBalls shown = thrownBalls().at(0.25);
+    ASSERT_EQ(shown.size(), 3u);
+    const sim::MovingBall first = thrown(0.0f, 2), second = thrown(0.1f, 9);
+    EXPECT_NEAR(shown[0].ball.crossSection, 0.75f * first.ball.crossSection, 1e-6f);
+    EXPECT_NEAR(shown[2].ball.crossSection, 0.25f * second.ball.crossSection, 1e-6f);
+    EXPECT_LT(glm::length(shown[0].ball.center - first.ball.center - 0.025f * first.velocity), 1e-6f);
+    EXPECT_LT(glm::length(shown[2].ball.center - second.ball.center + 0.075f * second.velocity), 1e-6f);
+}
+
+TEST(MovingCloud, publishesStreaksAndTheSameIdsInAllFrames)
+{
+    base::SnapshotSchema schema;
+    schema.add(base::kBlobKind);
+    sim::MovingCloudDef def = thrownBalls();
+    def.position = {10, 20, 30};
+    def.scale = 2.0f;
+    const auto cloud = def.create(schema, {}, std::pmr::get_default_resource());
+    namespace blob = base::blob_column;
+    for (const double frame : {0.0, 0.5, 1.0}) {
+        cloud->seekable()->seek({}, base::toTicks(frame / 10.0));
+        base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+        cloud->publish({}, snapshot);
+        const base::SnapshotGroup& group = snapshot.group(0);
+        const size_t own = frame < 1.0 ? 1 : 0;
+        ASSERT_EQ(group.count(), frame == 0.5 ? 3u : 2u);
+        EXPECT_EQ(group.ids()[own], 1u); // the second of the numbers 2, 5, 9
+        const sim::MovingBall wanted = thrown(float(frame) / 10.0f, 5);
+        const float shutter = group.constants()[base::blob_constant::Shutter];
+        for (size_t a = 0; a < 3; ++a) {
+            const auto k = glm::length_t(a);
+            EXPECT_NEAR(group.column(blob::PositionX + a)[own],
+                        def.position[k] + 2.0f * wanted.ball.center[k], 1e-5f);
+            EXPECT_NEAR(shutter * group.column(blob::VelocityX + a)[own], 2.0f * wanted.streak[k], 1e-5f);
+            EXPECT_LE(glm::length(wanted.ball.center), def.reach(9.8f, 0.0f, 1.0f));
+        }
+    }
+    EXPECT_EQ(cloud->seekable()->restsUntil(0), 0);
+    EXPECT_GT(cloud->seekable()->restsUntil(base::toTicks(2.0)), base::toTicks(1e6)); // the last frame stays
+}
+
+TEST(Clouds, aFrameThatIsMissingIsNamed)
+{
+    const asset::AssetResolver resolver(".", {});
+    const auto missing = preset::loadPresetText(
+        R"({"version": 1, "clouds": [{"file": "a.%04d.fxballs", "frames": 2, "firstFrame": 7}]})", "t",
+        nullptr, &resolver);
+    ASSERT_FALSE(missing.ok());
+    EXPECT_NE(missing.status().message().find("a.0007.fxballs"), std::string::npos)
+        << missing.status().message();
 }

@@ -13,15 +13,17 @@ HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
 FRAMES = os.environ.get("FX_FRAMES", "14:17")
 VOXELS = os.environ.get("FX_VOXELS", "400000")
 SIZE = os.environ.get("FX_SIZE", "64x48")
-MEMORY = int(os.environ.get("FX_MEMORY", "50")) # [MiB] less than all frames need
+MEMORY = int(os.environ.get("FX_MEMORY", "42")) # [MiB] less than all frames need
 SHOWN = [int(n) for n in os.environ.get("FX_SHOWN", "15").split(",")]
 FPS = int(os.environ.get("FX_FPS", "24"))
-RAYS = int(os.environ.get("FX_RAYS", "8")) # along the side of a pixel: a spark is a hundredth of a pixel wide
+BALLS_BELOW = os.environ.get("FX_BALLS_BELOW", "2") # [voxel] radius of balls that are played beside the voxels; 0: none
+# Along the side of a pixel. A spark is a hundredth of a pixel wide: the same rays meet it in both pictures.
+RAYS = int(os.environ.get("FX_RAYS", "4"))
 MOST_SAMPLES = 16 # of fx render along a pixel
-VOXEL_RAYS = 4    # along a pixel, of voxels, which are wider than sparks
 AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
-LIGHT_HALFWAY = 0.3             # of emitted light alone, against voxels of the moment itself
-LIGHT_OFF = 0.1                 # at frames, of the sum of light from that of the balls; 0.17 if small balls do not hide their own
+LIGHT = float(os.environ.get("FX_LIGHT", "0.2")) # of emitted light at frames; halfway twice as much
+LIGHT_HALFWAY = 0.15            # of emitted light alone, against voxels of the moment itself
+LIGHT_OFF = 0.05                # at frames, of the sum of light from that of the balls; 0.08 without the small balls
 DRAWN = 0.06                    # of OpenGL, where pixels are larger than voxels, which are then replaced by coarser ones
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
 
@@ -66,7 +68,7 @@ class Sequence(FxTest):
         return means(planes, width, height, side) if side > 1 else planes
 
     def sequence(self, source, frames, *arguments):
-        outcome = fx("export", source, "-o", self.folder / "a.%04d.vdb", "--frames", frames, "--fps", FPS, *arguments)
+        outcome = fx("export", source, "-o", self.folder / "a.%04d.vdb", "--frames", frames, "--fps", FPS, "--balls-below", BALLS_BELOW, *arguments)
         self.assertEqual(outcome.code, 0, outcome.err)
         outcome = fx("import", self.folder / "a.%04d.vdb", "-o", self.folder / "a.fx.json", "--fps", FPS, "--memory",
                      MEMORY, "--json")
@@ -77,27 +79,29 @@ class Sequence(FxTest):
         first = int(FRAMES.split(":")[0])
         line = self.sequence("library:explosion", FRAMES, "--voxels", VOXELS)
         self.assertTrue(line["velocities"])
+        self.assertEqual(line["balls_beside"] > 0, float(BALLS_BELOW) > 0)
         camera = {"position": [0, 6, 30], "target": [0, 5, 0], "fovYDegrees": 40}
         original = self.scene("original.scene.json", {"preset": "library:explosion"}, camera)
         played = self.scene("played.scene.json", {"preset": "a.fx.json", "start": first / FPS}, camera)
         for frame in SHOWN:
             for part, allowed in ((0.0, AT_FRAMES), (0.5, HALFWAY)):
                 time = (frame + part) / FPS
-                found = self.planes(played, time, rays=VOXEL_RAYS)
+                found = self.planes(played, time, rays=RAYS)
                 wanted = self.planes(original, time, rays=RAYS)
                 opacity, light = error_of(found, wanted)
                 sums = [sum(sum(p[c]) for c in "RGB") for p in (found, wanted)]
                 outcome = fx("export", "library:explosion", "-o", self.folder / "own.vdb", "--time", time, "--voxel-size",
-                             line["voxel_side"])
+                             line["voxel_side"], "--balls-below", BALLS_BELOW)
                 self.assertEqual(outcome.code, 0, outcome.err)
                 outcome = fx("import", self.folder / "own.vdb", "-o", self.folder / "own.fx.json", "--bricks")
                 self.assertEqual(outcome.code, 0, outcome.err)
-                own = error_of(found, self.planes(self.scene("own.scene.json", {"preset": "own.fx.json"}, camera), time, rays=VOXEL_RAYS))
+                own = error_of(found, self.planes(self.scene("own.scene.json", {"preset": "own.fx.json"}, camera), time, rays=RAYS))
                 drawn, _ = error_of(self.planes(played, time, "gl"), found)
                 print(f"frame {frame + part}: opacity {opacity:.4f}, light {light:.4f} and its sum {sums[0] / sums[1]:.3f}; against voxels of the moment itself {own[0]:.4f}, "
                       f"light {own[1]:.4f}; opacity of GL against the reference {drawn:.4f}", flush=True)
                 with self.subTest(frame=frame + part):
                     self.assertLess(opacity, allowed)
+                    self.assertLess(light, LIGHT if part == 0 else 2 * LIGHT)
                     self.assertLess(own[0], allowed)
                     self.assertLess(own[1], LIGHT_HALFWAY if part > 0 else 0.01)
                     self.assertAlmostEqual(sums[0] / sums[1], 1.0, delta=LIGHT_OFF if part == 0 else 2 * LIGHT_OFF)

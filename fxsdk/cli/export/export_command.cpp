@@ -57,8 +57,12 @@ public:
                                               std::to_string(plan_.maxVoxels * kBytesPerVoxel >> 20) +
                                               " MiB, more than this machine has; give at most " +
                                               std::to_string(affordable)};
-        options_ = {arguments_.voxelSize.value_or(0.0), std::min(plan_.maxVoxels, affordable),
-                    arguments_.half, arguments_.points, arguments_.detail};
+        options_ = {arguments_.voxelSize.value_or(0.0),
+                    std::min(plan_.maxVoxels, affordable),
+                    arguments_.half,
+                    arguments_.points,
+                    arguments_.detail,
+                    arguments_.ballsBelow};
         if (!arguments_.voxelSize)
             if (base::Status status = chooseVoxelSize(); !status)
                 return status;
@@ -143,6 +147,7 @@ private:
                                        {"voxels", report->voxels},
                                        {"bytes", report->bytes},
                                        {"blobs", moment.balls.size()},
+                                       {"balls", report->balls},
                                        {"nonfinite", moment.nonFinite},
                                        {"cross_section", report->crossSection},
                                        {"density_volume", report->densityVolume},

@@ -15,6 +15,7 @@ constexpr double kDefaultTime = 0.5;                           // [s]
 constexpr uint64_t kDefaultVoxels = 1'000'000;                 // where they decide on the voxel size
 constexpr uint64_t kDefaultMostVoxels = 64'000'000;            // where --voxel-size is given
 constexpr uint64_t kMostVoxels = uint64_t(1'000'000'000);      // 24 GB of values
+constexpr double kMostBallsBelow = 1000.0;                     // [voxel]
 constexpr double kLeastVoxelSize = 1e-6, kMostVoxelSize = 1e6; // [m]
 
 base::Status usage(const std::string& message)
@@ -68,8 +69,15 @@ void addExportOptions(CLI::App& command, ExportArguments& arguments)
                      "With the detail of fields, down to a voxel: lumps that fx render draws in them");
     command.add_flag("--half", arguments.half,
                      "Store values with 16 bits, except grids with values above 65504");
-    command.add_flag("--points", arguments.points,
-                     "Also the balls of medium as points, with id, instance, velocity and radius");
+    CLI::Option* const points =
+        command.add_flag("--points", arguments.points,
+                         "Also the balls of medium as points, with id, instance, velocity and radius");
+    command
+        .add_option("--balls-below", arguments.ballsBelow,
+                    "[voxel] Balls with a smaller radius, such as sparks, are points instead of voxels")
+        ->check(CLI::Range(0.0, kMostBallsBelow))
+        ->excludes(points)
+        ->capture_default_str();
     command
         .add_option("--quality", arguments.quality,
                     "Of the simulation, as that of fx render: low, high, or reference (120 steps a second)")
@@ -85,8 +93,8 @@ base::Result<ExportPlan> planExport(const ExportArguments& arguments)
 {
     // CLI11's ranges let NaN through.
     if (!std::isfinite(arguments.time.value_or(kDefaultTime)) || !std::isfinite(arguments.framesPerSecond) ||
-        !std::isfinite(arguments.voxelSize.value_or(1.0)))
-        return usage("--time, --fps and --voxel-size must be numbers");
+        !std::isfinite(arguments.voxelSize.value_or(1.0)) || !std::isfinite(arguments.ballsBelow))
+        return usage("--time, --fps, --voxel-size and --balls-below must be numbers");
     ExportPlan plan;
     if (suffixOf(arguments.output) != ".vdb")
         return usage("output '" + arguments.output + "': the name must end in .vdb");

@@ -30,6 +30,7 @@ struct ExportArguments
     std::optional<double> voxelSize; ///< [m] side of a voxel; empty: the smallest side that `voxels` allows
     std::optional<uint64_t> voxels;  ///< maximum number of voxels of a frame; empty: the default
     std::optional<uint64_t> seed;
+    double ballsBelow = 0.0; ///< [voxel] radius below which balls are points; 0: none
     bool detail = false;
     bool half = false;
     bool points = false;

@@ -4,6 +4,8 @@
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "rendering/voxelization/ball_voxelizer.h"
+#include "rendering/voxelization/medium_grid.h"
+#include "rendering/voxelization/small_balls.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -39,10 +41,41 @@ void sumUp(std::span<const render::VoxelBlock> blocks, double volume, VolumeRepo
 
 } // namespace
 
-base::Result<VolumeReport> writeVolume(const MomentBalls& moment, const VolumeOptions& options,
-                                       const render::VdbMetadata& metadata, const std::filesystem::path& file,
-                                       base::TaskRunner& tasks,
-                                       const std::function<void(uint64_t, uint64_t)>& progress)
+namespace {
+
+/// Balls of a moment that become voxels, and those that become points, with their streaks.
+struct SplitBalls
+{
+    MomentBalls voxels;
+    std::vector<render::VoxelBall> points;
+};
+
+SplitBalls split(const MomentBalls& moment, const VolumeOptions& options)
+{
+    const double least = options.ballsBelow * options.voxelSize;
+    const bool hasDetails = moment.details.isGiven();
+    SplitBalls out;
+    out.voxels.details.groups = moment.details.groups;
+    out.voxels.details.octaves = moment.details.octaves;
+    std::vector<render::VoxelBall> small;
+    for (size_t i = 0; i < moment.balls.size(); ++i) {
+        const bool isDetailed = options.detail && hasDetails && moment.details.balls[i].group >= 0;
+        if (moment.balls[i].radius < least && !isDetailed) { // the detail of points would be lost
+            small.push_back(moment.balls[i]);
+            continue;
+        }
+        out.voxels.balls.push_back(moment.balls[i]);
+        if (hasDetails)
+            out.voxels.details.balls.push_back(moment.details.balls[i]);
+    }
+    out.points = render::joinStreaks(small);
+    return out;
+}
+
+base::Result<VolumeReport> writeSplit(const MomentBalls& moment, std::span<const render::VoxelBall> points,
+                                      const VolumeOptions& options, const render::VdbMetadata& metadata,
+                                      const std::filesystem::path& file, base::TaskRunner& tasks,
+                                      const std::function<void(uint64_t, uint64_t)>& progress)
 {
     const std::vector<render::VoxelBall>& balls = moment.balls;
     const auto plan = render::BlockPlan::create(balls, options.voxelSize, options.maxVoxels);
@@ -67,6 +100,8 @@ base::Result<VolumeReport> writeVolume(const MomentBalls& moment, const VolumeOp
     }
     if (options.points)
         volume.addPoints(balls);
+    if (options.ballsBelow > 0.0)
+        volume.addPoints(points, true);
     const auto bytes = volume.encode(metadata, options.half);
     if (!bytes.ok())
         return bytes.status();
@@ -76,9 +111,28 @@ base::Result<VolumeReport> writeVolume(const MomentBalls& moment, const VolumeOp
         return status;
     report.voxels = volume.voxels();
     report.bytes = bytes->size();
+    report.balls = points.size();
     for (const render::VoxelBall& ball : balls)
         report.crossSection += ball.crossSection;
     return report;
+}
+
+} // namespace
+
+base::Result<VolumeReport> writeVolume(const MomentBalls& moment, const VolumeOptions& options,
+                                       const render::VdbMetadata& metadata, const std::filesystem::path& file,
+                                       base::TaskRunner& tasks,
+                                       const std::function<void(uint64_t, uint64_t)>& progress)
+{
+    if (!(options.ballsBelow > 0.0))
+        return writeSplit(moment, {}, options, metadata, file, tasks, progress);
+    const SplitBalls parts = split(moment, options);
+    if (parts.points.size() > render::kMostGridBalls)
+        return base::Status(base::Code::TooLarge, std::to_string(parts.points.size()) +
+                                                      " balls are smaller than --balls-below; allowed are " +
+                                                      std::to_string(render::kMostGridBalls) +
+                                                      ": decrease it");
+    return writeSplit(parts.voxels, parts.points, options, metadata, file, tasks, progress);
 }
 
 } // namespace fx::cli

@@ -20,14 +20,16 @@ struct VolumeOptions
     uint64_t maxVoxels = 0; ///< maximum number of voxels; each block counts with all of its voxels
     bool half = false;
     bool points = false;
-    bool detail = false; ///< of fields
+    bool detail = false;     ///< of fields
+    double ballsBelow = 0.0; ///< [voxel] balls of a smaller radius are points instead of voxels
 };
 
 struct VolumeReport
 {
     uint64_t voxels = 0;         ///< number of voxels with medium
     uint64_t bytes = 0;          ///< [byte] size of the file
-    double crossSection = 0.0;   ///< [m2] sum of the extinction cross sections of the balls
+    uint64_t balls = 0;          ///< number of balls that are points instead of voxels
+    double crossSection = 0.0;   ///< [m2] sum of the extinction cross sections of the balls in voxels
     double densityVolume = 0.0;  ///< [m2] sum of density times volume over the voxels
     double largestDensity = 0.0; ///< [1/m] largest density of a voxel
 };

@@ -1,5 +1,6 @@
 #include "fxsdk/cli/import/brick_volume.h"
 
+#include "foundation/math/hash.h"
 #include "fxsdk/assets/asset_resolver.h"
 #include "fxsdk/assets/frame_name.h"
 #include "fxsdk/assets/volume_file.h"
@@ -283,6 +284,50 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
     return volume;
 }
 
+sim::MovingBalls movingBallsOf(const render::MediumGrid& grid)
+{
+    constexpr float kCold = 293.0f; // [K] the luminance is all of the light
+    sim::MovingBalls balls;
+    for (const render::VoxelBall& from : grid.balls) {
+        sim::MovingBall& out = balls.emplace_back();
+        out.ball.center = glm::vec3(from.center);
+        out.ball.radius = float(from.radius);
+        out.ball.crossSection = float(from.crossSection);
+        out.ball.temperature = kCold;
+        out.ball.albedo = glm::vec3(from.albedo);
+        out.ball.emission = float(from.luminance) * render::blackBodyColor(float(from.temperature));
+        out.velocity = glm::vec3(from.velocity);
+        out.streak = glm::vec3(from.streak);
+        out.number = base::hashWord(from.instance, from.id);
+    }
+    std::ranges::stable_sort(balls, {}, &sim::MovingBall::number);
+    const auto isSame = [](const sim::MovingBall& a, const sim::MovingBall& b) {
+        return a.number == b.number;
+    };
+    balls.erase(std::unique(balls.begin(), balls.end(), isSame), balls.end());
+    return balls;
+}
+
+namespace {
+
+/// An element of the member "clouds".
+nlohmann::ordered_json cloudOf(const std::string& stem, const SequencePlay& play)
+{
+    return {{"name", stem + " balls"},  {"file", stem + ".%04d.fxballs"},          {"frames", play.count},
+            {"firstFrame", play.first}, {"framesPerSecond", play.framesPerSecond}, {"end", play.end}};
+}
+
+/// @return Io, InvalidArgument for numbers out of range
+base::Status writeBalls(const sim::MovingBalls& balls, const std::filesystem::path& file)
+{
+    const std::string bytes = sim::writeMovingBalls(balls);
+    if (const auto readBack = sim::parseMovingBalls(bytes); !readBack)
+        return {readBack.status().code(), file.string() + ": " + readBack.status().message()};
+    return writeFileAtomically(file, bytes);
+}
+
+} // namespace
+
 base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, double albedo,
                                             const std::filesystem::path& preset)
 {
@@ -305,10 +350,17 @@ base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, doub
     report.massError = (massOf(*readBack) - mass) / mass;
     report.isResampled = !isStraight(grid);
     report.file = preset.parent_path() / (*stem + ".fxvolume");
-    const nlohmann::ordered_json text{{"version", 1},
-                                      {"name", *stem},
-                                      {"composition", "volume"},
-                                      {"volumes", {{{"name", *stem}, {"file", *stem + ".fxvolume"}}}}};
+    nlohmann::ordered_json text{{"version", 1},
+                                {"name", *stem},
+                                {"composition", "volume"},
+                                {"volumes", {{{"name", *stem}, {"file", *stem + ".fxvolume"}}}}};
+    if (const sim::MovingBalls balls = movingBallsOf(grid); !balls.empty()) {
+        report.balls = balls.size();
+        text["clouds"] = nlohmann::ordered_json::array({cloudOf(*stem, {})});
+        if (base::Status status = writeBalls(balls, preset.parent_path() / (*stem + ".0000.fxballs"));
+            !status)
+            return status;
+    }
     if (base::Status status = writePresetFiles(preset, text, report.file, *bytes); !status)
         return status;
     return report;
@@ -337,6 +389,7 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
         return base::Status(base::Code::InvalidArgument,
                             preset.string() + ": the name of the preset of a sequence has no '%'");
     const std::string pattern = *stem + ".%04d.fxvolume";
+    std::vector<sim::MovingBalls> balls;
     SequenceReport report;
     report.files = preset.parent_path() / pattern;
     for (uint32_t i = 0; i < play.count; ++i) {
@@ -365,21 +418,32 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
         report.side = double(volume->side);
         report.hasVelocities = report.hasVelocities && !volume->velocity.empty();
         report.isResampled = report.isResampled || !isStraight(*grid);
+        balls.push_back(movingBallsOf(*grid));
+        report.mostBalls = std::max(report.mostBalls, balls.back().size());
         const std::filesystem::path file = preset.parent_path() / *asset::frameName(pattern, number);
         if (base::Status status = writeFileAtomically(file, *bytes); !status)
             return status;
     }
-    const nlohmann::ordered_json text{{"version", 1},
-                                      {"name", *stem},
-                                      {"composition", "volume"},
-                                      {"volumes",
-                                       {{{"name", *stem},
-                                         {"file", pattern},
-                                         {"frames", play.count},
-                                         {"firstFrame", play.first},
-                                         {"framesPerSecond", play.framesPerSecond},
-                                         {"end", play.end},
-                                         {"memory", play.memory}}}}};
+    nlohmann::ordered_json text{{"version", 1},
+                                {"name", *stem},
+                                {"composition", "volume"},
+                                {"volumes",
+                                 {{{"name", *stem},
+                                   {"file", pattern},
+                                   {"frames", play.count},
+                                   {"firstFrame", play.first},
+                                   {"framesPerSecond", play.framesPerSecond},
+                                   {"end", play.end},
+                                   {"memory", play.memory}}}}};
+    if (report.mostBalls > 0) {
+        const nlohmann::ordered_json cloud = cloudOf(*stem, play);
+        for (uint32_t i = 0; i < play.count; ++i) {
+            const auto name = asset::frameName(cloud["file"].get<std::string>(), play.first + i);
+            if (base::Status status = writeBalls(balls[i], preset.parent_path() / *name); !status)
+                return status;
+        }
+        text["clouds"] = nlohmann::ordered_json::array({cloud});
+    }
     const std::string written = text.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     if (base::Status status = checkWritten(written, preset); !status)
         return status;

@@ -5,6 +5,7 @@
 #include "foundation/assets/voxel_volume.h"
 #include "foundation/tasks/task_runner.h"
 #include "rendering/voxelization/medium_grid.h"
+#include "simulation/cloud/ball_list.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,6 +20,7 @@ struct BrickReport
     double side = 0.0;      ///< [m] of a voxel
     double massError = 0.0; ///< [1] relative, of the voxels as they are in the file
     bool isResampled = false;
+    size_t balls = 0; ///< beside the voxels
     std::filesystem::path file;
 };
 
@@ -51,18 +53,24 @@ struct SequenceReport
     double massError = 0.0;      ///< [1] largest of a frame
     bool hasVelocities = true;   ///< of all frames
     bool isResampled = false;    ///< of a frame
+    size_t mostBalls = 0;        ///< beside the voxels, of a frame
     std::filesystem::path files; ///< name with the placeholder of the number
 };
 
 /// The grid of a frame. @return an error that names the file
 using FrameGrid = std::function<base::Result<render::MediumGrid>(uint32_t number)>;
 
-/// Writes the voxels of all frames, NAME.%04d.fxvolume, and then `preset`, NAME.fx.json, which plays them.
+/// The balls beside the voxels of a grid. Their numbers are those of the balls in their effect and instance.
+sim::MovingBalls movingBallsOf(const render::MediumGrid& grid);
+
+/// Writes the voxels of all frames, NAME.%04d.fxvolume, and then `preset`, NAME.fx.json, which plays them. If
+/// a frame has balls beside the voxels, all frames have a file NAME.%04d.fxballs.
 /// @return errors of voxelVolumeOf() and writeVolume(), and of presets that name the files; Io
 base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const SequencePlay& play,
                                                  double albedo, const std::filesystem::path& preset);
 
-/// Writes `preset` (*.fx.json) and, beside it, the voxels (*.fxvolume) that it names.
+/// Writes `preset` (*.fx.json) and, beside it, the voxels (*.fxvolume) that it names. Balls beside the voxels
+/// are in NAME.0000.fxballs, a sequence of one frame.
 /// @return errors of voxelVolumeOf() and writeVolume(); Io
 base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, double albedo,
                                             const std::filesystem::path& preset);

@@ -156,6 +156,8 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
             line["view_errors"] = fit->viewErrors;
             line["fit_s"] = fit->seconds;
         }
+        if (!grid.balls.empty())
+            line["balls_beside"] = grid.balls.size();
         if (bricks) {
             line["bricks"] = bricks->bricks;
             line["voxel_side"] = bricks->side;
@@ -174,6 +176,9 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
         arguments.input.c_str(), list.c_str(), static_cast<unsigned long long>(sums.voxels),
         grid.blocks.size(), textOf(sums.boxLow).c_str(), textOf(sums.boxHigh).c_str(), sums.largestDensity,
         sums.crossSection);
+    if (!grid.balls.empty())
+        std::printf("%zu balls beside the voxels%s\n", grid.balls.size(),
+                    fit ? ", which are left out: only --bricks keeps them" : "");
     if (fit)
         std::printf("%s: %zu balls in %s, mass %+.2g %%, opacity from three sides wrong by %.3g %%, %.3g %%, "
                     "%.3g %%, %.1f s\n",
@@ -237,6 +242,7 @@ int importSequence(ImportArguments& arguments, const NumberedFile& input)
                                    {"frames", arguments.play.count},
                                    {"first_frame", arguments.play.first},
                                    {"bricks", written->mostBricks},
+                                   {"balls_beside", written->mostBalls},
                                    {"bytes", written->bytes},
                                    {"voxel_side", written->side},
                                    {"velocities", written->hasVelocities},

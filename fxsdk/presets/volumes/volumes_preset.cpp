@@ -6,14 +6,11 @@
 #include "simulation/volume/sequence_solver.h"
 #include "simulation/volume/volume_solver.h"
 
-#include <array>
 #include <utility>
 
 namespace fx::preset {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, sim::SequenceEnd>, 2> kEnds{
-    {{"hold", sim::SequenceEnd::Hold}, {"loop", sim::SequenceEnd::Loop}}};
 constexpr uint64_t kMebibyte = uint64_t(1) << 20;
 
 /// @return false: there is none, which is a finding
@@ -55,7 +52,7 @@ void readFrames(const PresetValue& element, uint32_t frames, sim::SequenceDef& o
     files.count = frames;
     element.read("firstFrame", files.first);
     element.read("framesPerSecond", out.framesPerSecond);
-    element.read("end", std::span<const std::pair<std::string_view, sim::SequenceEnd>>(kEnds), out.end);
+    readSequenceEnd(element, out.end);
     uint32_t memory = 512; // [MiB]
     element.read("memory", memory);
     files.memory = memory * kMebibyte;

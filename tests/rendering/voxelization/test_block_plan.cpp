@@ -1,6 +1,9 @@
+#include "foundation/snapshot/streak.h"
 #include "rendering/voxelization/block_plan.h"
+#include "rendering/voxelization/small_balls.h"
 #include "tests/rendering/voxelization/voxel_sums.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +18,33 @@ VoxelBall ballOf(const glm::dvec3& center, double radius)
     ball.radius = radius;
     ball.crossSection = 1.0;
     return ball;
+}
+
+TEST(SmallBalls, piecesOfAStreakAreTheBallThatTheyWere)
+{
+    const glm::dvec3 way(3.0, -4.0, 0.0);
+    VoxelBall moving = ballOf({1.0, 2.0, 3.0}, 0.5), still = ballOf({-1.0, 0.0, 0.0}, 2.0);
+    moving.id = 7;
+    still.id = 8;
+    const base::Streak<double> streak = base::streakOf(glm::length(way), moving.radius);
+    ASSERT_GT(streak.count, 3);
+    std::vector<VoxelBall> pieces;
+    for (int k = 0; k < streak.count; ++k) {
+        pieces.push_back(moving);
+        pieces.back().radius = streak.radius;
+        pieces.back().crossSection *= streak.shareOf(k);
+        pieces.back().center -= way * (double(k) / streak.count);
+    }
+    pieces.push_back(still);
+    moving.instance = still.instance = 2; // the same id in another instance is another ball
+    pieces.push_back(still);
+    const std::vector<VoxelBall> joined = joinStreaks(pieces);
+    ASSERT_EQ(joined.size(), 3u);
+    EXPECT_LT(glm::length(joined[0].streak - way), 1e-12);
+    EXPECT_LT(glm::length(joined[0].center - moving.center), 1e-12);
+    EXPECT_NEAR(joined[0].crossSection, moving.crossSection, 1e-12);
+    EXPECT_EQ(joined[1].streak, glm::dvec3(0.0));
+    EXPECT_EQ(joined[1].crossSection, still.crossSection);
 }
 
 TEST(BlockPlan, aBallInTheMiddleOfABlockTakesOneBlock)

@@ -7,6 +7,7 @@
 
 #include "tests/rendering/voxelization/voxel_sums.h"
 
+#include <glm/geometric.hpp>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
@@ -69,6 +70,74 @@ TEST_F(VdbReader, voxelsOfARotatedLatticeOfUnequalSidesAreWhereOpenVdbHasThem)
     for (int a = 0; a < 3; ++a)
         EXPECT_NEAR(sums.center[a], place[a], 1e-9);
     EXPECT_NEAR(sums.crossSection, 3.0 * 0.5 * 0.2 * 1.5, 1e-6);
+}
+
+TEST_F(VdbReader, ballsBesideTheVoxelsAreReadAsTheyWereWritten)
+{
+    std::vector<VoxelBall> balls(3);
+    for (size_t i = 0; i < balls.size(); ++i) {
+        const double n = double(i);
+        balls[i] = {.center = {0.3 + n, -7.0, 2.25 * n},
+                    .radius = 0.01 + 0.5 * n,
+                    .crossSection = 0.25 + n,
+                    .temperature = 1500.0 + n,
+                    .luminance = 4e4 + n,
+                    .velocity = {1.0, -2.0 * n, 3.0},
+                    .albedo = {0.25, 0.5, 0.75},
+                    .streak = {0.5, 0.0, -0.25 * n},
+                    .id = (uint64_t(3) << 40) + 5 - i,
+                    .instance = 2};
+    }
+    VdbVolume volume(0.1);
+    VoxelBlock block{};
+    block.density[0] = 1.0f;
+    volume.add(std::span(&block, 1));
+    volume.addPoints(balls, true);
+    const auto bytes = volume.encode({}, false);
+    ASSERT_TRUE(bytes.ok()) << bytes.status().message();
+    const std::string path = folder_ / "balls.vdb";
+    std::ofstream(path, std::ios::binary) << *bytes;
+    VdbReadOptions options;
+    options.lengthScale = 2.0;
+    const auto read = readVdb(path, options);
+    ASSERT_TRUE(read.ok()) << read.status().message();
+    ASSERT_EQ(read->balls.size(), balls.size());
+    for (size_t i = 0; i < balls.size(); ++i) {
+        const VoxelBall &found = read->balls[2 - i], &wanted = balls[i]; // rising by their ids
+        EXPECT_EQ(found.id, wanted.id);
+        EXPECT_EQ(found.instance, wanted.instance);
+        EXPECT_LT(glm::length(found.center - 2.0 * wanted.center), 1e-6);
+        EXPECT_NEAR(found.radius, 2.0 * wanted.radius, 1e-6);
+        EXPECT_NEAR(found.crossSection, 4.0 * wanted.crossSection, 1e-5);
+        EXPECT_NEAR(found.temperature, wanted.temperature, 1e-3);
+        EXPECT_NEAR(found.luminance, wanted.luminance, 1e-2);
+        EXPECT_LT(glm::length(found.velocity - 2.0 * wanted.velocity), 1e-6);
+        EXPECT_EQ(found.albedo, wanted.albedo);
+        EXPECT_LT(glm::length(found.streak - 2.0 * wanted.streak), 1e-6);
+    }
+    const auto carried = mediumGridFromBytes(toBytes(*read));
+    ASSERT_TRUE(carried.ok()) << carried.status().message();
+    EXPECT_EQ(carried->balls.size(), balls.size());
+    EXPECT_EQ(carried->balls[1].streak, read->balls[1].streak);
+    MediumGrid damaged = *read;
+    damaged.balls[0].radius = 0.0;
+    EXPECT_FALSE(mediumGridFromBytes(toBytes(damaged)).ok());
+}
+
+TEST_F(VdbReader, pointsWithoutAMediumAreNone)
+{
+    VdbVolume volume(0.1);
+    VoxelBlock block{};
+    block.density[0] = 1.0f;
+    volume.add(std::span(&block, 1));
+    volume.addPoints(std::vector<VoxelBall>{{.radius = 1.0, .crossSection = 1.0}});
+    const auto bytes = volume.encode({}, false);
+    ASSERT_TRUE(bytes.ok()) << bytes.status().message();
+    const std::string path = folder_ / "points.vdb";
+    std::ofstream(path, std::ios::binary) << *bytes;
+    const auto read = readVdb(path, {});
+    ASSERT_TRUE(read.ok()) << read.status().message();
+    EXPECT_TRUE(read->balls.empty());
 }
 
 TEST_F(VdbReader, aLevelSetHasTheVolumeOfItsInside)

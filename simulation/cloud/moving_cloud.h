@@ -1,0 +1,65 @@
+/// @file moving_cloud.h
+/// Balls of medium that are played from numbered lists. What is shown depends on the time alone.
+#pragma once
+
+#include "simulation/cloud/ball_list.h"
+#include "simulation/solver/sequence_time.h"
+#include "simulation/solver/still_medium.h"
+
+#include <memory>
+#include <vector>
+
+namespace fx::sim {
+
+constexpr size_t kMaxPlayedBalls = size_t(1) << 22; ///< of all frames together
+
+/// @formula played-balls
+/// A ball at a moment between two frames that show it.
+///
+/// symbol    unit    meaning
+///   T       s       time from frame to frame
+///   w       1       share of the second frame, 0..1
+///   p, v    m, m/s  place and velocity in a frame
+///   S       cd/m2   emission
+///
+/// @derivation
+///   The place is the cubic polynomial of Hermite with the places and velocities of both frames:
+///       p(w) = (1 + 2w)(1 - w)^2 p1 + w (1 - w)^2 T v1 + w^2 (3 - 2w) p2 - w^2 (1 - w) T v2      (1)
+///   Radius, cross section, temperature, albedo and streak are linear in w. Emission is a steep function of
+///   the temperature, see volume-advection (6):
+///       S^(1/16) = (1 - w) S1^(1/16) + w S2^(1/16)                                              (2)
+///   A ball that only one of the frames shows has the share 1 - w or w of its cross section, and moves with
+///   its velocity.
+/// @source    textbook
+/// @deviation none
+/// @valid     balls of the same number are the same ball
+/// @accuracy  (1) is exact for even acceleration; otherwise within T^4/384 of its second derivative
+/// @tests     tests/presets/test_clouds.cpp
+struct MovingCloudDef final : StillMediumDef
+{
+    std::vector<std::shared_ptr<const MovingBalls>> frames; ///< at least one
+    float framesPerSecond = 24.0f;
+    SequenceEnd end = SequenceEnd::Hold;
+    uint32_t mostBalls = 0; ///< at any moment
+    float shutter = 0.0f;   ///< [s] by which published velocities times this are the streaks; 0: no streaks
+
+    /// Sets `frames`, `mostBalls` and `shutter`.
+    void setFrames(std::vector<std::shared_ptr<const MovingBalls>> balls);
+    SequenceTime time() const { return {uint32_t(frames.size()), framesPerSecond, end}; }
+    /// The balls at a moment. @param frame 0 to below the number of frames, with a fraction
+    MovingBalls at(double frame) const;
+
+    std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
+                                   std::pmr::memory_resource* memory) const override;
+    uint32_t capacity() const override { return mostBalls; }
+    bool publishes(const base::KindDesc& kind) const override { return kind == base::kBlobKind; }
+    uint64_t bytes() const override;
+    float reach(float gravity, float wind, float seconds) const override;
+
+private:
+    std::vector<uint64_t> numbers_; ///< of all balls, rising: the index is the id of the ball
+
+    friend class MovingCloudSolver;
+};
+
+} // namespace fx::sim
