@@ -23,7 +23,7 @@ MOST_SAMPLES = 16 # of fx render along a pixel
 AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
 LIGHT = float(os.environ.get("FX_LIGHT", "0.2")) # of emitted light at frames; halfway twice as much
 LIGHT_HALFWAY = 0.15            # of emitted light alone, against voxels of the moment itself
-LIGHT_OFF = 0.05                # at frames, of the sum of light from that of the balls; 0.08 without the small balls
+LIGHT_OFF = 0.05                # at frames, of the sum of light from that of the balls; 0.12 with voxels alone
 DRAWN = 0.06                    # of OpenGL, where pixels are larger than voxels, which are then replaced by coarser ones
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
 
