@@ -143,6 +143,27 @@ public:
     ///         GroupRoster::Entry::stretch
     void setRoster(std::shared_ptr<const GroupRoster> roster, std::span<const uint32_t> ends);
     size_t addedCount() const { return groupCount_; } ///< number of added groups, without pooled groups
+    /// Adds memory for the groups that `write(snapshot)` adds, beyond that of the present and of earlier
+    /// contents. The present content does not change. No other thread may use the snapshot meanwhile.
+    template <class F>
+    void addSpares(F&& write)
+    {
+        const size_t count = groupCount_;
+        groupCount_ = groups_.size(); // so that no group is written to memory that exists
+        try {
+            write(*this);
+        } catch (...) {
+            groupCount_ = count;
+            throw;
+        }
+        groupCount_ = count;
+    }
+    /// Frees the memory of all groups that the present content does not have.
+    void dropSpares()
+    {
+        groups_.erase(groups_.begin() + std::ptrdiff_t(groupCount_), groups_.end());
+        groups_.shrink_to_fit();
+    }
 
 private:
     friend class UnpackedGroups;

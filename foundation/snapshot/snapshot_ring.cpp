@@ -10,7 +10,12 @@ SnapshotRing::SnapshotRing(const SnapshotSchema* schema, std::pmr::memory_resour
     : schema_(schema), memory_(memory)
 {
     for (size_t i = 0; i < kUsualSlots; ++i)
-        slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_), 0});
+        slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_)});
+}
+
+void SnapshotRing::forgetReplaced()
+{
+    std::erase_if(slots_, [this](const Slot& slot) { return slot.isReplaced && !isInUse(slot); });
 }
 
 FrameSnapshot& SnapshotRing::beginWrite(Ticks tick, Ticks step)
@@ -18,14 +23,12 @@ FrameSnapshot& SnapshotRing::beginWrite(Ticks tick, Ticks step)
     std::lock_guard lock(mutex_);
     writing_ = nullptr;
     for (Slot& slot : slots_)
-        if (slot.readers == 0 && slot.snapshot.get() != newest_ && slot.snapshot.get() != previous_ &&
-            slot.snapshot.get() != staged_)
-        {
+        if (!slot.isReplaced && !isInUse(slot)) {
             writing_ = slot.snapshot.get();
             break;
         }
     if (!writing_) {
-        slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_), 0});
+        slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_)});
         writing_ = slots_.back().snapshot.get();
     }
     writing_->begin(tick, sequence_ + (staged_ ? 2 : 1), step);

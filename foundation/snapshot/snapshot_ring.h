@@ -8,14 +8,24 @@
 #include <memory>
 #include <memory_resource>
 #include <mutex>
+#include <span>
 
 namespace fx::base {
+
+/// The place at which a frame shows an instance, instead of the places in the snapshots.
+struct ShownPlacement
+{
+    uint64_t instance = 0;
+    Placement placement;
+};
 
 /// A snapshot and the snapshot published before it. Both snapshots stay valid and constant until release().
 struct SnapshotPair
 {
     const FrameSnapshot* newer = nullptr; ///< null before the first publication
     const FrameSnapshot* older = nullptr; ///< null before the second publication
+    /// Instances that the frame shows elsewhere, ascending by instance.
+    std::span<const ShownPlacement> shown{};
 };
 
 /// Snapshots in rotation: the two newest published snapshots, the snapshot that is being written, and the
@@ -39,6 +49,27 @@ public:
     /// Sets SnapshotPair::older to null, for a jump in time between the two snapshots.
     void forgetOlder();
 
+    /// Calls f(snapshot) for every snapshot that the ring will write, so that f can add or drop spare memory.
+    /// Snapshots that readers hold are replaced by new ones. [writing thread, not between beginWrite() and
+    /// publish()]
+    template <class F>
+    void forEachSpare(F&& f)
+    {
+        std::lock_guard lock(mutex_);
+        forgetReplaced();
+        for (size_t i = 0, count = slots_.size(); i < count; ++i) {
+            if (slots_[i].isReplaced)
+                continue;
+            if (slots_[i].readers > 0) {
+                slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_)});
+                f(*slots_.back().snapshot);
+                slots_[i].isReplaced = true;
+            } else {
+                f(*slots_[i].snapshot);
+            }
+        }
+    }
+
     SnapshotPair acquire();
     void release(const SnapshotPair& pair);
 
@@ -47,7 +78,14 @@ private:
     {
         std::unique_ptr<FrameSnapshot> snapshot;
         int readers = 0;
+        bool isReplaced = false; ///< true: the snapshot is not written again
     };
+    void forgetReplaced();
+    bool isInUse(const Slot& slot) const
+    {
+        const FrameSnapshot* const snapshot = slot.snapshot.get();
+        return slot.readers > 0 || snapshot == newest_ || snapshot == previous_ || snapshot == staged_;
+    }
     Slot* slotOf(const FrameSnapshot* snapshot);
 
     const SnapshotSchema* schema_;

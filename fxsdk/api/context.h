@@ -69,6 +69,9 @@ struct FxContext
     /// Finds a loaded preset by its fingerprint. @return null if there is none
     std::shared_ptr<const fx::sim::EffectDef> findPreset(uint64_t fingerprint);
 
+    /// States to all scenes that a preset was unloaded or redirected. `tables` must be locked.
+    void noticePresets();
+
     const FxContextDef def;
     const fx::api::HostWorld world; ///< units of length and axes of `def`
     const fx::api::TechniqueLists techniques;

@@ -1,4 +1,5 @@
 // The functions of fx_context.h.
+#include "foundation/assets/volume_sequence.h"
 #include "fxsdk/api/check.h"
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/gl_loader.h"
@@ -169,6 +170,19 @@ Status close(FxContext& context)
     return {};
 }
 
+/// The counters of all volume sequences of the presets.
+void gatherSequences(const fx::base::AssetTable& assets, FxMemoryStats& io)
+{
+    for (fx::base::AssetId id = 1; id <= assets.size(); ++id)
+        if (const auto sequence = assets.sequence(id)) {
+            const fx::base::VolumeSequence::Counts counts = sequence->counts();
+            io.sequenceBytes += counts.bytes;
+            io.sequenceFramesRead += counts.reads;
+            io.sequenceFramesLate += counts.late;
+            io.sequenceFramesFailed += counts.failures;
+        }
+}
+
 } // namespace
 
 namespace fx::api {
@@ -286,6 +300,9 @@ FxResult fxContext_GetMemoryStats(FxContext* context, FxMemoryStats* ioStats)
         stats.views = uint32_t(context->views.size());
         stats.bytesInUse = context->memory.bytesInUse();
         stats.allocationCount = context->memory.allocationCount();
+        for (const FxScene* const scene : context->scenes)
+            stats.bytesReserved += scene->scene.reservedBytes();
+        gatherSequences(context->assets, stats);
         return fx::api::writeStruct(stats, ioStats, "ioStats");
     });
 }

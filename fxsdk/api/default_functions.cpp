@@ -72,3 +72,8 @@ FxResult fxGetDefaultContactHook(FxContactHook* ioHook)
 {
     return fill(__func__, fxDefaultContactHook(), ioHook, "ioHook");
 }
+
+FxResult fxGetDefaultMotion(FxMotion* ioMotion)
+{
+    return fill(__func__, fxDefaultMotion(), ioMotion, "ioMotion");
+}

@@ -1,5 +1,6 @@
 // The functions of fx_scene.h that concern one instance.
 #include "fxsdk/api/parameter_limits.h"
+#include "fxsdk/api/placement.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 
@@ -20,10 +21,6 @@ static_assert(int(FX_INSTANCE_WAKING) == int(fx::scene::InstanceState::Waking));
 static_assert(int(FX_INSTANCE_RESTING) == int(fx::scene::InstanceState::Resting));
 static_assert(int(FX_INSTANCE_HIDDEN) == int(fx::scene::InstanceState::Hidden));
 
-constexpr double kFarthest = 1e9;       // [m]
-constexpr float kSmallestScale = 1e-3f; // [1]
-constexpr float kLargestScale = 1e3f;   // [1]
-
 /// Latest start: far enough from the end of int64_t that no sum of steps overflows.
 constexpr int64_t kLatestStart = std::numeric_limits<int64_t>::max() / 4;
 
@@ -35,26 +32,6 @@ void checkParameters(const HostWorld& world, fx::api::Checks& check, float inten
     check.range3(wind, -strongest, strongest, "wind");
     check.flag(emitting, "emitting");
     check.range3(tint, 0.0f, fx::api::kHighestTint, "tint");
-}
-
-void checkPlacement(const HostWorld& world, fx::api::Checks& check, const double* position,
-                    const float* rotation, float scale)
-{
-    const double farthest = world.fromMeters(kFarthest);
-    check.range3(position, -farthest, farthest, "position");
-    check.that(fx::api::isUnitQuaternion(rotation),
-               "rotation is not a unit quaternion (x, y, z, w); 0, 0, 0, 1 turns nothing");
-    check.range(scale, kSmallestScale, kLargestScale, "scale");
-}
-
-fx::base::Placement toPlacement(const HostWorld& world, const double* position, const float* rotation,
-                                float scale)
-{
-    if (world.isLibraryWorld()) // saves the conversion where many instances move
-        return {{position[0], position[1], position[2]},
-                glm::normalize(glm::quat(rotation[3], rotation[0], rotation[1], rotation[2])),
-                scale};
-    return {world.position(position), glm::normalize(world.rotation(rotation)), scale};
 }
 
 fx::sim::InstanceParameters toParameters(const HostWorld& world, float intensity, const float* wind,
@@ -73,7 +50,8 @@ void checkLayer(fx::api::Checks& check, int32_t layer, const char* name)
 Status checkDef(const HostWorld& world, const FxInstanceDef& def)
 {
     fx::api::Checks check;
-    checkPlacement(world, check, def.position, def.rotation, def.scale);
+    fx::api::checkPlacement(check, world.fromMeters(fx::api::kFarthest), def.position, def.rotation,
+                            def.scale);
     checkParameters(world, check, def.intensity, def.wind, def.emitting, def.tint);
     check.range(def.startTick, int64_t(0), kLatestStart, "def.startTick");
     check.flag(def.destroyWhenFinished, "def.destroyWhenFinished");
@@ -107,7 +85,7 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         setup.seed = known.seed;
         setup.userData = known.userData;
         setup.startTick = known.startTick;
-        setup.placement = toPlacement(world, known.position, known.rotation, known.scale);
+        setup.placement = fx::api::toPlacement(world, known.position, known.rotation, known.scale);
         setup.parameters = toParameters(world, known.intensity, known.wind, known.emitting, known.tint);
         setup.destroyWhenFinished = known.destroyWhenFinished != 0;
         setup.quality = fx::api::toQuality(known.quality, scene->quality);
@@ -191,9 +169,9 @@ FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, const doubl
             if (!check.status())
                 return check.status();
             const HostWorld& world = scene->context->world;
-            checkPlacement(world, check, position, rotation, scale);
+            fx::api::checkPlacement(check, world.fromMeters(fx::api::kFarthest), position, rotation, scale);
             if (check.status())
-                scene->scene.setPlacement(id, toPlacement(world, position, rotation, scale));
+                scene->scene.setPlacement(id, fx::api::toPlacement(world, position, rotation, scale));
             return check.status();
         });
 }

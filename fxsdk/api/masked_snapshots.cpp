@@ -29,6 +29,7 @@ base::SnapshotPair MaskedSnapshots::shown(const base::SnapshotPair& all, const s
         return {};
     const uint64_t newer = all.newer ? all.newer->serial() : 0, older = all.older ? all.older->serial() : 0;
     base::SnapshotPair pair;
+    pair.shown = all.shown;
     pair.older = shown(all.older, newer);
     pair.newer = shown(all.newer, older);
     return pair;

@@ -107,6 +107,7 @@ FxResult fxUnloadPreset(FxContext* context, FxPresetId preset)
         if (!context->presets.find(id))
             return {Code::StaleId, "preset was unloaded by another thread"};
         context->presets.remove(id);
+        context->noticePresets();
         return {};
     });
 }

@@ -66,6 +66,7 @@ FxResult fxRedirectPreset(FxContext* context, FxPresetId preset, FxPresetId targ
             return {Code::StaleId, "preset names no loaded preset of this context"};
         before = std::move(entry->effect);
         entry->effect = *effect;
+        context->noticePresets();
         return {};
     });
 }

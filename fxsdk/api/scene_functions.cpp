@@ -124,10 +124,12 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
                                               known.eventCapacity,
                                               (known.eventKinds & FX_EVENTS_FINISHED) != 0,
                                               (known.eventKinds & FX_EVENTS_CUES) != 0,
-                                              (known.eventKinds & FX_EVENTS_UNNAMED) != 0};
+                                              (known.eventKinds & FX_EVENTS_UNNAMED) != 0,
+                                              known.reserveLimit};
         FxScene* scene =
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
         scene->quality = fx::api::toQuality(known.quality, fx::sim::QualityLevel::Medium);
+        scene->maxInstances = known.maxInstances;
         context->scenes.push_back(scene);
         *outScene = scene;
         return {};
@@ -186,7 +188,7 @@ namespace {
 /// Notes that an update was asked for more time than it simulates, and says so once.
 [[gnu::noinline]] void shorten(FxScene& scene, double seconds, bool isAccepted)
 {
-    scene.catchingUp.store(true);
+    scene.notices.fetch_or(FxScene::kCatchingUp);
     if (!isAccepted || scene.isLongReported)
         return;
     scene.isLongReported = true;
@@ -196,6 +198,12 @@ namespace {
                          " s, FxSceneDef::maxFrameTicks: call fxScene_Update more often, or raise it "
                          "(this is said once)")
                             .c_str());
+}
+
+[[gnu::noinline]] void heedNotices(FxScene& scene)
+{
+    if ((scene.notices.exchange(0) & FxScene::kPresetsChanged) != 0)
+        scene.followPresets();
 }
 
 /// Says when updates begin to leave steps to the next ones.
@@ -219,8 +227,8 @@ FxResult fxScene_Update(FxScene* scene, double dtSeconds)
         const bool accepted = scene->scene.update(dtSeconds);
         if (dtSeconds > scene->longestFrame) [[unlikely]]
             shorten(*scene, dtSeconds, accepted);
-        else if (scene->catchingUp.load(std::memory_order_relaxed)) [[unlikely]]
-            scene->catchingUp.store(false);
+        else if (scene->notices.load(std::memory_order_relaxed) != 0) [[unlikely]]
+            heedNotices(*scene);
         reportDebt(*scene);
         scene->updateAllocations = scene->context->memory.allocationCount() - before;
         if (!accepted)

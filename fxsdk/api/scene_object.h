@@ -46,7 +46,28 @@ struct FxScene
     std::shared_ptr<const fx::api::HostContact> contact; ///< null if the callback needs no conversion
     std::atomic<uint32_t> views{0};                      ///< number of views that show this scene
     double longestFrame;                                 ///< [s] longest time that one update simulates
-    std::atomic<bool> catchingUp{false}; ///< whether the time of the last update exceeded longestFrame
+    /// Bits for the next update: kCatchingUp, kPresetsChanged.
+    std::atomic<uint32_t> notices{0};
+    static constexpr uint32_t kCatchingUp = 1;     ///< the time of the last update exceeded longestFrame
+    static constexpr uint32_t kPresetsChanged = 2; ///< a preset was unloaded or redirected
+    bool isCatchingUp() const { return (notices.load() & kCatchingUp) != 0; }
+
+    /// The preset of a reservation.
+    struct ReservedPreset
+    {
+        FxPresetId preset;
+        std::shared_ptr<const fx::sim::EffectDef> effect;
+        fx::sim::QualityLevel level;
+        uint32_t count;
+    };
+    std::pmr::vector<ReservedPreset> reserved{&context->memory};
+    /// Implements fxScene_ReservePreset() for checked arguments.
+    fx::base::Status reserve(FxPresetId preset, const std::shared_ptr<const fx::sim::EffectDef>& effect,
+                             fx::sim::QualityLevel level, uint32_t count);
+    /// Ends the reservations of unloaded presets, and lets those of redirected presets go on with their new
+    /// content.
+    void followPresets();
+    uint32_t maxInstances = 0; ///< FxSceneDef::maxInstances
 
     bool isBehind = false;       ///< whether the last update left steps for the next one
     bool isLongReported = false; ///< whether the log says that an update was shortened

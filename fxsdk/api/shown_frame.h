@@ -40,8 +40,9 @@ class ShownFrame
 {
 public:
     ShownFrame(scene::Scene& scene, quality::ViewQuality& quality, render::ViewRenderer& renderer,
-               MaskedSnapshots& masked, const FxFrameDef& frame, bool holdsQuality)
-        : def(frame), held_(scene), quality_(quality), renderer_(renderer), shown_(held_.acquired),
+               MaskedSnapshots& masked, std::pmr::vector<base::ShownPlacement>& inMotion,
+               const FxFrameDef& frame, bool holdsQuality)
+        : def(frame), held_(scene, inMotion), quality_(quality), renderer_(renderer), shown_(held_.acquired),
           asked_(renderer.settings().composition), askedSlices_(renderer.settings().slices)
     {
         shown_.snapshots = masked.shown(held_.acquired.snapshots, scene.displayRules(), frame.visibilityMask);
@@ -70,7 +71,9 @@ private:
     /// Holds the snapshots of the scene.
     struct Held
     {
-        explicit Held(scene::Scene& from) : scene(from), acquired(from.acquire()) {}
+        Held(scene::Scene& from, std::pmr::vector<base::ShownPlacement>& inMotion)
+            : scene(from), acquired(from.acquire(inMotion))
+        {}
         ~Held() { scene.release(acquired.snapshots); }
         Held(const Held&) = delete;
         Held& operator=(const Held&) = delete;

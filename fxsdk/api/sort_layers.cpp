@@ -106,6 +106,7 @@ void SortLayers::divide(const base::SnapshotPair& shown, const scene::DisplayRul
             continue;
         KeptLayer& layer = keptLayer(number);
         base::SnapshotPair pair;
+        pair.shown = shown.shown;
         pair.older = copyOf(shown.older, newer, layer);
         pair.newer = copyOf(shown.newer, older, layer);
         layers_.push_back({number, pair});

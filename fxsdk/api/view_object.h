@@ -41,8 +41,8 @@ struct FxView
 {
     FxView(FxScene* shown, const fx::render::ViewSettings& settings)
         : context(shown->context), scene(shown), marks(&context->memory), overlay(&context->memory),
-          renderer(makeRenderer(*context)), masked(&context->memory), sortLayers(&context->memory),
-          lowerLayers(&context->memory), layerDraws(&context->memory)
+          renderer(makeRenderer(*context)), masked(&context->memory), inMotion(&context->memory),
+          sortLayers(&context->memory), lowerLayers(&context->memory), layerDraws(&context->memory)
     {
         setSettings(settings);
         scene->views.fetch_add(1);
@@ -123,7 +123,9 @@ struct FxView
     std::pmr::vector<fx::render::OverlayBox> overlay;
     fx::render::ViewRenderer renderer; ///< draws the uppermost layer, and completes the picture
     fx::api::MaskedSnapshots masked;   ///< outlives `prepared`
-    fx::api::SortLayers sortLayers;    ///< of the frame that was prepared last; outlives `prepared`
+    /// instances in motion, and where the frame shows them; outlives `prepared`
+    std::pmr::vector<fx::base::ShownPlacement> inMotion;
+    fx::api::SortLayers sortLayers; ///< of the frame that was prepared last; outlives `prepared`
     std::pmr::vector<fx::api::LayerRenderer> lowerLayers;
     std::pmr::vector<fx::api::LayerDraw> layerDraws; ///< see layersToDraw()
     fx::render::FrameStatistics lowerStatistics;     ///< sums of the lower layers of the last frame
@@ -176,8 +178,8 @@ inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
     view.rangeEnd.reset();
     view.origin = view.context->world.position(frame.origin);
     ShownFrame& frameToShow = view.prepared.emplace(
-        view.scene->scene, view.quality, view.renderer, view.masked, frame,
-        frame.holdQuality != 0 || frame.rangePart != FX_RANGE_ONLY || view.scene->catchingUp.load());
+        view.scene->scene, view.quality, view.renderer, view.masked, view.inMotion, frame,
+        frame.holdQuality != 0 || frame.rangePart != FX_RANGE_ONLY || view.scene->isCatchingUp());
     try {
         view.sortLayers.divide(frameToShow.shown().snapshots, view.scene->scene.displayRules());
     } catch (...) { // a frame that is not divided must not be drawn by a later call

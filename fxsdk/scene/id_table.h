@@ -64,6 +64,16 @@ public:
         return (uint64_t(slot.use) << kIdPartBits) | index;
     }
 
+    /// Reserves memory for `count` values. Up to this number, add() allocates nothing. Strong guarantee.
+    void reserve(size_t count)
+    {
+        slots_.reserve(count);
+        values_.reserve(count);
+        freePlaces_.reserve(count);
+        while (values_.size() < count)
+            makePlace();
+    }
+
     /// Reverts the last add(). Later ids do not depend on the reverted call. No other value may have been
     /// added or removed since the add(). Allocates no memory.
     void cancel(LocalId id)

@@ -13,8 +13,8 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
       world_(schema, tasks, memory, options.environment, options.shareInstances),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), waking_(memory),
       denied_(memory), coarse_(memory), tree_(memory), alarms_(memory), focus_(memory), candidates_(memory),
-      arrived_(memory), seeks_(memory), moved_(memory), ring_(schema, memory), rules_(memory), marks_(memory),
-      newMarks_(memory)
+      arrived_(memory), seeks_(memory), moved_(memory), motions_(memory), reservations_(memory),
+      ring_(schema, memory), rules_(memory), marks_(memory), newMarks_(memory)
 {
     world_.allowRest(options.culling);
     if (options.eventCapacity > 0) {
@@ -84,6 +84,8 @@ void Scene::remove(LocalId id)
         countHints(instance, -1);
     instances_.remove(id);
     rules_.retire(id, options_.maxInstances);
+    if (!motions_.empty())
+        endMotion(id);
 }
 
 uint32_t Scene::particles(LocalId id)
@@ -185,6 +187,8 @@ void Scene::finish(uint32_t index)
         event.position = instance.setup.placement.position;
         events_->add(event, instance.serial);
     }
+    if (!motions_.empty())
+        endMotion(instances_.idAt(index));
     if (instances_.at(index).setup.destroyWhenFinished) {
         rules_.retire(instances_.idAt(index), options_.maxInstances);
         instances_.remove(instances_.idAt(index));

@@ -16,6 +16,7 @@
 #include "fxsdk/scene/event_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/scene/motion_history.h"
+#include "fxsdk/scene/motion_track.h"
 #include "fxsdk/scene/scene_types.h"
 #include "simulation/world/world.h"
 
@@ -56,6 +57,10 @@ public:
     uint64_t userData(LocalId id) { return instances_.find(id)->setup.userData; }
     void setUserData(LocalId id, uint64_t number) { instances_.find(id)->setup.userData = number; }
     void setPlacement(LocalId id, const base::Placement& placement);
+    /// Adds a pose to the path of an instance, which from the next step on stands at each step's end where
+    /// the path is at that time. Strong guarantee. setPlacement() ends the motion.
+    /// @return InvalidArgument (earlier than the last pose)
+    base::Status setMotion(LocalId id, const MotionPose& pose);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     const sim::InstanceParameters& parameters(LocalId id) { return instances_.find(id)->setup.parameters; }
     /// @param rate see sim::InstanceClock
@@ -95,6 +100,27 @@ public:
     /// Sets the layer, and the order within it at equal depth. Strong guarantee.
     void setLayer(LocalId id, int32_t layer, int32_t sortKey) { rules_.setOrder(id, layer, sortKey); }
     const DisplayRules& displayRules() const { return rules_; } ///< [any thread]
+
+    /// Keeps the memory of `count` instances of an effect, see fx_reserve.h. Completes an incomplete step.
+    /// Otherwise strong guarantee.
+    /// @return Capacity (the reservations of the scene would exceed SceneOptions::reserveLimit)
+    base::Status reserve(const std::shared_ptr<const sim::EffectDef>& effect, sim::QualityLevel level,
+                         uint32_t count);
+    struct Reservation
+    {
+        std::shared_ptr<const sim::EffectDef> effect;
+        sim::QualityLevel level = sim::QualityLevel::Medium;
+        uint32_t count = 0;
+        uint32_t idle = 0;   ///< number of sets of solvers that no simulation uses
+        uint64_t bytes = 0;  ///< [byte] estimated memory
+        uint64_t misses = 0; ///< number of simulations that found no set
+    };
+    std::optional<Reservation> reservation(const sim::EffectDef& effect, sim::QualityLevel level) const;
+    const std::pmr::vector<Reservation>& reservations() const { return reservations_; } ///< without `misses`
+    uint64_t reservedBytes() const
+    {
+        return reservedBytes_.load(std::memory_order_relaxed);
+    } ///< [any thread]
 
     /// State and estimated cost of an instance.
     struct Activity
@@ -195,6 +221,10 @@ public:
     void copyMarks(std::pmr::vector<Mark>& out);
 
     Presentation acquire();
+    /// Does the same, and lists the instances in motion with their placements at the present, ascending by
+    /// instance. The placements in the snapshots are those at the ends of steps.
+    /// @param outShown memory of SnapshotPair::shown, which must not change before release()
+    Presentation acquire(std::pmr::vector<base::ShownPlacement>& outShown);
     /// True while the snapshots of acquire() are empty. [any thread]
     bool showsNothing() const { return showsNothing_.load(std::memory_order_acquire); }
     void release(const base::SnapshotPair& snapshots) { ring_.release(snapshots); }
@@ -258,6 +288,20 @@ private:
         return clock_.simulated() + (world_.isStepping() ? clock_.stepTicks() : 0);
     }
     void moveOn(uint32_t step, uint32_t steps);
+    /// An instance and its path.
+    struct InMotion
+    {
+        LocalId id;
+        std::unique_ptr<MotionTrack> track;
+    };
+    std::pmr::vector<InMotion>::iterator inMotion(LocalId id);
+    void endMotion(LocalId id);
+    void followMotions(base::Ticks to);
+    void placeAt(LocalId id, Instance& instance, const base::Placement& placement);
+    void saveMotions(sim::StateWriter& writer) const;
+    void restoreMotions(sim::StateReader& reader, Restored& state) const;
+    void reserveLists(uint32_t count);
+    void reserveSnapshots(const sim::EffectDef& effect, sim::QualityLevel level, uint32_t count);
     void endMoves(bool isComplete);
     void retireFinished(base::Ticks now);
     void recordEvents();
@@ -351,6 +395,11 @@ private:
     std::optional<EventQueue> events_; ///< empty: no events are recorded
     /// ids of all instances whose InstanceSetup::cameFrom is set; may contain additional ids
     std::pmr::vector<LocalId> moved_;
+    /// Instances in motion, ascending by id. Other threads read the list with the mutex presentation_, so
+    /// that the scene thread changes it only with the mutex.
+    std::pmr::vector<InMotion> motions_;
+    std::pmr::vector<Reservation> reservations_;
+    std::atomic<uint64_t> reservedBytes_{0};
     bool visibilityStale_ = false; ///< true: an instance or a camera has moved since visibility was tested
     bool memoryFailed_ = false;
     bool sought_ = false; ///< true: the result of a seek() is not published yet

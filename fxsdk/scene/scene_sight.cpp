@@ -198,6 +198,14 @@ void Scene::setPlacement(LocalId id, const base::Placement& placement)
         if (instance.setup.effect->dependsOnPlacement() && !instance.setup.cameFrom)
             instance.setup.cameFrom = instance.setup.placement;
     }
+    if (!motions_.empty())
+        endMotion(id);
+    placeAt(id, instance, placement);
+}
+
+/// What follows from a placement that the world knows already.
+void Scene::placeAt(LocalId id, Instance& instance, const base::Placement& placement)
+{
     instance.setup.placement = placement;
     measure(instance);
     visibilityStale_ = true;

@@ -118,11 +118,12 @@ SceneCounters restoreCounters(sim::StateReader& reader)
 
 } // namespace
 
+/// What was restored of a state, until all of it is known to be valid.
 struct Scene::Restored
 {
     explicit Restored(const Scene& scene)
         : instances(scene.memory_, scene.options_.maxInstances), rules(scene.memory_), dormant(scene.memory_),
-          active(scene.memory_), moved(scene.memory_),
+          active(scene.memory_), moved(scene.memory_), motions(scene.memory_),
           world(scene.schema_, scene.tasks_, scene.memory_, scene.world_.environment(),
                 scene.options_.shareInstances)
     {
@@ -137,6 +138,7 @@ struct Scene::Restored
     activation::TimerQueue dormant;
     activation::ActiveList active;
     std::pmr::vector<LocalId> moved;
+    std::pmr::vector<InMotion> motions;
     sim::World world;
 };
 
@@ -221,6 +223,32 @@ void Scene::restoreDisplayRules(sim::StateReader& reader, Restored& state) const
     }
 }
 
+void Scene::saveMotions(sim::StateWriter& writer) const
+{
+    writer.value(uint32_t(motions_.size()));
+    for (const InMotion& one : motions_) {
+        writer.value(one.id);
+        one.track->save(writer);
+    }
+}
+
+void Scene::restoreMotions(sim::StateReader& reader, Restored& state) const
+{
+    const uint32_t count =
+        reader.value<uint32_t>(0, options_.maxInstances, "the state has more motions than instances");
+    for (uint32_t i = 0; i < count && reader.ok(); ++i) {
+        const LocalId instance = reader.value<LocalId>();
+        auto track = std::make_unique<MotionTrack>();
+        track->restore(reader);
+        const bool isNext = state.motions.empty() || state.motions.back().id < instance;
+        const Instance* const found = state.instances.find(instance);
+        reader.require(isNext && found && found->state != InstanceState::Finished,
+                       "a motion is of an instance that the state does not have");
+        if (reader.ok())
+            state.motions.push_back({instance, std::move(track)});
+    }
+}
+
 /// Not a part of the simulation hash, because steps do not depend on it.
 void Scene::saveUserData(sim::StateWriter& writer) const
 {
@@ -240,6 +268,7 @@ void Scene::save(sim::StateWriter& writer)
     settle(true);
     saveRules(writer);
     saveInstances(writer);
+    saveMotions(writer);
     saveDisplayRules(writer);
     saveUserData(writer);
     const base::ClockState clock = clock_.state();
@@ -257,6 +286,8 @@ uint64_t Scene::simulationHash()
     sim::StateHasher hasher;
     saveRules(hasher);
     saveInstances(hasher);
+    if (!motions_.empty())
+        saveMotions(hasher);
     hasher.value(clock_.simulated());
     hasher.value(world_.hash(slotsBySerial()));
     return hasher.hash();
@@ -269,6 +300,7 @@ base::Status Scene::restore(std::span<const std::byte> bytes, const FindEffect& 
     checkRules(reader);
     const Effects effects = restoreEffects(reader, findEffect);
     restoreInstances(reader, effects, state);
+    restoreMotions(reader, state);
     restoreDisplayRules(reader, state);
     restoreUserData(reader, state);
     state.clock = restoreClock(reader);
@@ -428,6 +460,10 @@ void Scene::take(Restored& state)
     seeks_.clear();
     replaced_ = false;
     std::swap(moved_, state.moved);
+    {
+        std::lock_guard lock(presentation_);
+        std::swap(motions_, state.motions);
+    }
     preferring_ = {};
     hints_.store({}, std::memory_order_relaxed);
     instances_.forEach([&](uint32_t, const Instance& instance) {

@@ -58,6 +58,8 @@ bool Scene::update(double dt)
             hasMoved = hasMoved || (begins && !moved_.empty());
             if (begins && !moved_.empty())
                 moveOn(taken + 1, plan.steps);
+            if (begins && !motions_.empty())
+                followMotions(from + clock_.stepTicks());
             if (begins)
                 beginStep(from);
             const base::Ticks to = from + clock_.stepTicks();

@@ -30,6 +30,7 @@ struct SceneOptions
     bool finishedEvents = true; ///< true: ends of instances are events
     bool cueEvents = true;      ///< true: events with a cue in the preset are recorded
     bool unnamedEvents = false; ///< true: events without a cue that cause births are recorded
+    uint64_t reserveLimit = uint64_t(1) << 30; ///< [byte] largest memory of all reservations
 };
 
 /// Lifecycle state of an instance. An update visits only active and waking instances.

@@ -17,7 +17,7 @@ namespace fx::scene {
 constexpr size_t kStateHeaderBytes = 32;
 
 /// Incremented with every change of the layout of the state within one version of the SDK.
-constexpr uint32_t kStateLayout = 5;
+constexpr uint32_t kStateLayout = 6;
 
 /// Writes the header of a saved state.
 /// @param sdkVersion version in the form of FX_VERSION

@@ -2,6 +2,8 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
+
 namespace fx::render {
 
 size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint)
@@ -26,6 +28,26 @@ base::Placement placementAt(const base::SnapshotGroup& newer, const base::Snapsh
         p.rotation = glm::slerp(o.rotation, p.rotation, t);
         p.scale = o.scale + (p.scale - o.scale) * t;
     }
+    p.position -= eye;
+    return p;
+}
+
+const base::ShownPlacement* shownPlacement(const base::SnapshotPair& snapshots, uint64_t instance)
+{
+    const auto at = std::lower_bound(
+        snapshots.shown.begin(), snapshots.shown.end(), instance,
+        [](const base::ShownPlacement& one, uint64_t wanted) { return one.instance < wanted; });
+    return at != snapshots.shown.end() && at->instance == instance ? &*at : nullptr;
+}
+
+base::Placement placementAt(const base::SnapshotPair& snapshots, const base::SnapshotGroup& newer,
+                            const base::SnapshotGroup* older, float t, const glm::dvec3& eye)
+{
+    const base::ShownPlacement* const shown =
+        snapshots.shown.empty() ? nullptr : shownPlacement(snapshots, newer.info().instance);
+    if (!shown)
+        return placementAt(newer, older, t, eye);
+    base::Placement p = shown->placement;
     p.position -= eye;
     return p;
 }

@@ -2,7 +2,7 @@
 /// Finds matching groups of two snapshots, and interpolates their placement.
 #pragma once
 
-#include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/snapshot/snapshot_ring.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -23,6 +23,15 @@ size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& na
 /// @param older may be null
 base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
                             const glm::dvec3& eye);
+
+/// Returns the placement at which a frame shows a group: that of SnapshotPair::shown if it lists the
+/// instance, else the placement interpolated between the snapshots.
+/// @param snapshots pair of the frame @param newer group of the newer snapshot @param older may be null
+base::Placement placementAt(const base::SnapshotPair& snapshots, const base::SnapshotGroup& newer,
+                            const base::SnapshotGroup* older, float t, const glm::dvec3& eye);
+
+/// Entry of SnapshotPair::shown for an instance; null if there is none.
+const base::ShownPlacement* shownPlacement(const base::SnapshotPair& snapshots, uint64_t instance);
 
 /// World velocity of points that are fixed in the local space of a group, as an affine function.
 struct PlaceDrift

@@ -161,10 +161,11 @@ public:
     void standForBricks(bool areBricks) { areBricks_ = areBricks; }
 
     /// @param detail of the group  @param outDetailed receives its balls if it has detail
-    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds,
-             const BlobDetail& detail, std::pmr::vector<DetailedCaster>* outDetailed)
+    /// @param place of the group, relative to the eye
+    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, const base::Placement& place,
+             float t, float stepSeconds, const BlobDetail& detail,
+             std::pmr::vector<DetailedCaster>* outDetailed)
     {
-        const base::Placement place = placementAt(newer, older, t, camera_.eye);
         level_ = lod_ && !areBricks_ ? lod_->levelOf(newer.info(), place) : LodLevel();
         const float shown = areBricks_ ? 1.0f : share_;
         const float casterRadius = areBricks_ ? kBrickCaster : 1.0f;
@@ -206,10 +207,9 @@ public:
     }
 
     /// Casters alone, of the next group of an effect that is drawn as a picture.
-    void runFar(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
-                float stepSeconds, FarCasters& ioFar)
+    void runFar(const base::SnapshotGroup& newer, const base::SnapshotGroup* older,
+                const base::Placement& place, float t, float stepSeconds, FarCasters& ioFar)
     {
-        const base::Placement place = placementAt(newer, older, t, camera_.eye);
         const float back = older ? (1.0f - t) * stepSeconds : 0.0f;
         size_t i = ioFar.next;
         for (; i < newer.count(); i += ioFar.stride) {
@@ -316,7 +316,7 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
             return {};
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const auto* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
-        const base::Placement place = placementAt(group, older, t, camera.eye);
+        const base::Placement place = placementAt(snapshots, group, older, t, camera.eye);
         const base::Bounds& bounds = group.info().bounds;
         around.add(glm::vec3(place.position) +
                        place.rotation * (0.5f * (bounds.min + bounds.max) * place.scale),
@@ -419,6 +419,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         const ImpostorPlan& plan = outInstances.back().plan;
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+        const base::Placement place = placementAt(snapshots, group, older, t, camera.eye);
         const BlobDetail detail = outFields ? BlobDetail(snapshots, g, t) : BlobDetail();
         const base::SnapshotGroup* const volume = outFields ? volumeGroup(newer, g) : nullptr;
         gather.standForBricks(volume != nullptr);
@@ -426,20 +427,20 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         if (detail.isGiven())
             outFields->casters.clear();
         if (plan.blobShare > 0.0f || plan.isTaken)
-            gather.run(group, older, t, stepSeconds, detail, outFields ? &outFields->casters : nullptr);
+            gather.run(group, older, place, t, stepSeconds, detail,
+                       outFields ? &outFields->casters : nullptr);
         else if (castsShadows)
-            gather.runFar(group, older, t, stepSeconds, far);
+            gather.runFar(group, older, place, t, stepSeconds, far);
         outInstances.back().visibleEnd = outVisible.size();
         if (!outFields)
             continue;
         if (detail.isGiven()) {
-            GroupDetail made = detail.groupDetail(placementAt(group, older, t, camera.eye));
+            GroupDetail made = detail.groupDetail(place);
             made.factor = outFields->conservation.of(made, outFields->casters);
             outFields->details.push_back(made);
         }
         if (volume) {
-            outFields->volumes.push_back(groupVolume(group, *volume, placementAt(group, older, t, camera.eye),
-                                                     older ? double(t) : 1.0));
+            outFields->volumes.push_back(groupVolume(group, *volume, place, older ? double(t) : 1.0));
             outFields->volumes.back().density *= double(plan.blobShare); // the rest is in a picture
         }
         addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,

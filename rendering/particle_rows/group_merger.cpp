@@ -91,7 +91,7 @@ void GroupMerger::collect(const base::SnapshotPair& snapshots)
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         const base::GroupName name = newer.name(g);
         const RowTechnique* const technique = techniques.of(name.kind);
-        if (!technique || !technique->merge)
+        if (!technique || !technique->merge || shownPlacement(snapshots, name.instance))
             continue;
         const bool isStrip = technique->isStrip;
         const MergeSource group = sourceOf(newer, g, isStrip);
@@ -207,7 +207,10 @@ void GroupMerger::listParts()
 void GroupMerger::build(const base::SnapshotPair& snapshots, const RevisionPair& of,
                         const SnapshotRowRevisions& newerRows, const SnapshotRowRevisions& olderRows)
 {
-    if (of == built_ && sequence_ > 0)
+    uint64_t apart = 0; // hash of the instances that are not merged
+    for (const base::ShownPlacement& one : snapshots.shown)
+        apart = base::hashWord(apart, one.instance);
+    if (of == built_ && apart == apart_ && sequence_ > 0)
         return;
     const RevisionPair before = built_;
     const uint64_t newerBefore = revisions_.newer;
@@ -246,6 +249,7 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const RevisionPair&
     }
     listParts();
     built_ = of;
+    apart_ = apart;
 }
 
 } // namespace fx::render

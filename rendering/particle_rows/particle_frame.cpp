@@ -154,7 +154,7 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, const 
     const base::SnapshotGroup* older =
         olderIndex == kNoGroup ? nullptr : &in.snapshots->older->group(olderIndex);
     const float t = float(glm::clamp(in.request->interpolation, 0.0, 1.0));
-    const base::Placement place = placementAt(newer, older, t, in.camera->eye);
+    const base::Placement place = placementAt(*in.snapshots, newer, older, t, in.camera->eye);
     const Ball ball = ballOf(newer, older, place);
     if (ball.radius >= 0.0f && !ViewVolume(*in.camera).touches(ball.center, ball.radius))
         return;

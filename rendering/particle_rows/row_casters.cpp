@@ -84,7 +84,7 @@ void addGroup(const RowCasterInputs& in, size_t index, const RowTechnique& techn
     const float t = float(glm::clamp(in.interpolation, 0.0, 1.0));
     const float seconds =
         before ? float(base::toSeconds(in.snapshots->newer->tick() - before->tick())) : 0.0f;
-    const base::Placement place = placementAt(newer, older, t, in.eye);
+    const base::Placement place = placementAt(*in.snapshots, newer, older, t, in.eye);
     const RowMoment moment(newer, technique.isStrip ? nullptr : older, t, seconds);
     const uint32_t rows = technique.instances(newer);
     const uint32_t stretch = rowsOfStretch(rows, most);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "foundation/assets/volume_sequence.h"
+#include "foundation/math/hash.h"
 #include "rendering/frame/snapshot_revisions.h"
 #include "rendering/frame/view_types.h"
 
@@ -33,16 +34,31 @@ struct FrameKey
     bool layerOutputs = false;
     uint32_t outputs = 0;
     uint64_t volumeReads = 0; ///< base::VolumeSequence::readsOfAll(): frames that were late may have come
+    uint64_t shown = 0;       ///< shownHash()
     const base::AssetTable* assets =
         nullptr; ///< only the address is compared; the pointer is never dereferenced
 
     bool operator==(const FrameKey&) const = default;
 };
 
-inline FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& request,
+/// Hash of the placements at which a frame shows instances; 0 if there are none.
+inline uint64_t shownHash(const base::SnapshotPair& snapshots)
+{
+    uint64_t hash = 0;
+    for (const base::ShownPlacement& one : snapshots.shown) {
+        hash = base::hashWord(hash, one.instance);
+        hash = base::hashBytes(hash, &one.placement.position, sizeof one.placement.position);
+        hash = base::hashBytes(hash, &one.placement.rotation, sizeof one.placement.rotation);
+        hash = base::hashBytes(hash, &one.placement.scale, sizeof one.placement.scale);
+    }
+    return hash;
+}
+
+inline FrameKey frameKey(const RevisionPair& revisions, uint64_t shown, const FrameRequest& request,
                          const ViewSettings& settings, const base::AssetTable* assets)
 {
     FrameKey key;
+    key.shown = shown;
     key.revisions = revisions;
     key.interpolation = revisions.isSteady() ? 0.0 : request.interpolation;
     key.camera = request.camera;

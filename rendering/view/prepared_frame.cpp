@@ -34,7 +34,8 @@ bool ViewRenderer::Impl::takePrepared(const base::SnapshotPair& snapshots, const
 {
     if (!prepared)
         return false;
-    const FrameKey wanted = frameKey(revisions.revisionsOf(snapshots), request, settings, assets);
+    const FrameKey wanted =
+        frameKey(revisions.revisionsOf(snapshots), shownHash(snapshots), request, settings, assets);
     if (prepared->key != wanted || prepared->resetHistory != request.resetHistory) {
         dropPrepared();
         return false;
@@ -90,8 +91,9 @@ base::Status ViewRenderer::prepareLights(const base::SnapshotPair& snapshots, co
         return status;
     if (base::Status status = s.begin(snapshots, asked, settings_); !status)
         return status;
-    s.prepared = {frameKey(s.revisions.revisionsOf(snapshots), asked, settings_, s.assets),
-                  asked.resetHistory, s.key.has_value(), 0, 0};
+    s.prepared = {
+        frameKey(s.revisions.revisionsOf(snapshots), shownHash(snapshots), asked, settings_, s.assets),
+        asked.resetHistory, s.key.has_value(), 0, 0};
     if (!s.keptLists)
         s.key.reset(); // nothing of it has been uploaded yet
     base::Status status = s.fillLights(settings_);

@@ -19,11 +19,12 @@ namespace fx::render {
 namespace {
 
 /// Names what a moment between two snapshots shows.
-uint64_t contentOf(const RevisionPair& revisions, double interpolation)
+uint64_t contentOf(const base::SnapshotPair& snapshots, const RevisionPair& revisions, double interpolation)
 {
     const uint64_t moment = revisions.isSteady() ? 0 : std::bit_cast<uint64_t>(interpolation);
-    return base::hashWord(base::hashWord(revisions.newer, revisions.isSteady() ? 0 : revisions.older),
-                          moment);
+    const uint64_t content =
+        base::hashWord(base::hashWord(revisions.newer, revisions.isSteady() ? 0 : revisions.older), moment);
+    return snapshots.shown.empty() ? content : base::hashWord(content, shownHash(snapshots));
 }
 
 /// Differs where the casters of a frame differ in the world: level of detail depends on the eye.
@@ -97,7 +98,7 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
                                         const ViewSettings& settings)
 {
     const RevisionPair now = revisions.revisionsOf(snapshots);
-    const FrameKey wanted = frameKey(now, request, settings, assets);
+    const FrameKey wanted = frameKey(now, shownHash(snapshots), request, settings, assets);
     keptLists = request.range.isContinued || (key == wanted && !request.resetHistory && !stereo.otherCamera);
     if (keptLists) {
         lights.keep();
@@ -146,7 +147,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               assets,
                               std::span(glows).first(glowCount),
                               &lod,
-                              contentOf(now, request.interpolation),
+                              contentOf(snapshots, now, request.interpolation),
                               castsShadows(settings, glowCount),
                               composing->needsOrder,
                               composing->drawsTiles,

@@ -113,6 +113,7 @@ GasSolver::GasSolver(const GasDef& def, const Quality& quality, base::KindId kin
 {
     if (def.detail.given)
         detail_.emplace(def.detail, def.growth, particles_, memory);
+    gas_.save(unreleased_);
 }
 
 /// Whether the step releases the gas, and what that counts is better spent in the next update.

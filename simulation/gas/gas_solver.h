@@ -112,9 +112,10 @@ private:
     /// [m] position of each parcel at the beginning of its path; allocated only if the gas collides
     base::Column<glm::vec3> ways_;
     Open open_;
-    float hottest_ = 0;    ///< [K] temperature of the hottest parcel at the end of the last step
-    base::Ticks released_; ///< local time of the release
-    base::Ticks now_ = 0;  ///< local time at which the last step ended
+    std::vector<std::byte> unreleased_; ///< state of gas_ before the release
+    float hottest_ = 0;                 ///< [K] temperature of the hottest parcel at the end of the last step
+    base::Ticks released_;              ///< local time of the release
+    base::Ticks now_ = 0;               ///< local time at which the last step ended
     bool begun_ = false;
     bool done_ = false;
 };

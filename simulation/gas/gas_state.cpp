@@ -33,8 +33,12 @@ void GasSolver::restore(StateReader& reader)
     now_ = reader.value<base::Ticks>(0, INT64_MAX / 4, "a gas's clock is out of range");
     begun_ = reader.flag();
     done_ = reader.flag();
-    if (!begun_)
+    if (!begun_) { // the solver may have released its gas before
+        hottest_ = 0;
+        if (const base::Status status = gas_.restore(unreleased_); !status.ok())
+            reader.fail(status);
         return;
+    }
     hottest_ = reader.value<float>(0.0f, 1e6f, "a gas's temperature is out of range");
     const base::Status restored = gas_.restore(reader.block());
     if (!restored.ok())

@@ -8,10 +8,12 @@
 #include "simulation/solver/solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -103,7 +105,10 @@ struct EffectDef
             return bound;
         const float seconds = duration > 0 ? float(base::toSeconds(duration)) : 1e6f;
         float most = 0;
-        std::vector<BirthReach> births(solvers.size());
+        std::array<BirthReach, 32> few; // no allocation where instances are created
+        std::vector<BirthReach> many(solvers.size() > few.size() ? solvers.size() : 0);
+        const std::span<BirthReach> births =
+            many.empty() ? std::span(few).first(solvers.size()) : std::span<BirthReach>(many);
         for (size_t i = 0; i < solvers.size(); ++i) {
             const size_t solver = order.empty() ? i : order[i]; // causes first
             most = std::max(

@@ -11,32 +11,147 @@ namespace fx::sim {
 /// Gives `simulation` solvers in the state before their first step.
 void SimulationPool::makeSolvers(SharedSimulation& simulation)
 {
+    const QualityLevel level = simulation.conditions.quality.level;
+    if (Reserved* const reserved = reservedFor(*simulation.effect, level)) {
+        if (!reserved->sets.empty()) {
+            takeSet(reserved->sets.back(), simulation);
+            reserved->sets.pop_back();
+            simulation.reserved = true;
+            return;
+        }
+        ++reserved->is.misses;
+    }
     const auto fits = [&](const FreeSolvers& free) {
-        return free.effect == simulation.effect && free.level == simulation.conditions.quality.level;
+        return free.effect == simulation.effect && free.level == level;
     };
     const auto found = std::find_if(freeList_.begin(), freeList_.end(), fits);
     if (found != freeList_.end()) {
-        simulation.solvers = std::move(found->solvers);
-        simulation.pristine = std::move(found->pristine);
+        takeSet(*found, simulation);
         freeList_.erase(found);
-        StateReader reader(simulation.pristine->bytes());
-        simulation.restore(reader);
-        if (!reader.ok() || reader.left() != 0)
-            throw std::logic_error("a solver does not take its first state: " + reader.status().message());
-        simulation.updateOnly();
         return;
     }
+    FreeSolvers made = makeSet(simulation.effect, simulation.conditions.quality);
+    simulation.solvers = std::move(made.solvers);
+    simulation.updateOnly();
+    simulation.pristine = std::move(made.pristine);
+}
+
+/// New solvers and their first state.
+SimulationPool::FreeSolvers SimulationPool::makeSet(const std::shared_ptr<const EffectDef>& effect,
+                                                    const Quality& quality) const
+{
     std::vector<std::unique_ptr<Solver>> solvers;
-    solvers.reserve(simulation.effect->solvers.size());
-    for (const std::unique_ptr<const SolverDef>& def : simulation.effect->solvers)
-        solvers.push_back(def->create(*schema_, simulation.conditions.quality, memory_));
+    solvers.reserve(effect->solvers.size());
+    for (const std::unique_ptr<const SolverDef>& def : effect->solvers)
+        solvers.push_back(def->create(*schema_, quality, memory_));
     auto pristine =
         std::allocate_shared<StateBuffer>(std::pmr::polymorphic_allocator<StateBuffer>(memory_), memory_);
     for (const std::unique_ptr<Solver>& solver : solvers)
         solver->save(*pristine);
-    simulation.solvers = std::move(solvers);
+    return {effect, quality.level, std::move(solvers), std::move(pristine), 0};
+}
+
+/// Gives a simulation the solvers of a set, in their first state.
+void SimulationPool::takeSet(FreeSolvers& set, SharedSimulation& simulation)
+{
+    simulation.solvers = std::move(set.solvers);
+    simulation.pristine = std::move(set.pristine);
+    StateReader reader(simulation.pristine->bytes());
+    simulation.restore(reader);
+    if (!reader.ok() || reader.left() != 0)
+        throw std::logic_error("a solver does not take its first state: " + reader.status().message());
     simulation.updateOnly();
-    simulation.pristine = std::move(pristine);
+}
+
+SimulationPool::Reserved* SimulationPool::reservedFor(const EffectDef& effect, QualityLevel level)
+{
+    for (Reserved& one : reserved_)
+        if (one.is.effect.get() == &effect && one.is.level == level)
+            return &one;
+    return nullptr;
+}
+
+std::optional<SimulationPool::Reservation> SimulationPool::reservation(const EffectDef& effect,
+                                                                       QualityLevel level) const
+{
+    for (const Reserved& one : reserved_)
+        if (one.is.effect.get() == &effect && one.is.level == level) {
+            Reservation is = one.is;
+            is.idle = uint32_t(one.sets.size());
+            return is;
+        }
+    return std::nullopt;
+}
+
+uint32_t SimulationPool::reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level,
+                                 uint32_t count)
+{
+    Reserved* reserved = reservedFor(*effect, level);
+    uint32_t used = 0;
+    for (const SharedSimulation& simulation : simulations_)
+        used += simulation.effect == effect && simulation.conditions.quality.level == level &&
+                        !simulation.solvers.empty()
+                    ? 1
+                    : 0;
+    const uint32_t wanted = count > used ? count - used : 0; // sets that no simulation uses
+    const size_t idle = reserved ? reserved->sets.size() : 0;
+    std::vector<FreeSolvers> made; // all before anything changes
+    made.reserve(count);
+    for (size_t i = idle; i < wanted; ++i)
+        made.push_back(makeSet(effect, qualityOf(level)));
+    if (!reserved && count > 0) {
+        reserved_.reserve(reserved_.size() + 1);
+        simulations_.reserve(simulations_.size() + count);
+        free_.reserve(simulations_.size() + count);
+        reserved = &reserved_.emplace_back(Reserved{{effect, level}, {}});
+    } else if (count > 0) {
+        simulations_.reserve(simulations_.size() + count);
+        free_.reserve(simulations_.size() + count);
+    }
+    if (!reserved)
+        return 0;
+    const uint32_t more = uint32_t(made.size());
+    for (FreeSolvers& set : reserved->sets)
+        if (made.size() < wanted)
+            made.push_back(std::move(set));
+    reserved->sets = std::move(made);
+    reserved->is.count = count;
+    for (SharedSimulation& simulation : simulations_)
+        if (simulation.effect == effect && simulation.conditions.quality.level == level)
+            simulation.reserved = count > 0 && !simulation.solvers.empty();
+    if (count == 0)
+        reserved_.erase(reserved_.begin() + (reserved - reserved_.data()));
+    return more;
+}
+
+void SimulationPool::publishReserved(const EffectDef& effect, QualityLevel level,
+                                     base::FrameSnapshot& snapshot) const
+{
+    for (const Reserved& one : reserved_)
+        if (one.is.effect.get() == &effect && one.is.level == level && !one.sets.empty()) {
+            base::GroupInfo info;
+            for (const std::unique_ptr<Solver>& solver : one.sets.back().solvers) {
+                solver->publish(info, snapshot);
+                ++info.solver;
+            }
+        }
+}
+
+/// Returns the solvers to their reservation. Never fails. @return false: there is none, or it is complete
+bool SimulationPool::giveBack(SharedSimulation& simulation)
+{
+    if (!simulation.reserved || simulation.solvers.empty())
+        return false;
+    const QualityLevel level = simulation.conditions.quality.level;
+    Reserved* const reserved = reservedFor(*simulation.effect, level);
+    simulation.reserved = false;
+    if (!reserved || reserved->sets.size() >= reserved->is.count)
+        return false;
+    reserved->sets.push_back(
+        {simulation.effect, level, std::move(simulation.solvers), std::move(simulation.pristine), 0});
+    simulation.solvers.clear();
+    simulation.updateOnly();
+    return true;
 }
 
 void SimulationPool::materialize(SimulationIndex index)
@@ -57,6 +172,7 @@ void SimulationPool::materialize(SimulationIndex index)
     simulation.solvers = std::move(made.solvers);
     simulation.updateOnly();
     simulation.pristine = std::move(made.pristine);
+    simulation.reserved = made.reserved;
     simulation.kept.reset();
     simulation.released = simulation.brief = false;
 }
@@ -92,7 +208,7 @@ void SimulationPool::release(SimulationIndex index, base::Ticks now, bool mayFor
 /// Never fails. The oldest make room.
 void SimulationPool::addToFreeList(SharedSimulation& simulation, base::Ticks now)
 {
-    if (simulation.solvers.empty())
+    if (simulation.solvers.empty() || giveBack(simulation))
         return;
     if (freeList_.size() == kMaxFreeSolvers)
         freeList_.erase(freeList_.begin());

@@ -217,6 +217,7 @@ void SimulationPool::leave(SimulationIndex index)
         return;
     }
     unlink(index);
+    giveBack(simulation);
     simulation = SharedSimulation{};
     free_.push_back(index);
     --count_;

@@ -100,7 +100,8 @@ struct SharedSimulation
     std::shared_ptr<const DistanceField> field; ///< keeps the field of a paused simulation's conditions alive
     std::shared_ptr<const StateBuffer> pristine; ///< state of the solvers before their first step
     std::optional<StateBuffer> kept;
-    bool brief = false; ///< true: `kept` does not contain elements that have died since it was saved
+    bool reserved = false; ///< true: the solvers are a set of a reservation, see SimulationPool::reserve()
+    bool brief = false;    ///< true: `kept` does not contain elements that have died since it was saved
     /// For a released simulation: scene time after which no particle of the state is alive.
     base::Ticks forgottenAt = kNever;
     bool fresh = false; ///< true: another instance may still join, because the simulation was not yet stepped
@@ -192,6 +193,25 @@ public:
 
     void swap(SimulationPool& other) noexcept;
 
+    /// A number of sets of solvers that are kept for the simulations of one effect at one quality.
+    struct Reservation
+    {
+        std::shared_ptr<const EffectDef> effect;
+        QualityLevel level;
+        uint32_t count = 0;  ///< number of simulations that the reservation is for
+        uint64_t misses = 0; ///< number of simulations that found no set
+        uint32_t idle = 0;   ///< number of sets that no simulation uses
+    };
+    /// Creates or destroys sets of solvers until there are `count` for the effect, including those in use.
+    /// Strong guarantee.
+    /// @return number of sets that were created
+    uint32_t reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level, uint32_t count);
+    std::optional<Reservation> reservation(const EffectDef& effect, QualityLevel level) const;
+    /// Publishes the state before the first step of a set that no simulation uses, if there is one.
+    void publishReserved(const EffectDef& effect, QualityLevel level, base::FrameSnapshot& snapshot) const;
+    /// True if the solvers of the simulation return to a reservation.
+    bool isReserved(SimulationIndex index) const { return simulations_[index].reserved; }
+
 private:
     /// The solvers of one simulation in the free list.
     struct FreeSolvers
@@ -202,6 +222,15 @@ private:
         std::shared_ptr<const StateBuffer> pristine;
         base::Ticks since; ///< scene time
     };
+    struct Reserved
+    {
+        Reservation is;
+        std::vector<FreeSolvers> sets; ///< has room for all sets of the reservation
+    };
+    Reserved* reservedFor(const EffectDef& effect, QualityLevel level);
+    FreeSolvers makeSet(const std::shared_ptr<const EffectDef>& effect, const Quality& quality) const;
+    void takeSet(FreeSolvers& set, SharedSimulation& simulation);
+    bool giveBack(SharedSimulation& simulation);
     static constexpr size_t kChains = 256;
     static constexpr size_t kMaxFreeSolvers = 256;
     void makeSolvers(SharedSimulation& simulation);
@@ -218,7 +247,8 @@ private:
     bool share_;
     std::vector<SharedSimulation> simulations_;
     std::vector<SimulationIndex> free_;
-    std::vector<FreeSolvers> freeList_;           ///< sorted by time
+    std::vector<FreeSolvers> freeList_; ///< sorted by time
+    std::vector<Reserved> reserved_;
     std::array<SimulationIndex, kChains> chains_; ///< first fresh simulation of each hash;
                                                   ///< SharedSimulation::nextFresh links the next simulation
     uint32_t count_ = 0;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <utility>
 
 namespace fx::sim {
@@ -41,6 +42,48 @@ Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& st
     }
 }
 
+void World::rehearse(const std::shared_ptr<const EffectDef>& effect, QualityLevel level)
+{
+    constexpr int kSteps = 30;
+    constexpr uint64_t kWork = 2'000'000; // about 20 ms
+    const base::FloatingPointScope floatingPoint;
+    const base::Ticks length = base::kTicksPerSecond / 60;
+    InstanceStart start;
+    start.quality = level;
+    start.startTick = now_;
+    SimulationConditions conditions = conditionsOf(*effect, start);
+    conditions.hasContact = false; // the host is not asked
+    conditions.field = nullptr;
+    spawnBatch_.reserve();
+    struct Ending
+    {
+        World& world;
+        SimulationIndex index;
+        ~Ending()
+        {
+            world.rehearses_ = false;
+            world.spawnBatch_.forget();
+            world.simulations_.leave(index);
+            try {
+                world.scratch_.reset();
+            } catch (const std::bad_alloc&) {
+                // it is empty, and grows with the next step
+            }
+        }
+    } ending{*this, simulations_.create(effect, conditions)};
+    rehearses_ = true;
+    base::WorkBudget work(kWork);
+    StepCounters uncounted;
+    for (int i = 0; i < kSteps && !work.isSpent(); ++i) {
+        std::optional<EventBoard> board;
+        const SimulationStep step{now_ + i * length, length, &spawnBatch_, &board};
+        if (!stepSimulation(ending.index, step, work, uncounted))
+            break;
+        spawnBatch_.close();
+        scratch_.reset();
+    }
+}
+
 Slot World::takeSlot(const InstanceStart& start, SimulationIndex simulation)
 {
     if (!free_.empty()) {
@@ -64,6 +107,27 @@ void World::remove(Slot slot)
     simulations_.leave(instances_[slot].simulation);
     instances_[slot] = Instance{};
     free_.push_back(slot);
+}
+
+uint32_t World::reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level, uint32_t count)
+{
+    const size_t slots = instances_.size() + count;
+    instances_.reserve(slots);
+    free_.reserve(slots);
+    leaving_.reserve(slots);
+    waiting_.reserve(slots);
+    wanted_.reserve(slots);
+    for (std::vector<Slot>* const list :
+         {&stepPlan_.active, &stepPlan_.others, &publishPlan_.active, &publishPlan_.others, &hand_.ownActive,
+          &hand_.ownList, &publication_.own})
+        list->reserve(slots);
+    joining_.reserve(slots);
+    ends_.reserve(slots);
+    const uint32_t made = simulations_.reserve(effect, level, count);
+    for (SimulationIndex index = 0; index < simulations_.size(); ++index)
+        if (simulations_.isReserved(index))
+            leavePool(index);
+    return made;
 }
 
 void World::setPlacement(Slot slot, const base::Placement& placement)

@@ -74,6 +74,21 @@ public:
     /// Removes an instance at the end of its life, and moves its solvers to the free list.
     void recycle(Slot slot);
 
+    /// Keeps the memory of `count` simulations of an effect, see SimulationPool::reserve(). Strong guarantee.
+    /// @return number of sets of solvers that were created
+    uint32_t reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level, uint32_t count);
+    std::optional<SimulationPool::Reservation> reservation(const EffectDef& effect, QualityLevel level) const
+    {
+        return simulations_.reservation(effect, level);
+    }
+    /// Plays a reserved simulation that nobody sees, within a small budget, so that the scratch memory of
+    /// steps has the size that the effect needs. Changes no result. Must not be called while a step is open.
+    void rehearse(const std::shared_ptr<const EffectDef>& effect, QualityLevel level);
+    void publishReserved(const EffectDef& effect, QualityLevel level, base::FrameSnapshot& snapshot) const
+    {
+        simulations_.publishReserved(effect, level, snapshot);
+    }
+
     // ---- hidden instances; step() and publish() must not get hidden slots ----
     void hide(Slot slot);
     void show(Slot slot); ///< makes a hidden instance visible, after catchUp() has returned true
@@ -473,6 +488,7 @@ private:
     bool mayRest_ = true;
     bool mayPool_ = true;
     bool gpuParticles_ = false;
+    bool rehearses_ = false; ///< true: a step is one of rehearse(), of which the host hears nothing
 };
 
 } // namespace fx::sim

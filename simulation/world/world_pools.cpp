@@ -19,11 +19,12 @@ uint64_t nextShape()
 } // namespace
 
 /// Whether the simulation, which has just been stepped, is one that a pool may compute: nothing is going to
-/// happen but what its emitter does by itself.
+/// happen but what its emitter does by itself. Pools grow with their members, which those that were reserved
+/// must not need.
 bool World::canPool(const SharedSimulation& simulation) const
 {
-    return mayPool_ && simulation.only && simulation.users == 1 && simulation.hidden == 0 &&
-           simulation.effect->subSteps <= 1 && simulation.pendingEvents.empty() &&
+    return mayPool_ && !simulation.reserved && simulation.only && simulation.users == 1 &&
+           simulation.hidden == 0 && simulation.effect->subSteps <= 1 && simulation.pendingEvents.empty() &&
            simulation.changes.empty() && simulation.conditions.clock.rate == kNormalRate &&
            !simulation.conditions.parameters.isTinted();
 }

@@ -169,7 +169,7 @@ bool World::stepSimulation(SimulationIndex index, const SimulationStep& step, ba
         const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
         const base::Ticks parts = partsOf(*simulation.effect) * std::max<base::Ticks>(turns, 1);
         context.spawnBatch = parts == 1 ? step.spawnBatch : nullptr;
-        if (cues_ && step.board && !simulation.effect->order.empty()) {
+        if (cues_ && step.board && !rehearses_ && !simulation.effect->order.empty()) {
             selectCues(simulation); // a simulation that catches up records no events
             context.cues = &*cues_;
         }

@@ -33,6 +33,7 @@ TEST(Defaults, areThoseOfTheInlineFunctions)
     expectSame(fxGetDefaultBudget, fxDefaultBudget());
     expectSame(fxGetDefaultCollisionMesh, fxDefaultCollisionMesh());
     expectSame(fxGetDefaultContactHook, fxDefaultContactHook());
+    expectSame(fxGetDefaultMotion, fxDefaultMotion());
 }
 
 TEST(Defaults, anOlderCallerGetsTheMembersThatItKnows)

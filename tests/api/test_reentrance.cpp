@@ -172,6 +172,12 @@ protected:
         host.note("fxScene_GetInstanceState",
                   fxScene_GetInstanceState(scene, instance_, &instanceState, nullptr));
         host.note("fxScene_SetTransform", fxScene_SetTransform(scene, instance_, position, rotation, 1.0f));
+        const FxMotion motion = fxDefaultMotion();
+        FxReservationInfo reservation{};
+        reservation.structSize = sizeof reservation;
+        host.note("fxScene_SetMotion", fxScene_SetMotion(scene, instance_, &motion));
+        host.note("fxScene_ReservePreset", fxScene_ReservePreset(scene, def.preset, 0, 2));
+        host.note("fxScene_GetReservation", fxScene_GetReservation(scene, def.preset, 0, &reservation));
         host.note("fxScene_SetParameters", fxScene_SetParameters(scene, instance_, &parameters));
         host.note("fxScene_SeekInstance", fxScene_SeekInstance(scene, instance_, 0.1));
         host.note("fxScene_SetContactHook", fxScene_SetContactHook(scene, nullptr));

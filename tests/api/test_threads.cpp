@@ -126,6 +126,12 @@ TEST_F(ThreadApi, everySceneFunctionRefusesAnotherThread)
         EXPECT_EQ(fxScene_IsValid(scene_, id), 0u);
         EXPECT_EQ(fxScene_GetInstanceState(scene_, id, nullptr, nullptr), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxScene_SetTransform(scene_, id, position, rotation, 1), FX_ERROR_WRONG_THREAD);
+        const FxMotion motion = fxDefaultMotion();
+        FxReservationInfo reservation{};
+        reservation.structSize = sizeof reservation;
+        EXPECT_EQ(fxScene_SetMotion(scene_, id, &motion), FX_ERROR_WRONG_THREAD);
+        EXPECT_EQ(fxScene_ReservePreset(scene_, def.preset, 0, 2), FX_ERROR_WRONG_THREAD);
+        EXPECT_EQ(fxScene_GetReservation(scene_, def.preset, 0, &reservation), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxScene_SetParameters(scene_, id, &parameters), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxScene_GetStatistics(scene_, &statistics), FX_ERROR_WRONG_THREAD);

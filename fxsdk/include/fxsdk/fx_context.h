@@ -189,6 +189,22 @@ typedef struct FxMemoryStats
     uint32_t views;           ///< number of existing views
     uint64_t bytesInUse;      ///< [byte] memory that is allocated and not yet released
     uint64_t allocationCount; ///< number of allocations since the context was created
+
+    /// [byte] memory of all reservations of all scenes, a part of bytesInUse; see fx_reserve.h.
+    uint64_t bytesReserved;
+
+    /// [byte] voxels of played volume sequences that are held or being read.
+    uint64_t sequenceBytes;
+
+    /// Number of times that a frame of a volume sequence was read from its file while it played.
+    uint64_t sequenceFramesRead;
+
+    /// Number of times that a view found a frame of a volume sequence missing, because it was not read yet.
+    /// The view then draws the balls that stand for it (docs/howto/volumes.md).
+    uint64_t sequenceFramesLate;
+
+    /// Number of frames of volume sequences that could not be read. They are not tried again.
+    uint64_t sequenceFramesFailed;
 } FxMemoryStats;
 
 /// Finds an OpenGL function by the window system whose context is current on this thread: EGL, GLX or SDL, as

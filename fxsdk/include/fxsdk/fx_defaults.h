@@ -15,6 +15,7 @@
 #include "fxsdk/fx_base.h"
 #include "fxsdk/fx_collision.h"
 #include "fxsdk/fx_context.h"
+#include "fxsdk/fx_motion.h"
 #include "fxsdk/fx_scene.h"
 #include "fxsdk/fx_view.h"
 #include "fxsdk/fx_view_lights.h"
@@ -58,6 +59,9 @@ FX_API FxResult fxGetDefaultCollisionMesh(FxCollisionMesh* ioMesh);
 
 /// fxDefaultContactHook(). [any]
 FX_API FxResult fxGetDefaultContactHook(FxContactHook* ioHook);
+
+/// fxDefaultMotion(). [any]
+FX_API FxResult fxGetDefaultMotion(FxMotion* ioMotion);
 
 #ifdef __cplusplus
 }

@@ -78,8 +78,7 @@ typedef struct FxSceneDef
     /// [tick] 0..3600 s, time out of sight after which an instance's memory is released; default 5 s.
     int64_t releaseAfterTicks;
 
-    /// [tick] 0..3600 s, longest absence that is replayed; longer absences are skipped and counted; default
-    /// 30 s.
+    /// [tick] 0..3600 s, longest absence that is replayed; longer ones are skipped and counted; default 30 s.
     int64_t maxCatchUpTicks;
 
     /// Maximum number of particle steps that one update spends on replays, >= 1; default 200,000.
@@ -99,6 +98,9 @@ typedef struct FxSceneDef
 
     /// FxEventKinds, bits of the events that are recorded; default FX_EVENTS_FINISHED | FX_EVENTS_CUES.
     uint32_t eventKinds;
+
+    /// [byte] upper limit of the memory of all reservations of the scene, see fx_reserve.h; default 1 GiB.
+    uint64_t reserveLimit;
 } FxSceneDef;
 
 /// The definition of a scene that steps 60 times a second.
@@ -120,7 +122,8 @@ static inline FxSceneDef fxDefaultSceneDef(void)
                       0,
                       10000000,
                       0,
-                      FX_EVENTS_FINISHED | FX_EVENTS_CUES};
+                      FX_EVENTS_FINISHED | FX_EVENTS_CUES,
+                      UINT64_C(1) << 30};
     return def;
 }
 
@@ -146,8 +149,7 @@ typedef struct FxInstanceDef
     /// Unit quaternion x, y, z, w (length within 1e-3 of 1); default identity.
     float rotation[4];
 
-    /// [tick] scene time of the start, >= 0; when it is past, the instance starts with the next step; default
-    /// 0.
+    /// [tick] scene time of the start, >= 0; if it is past, the start is with the next step; default 0.
     int64_t startTick;
 
     /// Seed of random numbers. The same seed and calls give the same bits on any number of threads; default
@@ -361,8 +363,7 @@ FX_API FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance);
 FX_API FxResult fxScene_DestroyAllInstances(FxScene* scene);
 
 /// Tests whether an id names an instance of this scene. [scene thread]
-/// @return 1 if the id names an instance of this scene; 0 if it does not, if the scene is null, or if the
-///         thread is wrong
+/// @return 1 if the id names an instance of this scene; else 0, also for a null scene or the wrong thread
 FX_API uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance);
 
 /// Reads the state of an instance and its number of particles. [scene thread]

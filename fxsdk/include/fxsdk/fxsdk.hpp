@@ -275,6 +275,24 @@ public:
         check(fxScene_SetTransform(get(), instance, position, rotation, scale));
     }
 
+    /// Adds a pose to the path of the instance.
+    void setMotion(FxInstanceId instance, const FxMotion& motion)
+    {
+        check(fxScene_SetMotion(get(), instance, &motion));
+    }
+
+    /// Allocates the memory of `count` instances in advance; 0 frees it.
+    void reserve(FxPresetId preset, uint32_t count, uint32_t quality = FX_QUALITY_DEFAULT)
+    {
+        check(fxScene_ReservePreset(get(), preset, quality, count));
+    }
+
+    FxReservationInfo reservation(FxPresetId preset, uint32_t quality = FX_QUALITY_DEFAULT)
+    {
+        return detail::filled<FxReservationInfo>(
+            [&](auto* out) { return fxScene_GetReservation(get(), preset, quality, out); });
+    }
+
     void setParameters(FxInstanceId instance, const FxInstanceParameters& parameters)
     {
         check(fxScene_SetParameters(get(), instance, &parameters));

@@ -209,6 +209,15 @@ class Scene(_Owned):
         fx.fxScene_SetTransform(self.pointer, instance, (ctypes.c_double * 3)(*position),
                                 (ctypes.c_float * 4)(*rotation), scale)
 
+    def follow(self, instance, position, rotation=(0, 0, 0, 1), **members):
+        """Adds a pose to the path of an instance. @param members of FxMotion, such as aheadSeconds=1 / 60"""
+        motion = assign(default("FxMotion"), dict(members, position=position, rotation=rotation))
+        fx.fxScene_SetMotion(self.pointer, instance, ctypes.byref(motion))
+
+    def reserve(self, preset, count, quality=0):
+        """Allocates the memory of `count` instances of a preset in advance; 0 frees it."""
+        fx.fxScene_ReservePreset(self.pointer, self._context.load(preset), quality, count)
+
     def statistics(self):
         """FxSceneStatistics."""
         return filled("FxSceneStatistics", fx.fxScene_GetStatistics, self.pointer)

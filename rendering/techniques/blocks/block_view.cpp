@@ -144,7 +144,7 @@ void BlockView::walk(const GatherInputs& in, BlockWalk& walk, size_t place)
     settings.maxBalls = late.count();
     const size_t jobs = tiles_.jobs().size();
     const BlobDetail detail = detailOf(groups, before ? older : nullptr, t);
-    const base::Placement at = placementAt(groups.root(), before, t, in.camera->eye);
+    const base::Placement at = placementAt(*in.snapshots, groups.root(), before, t, in.camera->eye);
     walk.run(groups, contents_, before, t, float(step), double(groups.root().constants()[constant::Seconds]),
              at, commonOf(late), detail, settings);
     if (detail.isGiven())

@@ -31,6 +31,12 @@ public:
     void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
     /// True if the end of the emitter's step is deferred.
     bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
+    /// Allocates all memory that steps will need.
+    void reserve()
+    {
+        if (births_.capacity() == 0)
+            makeRoom();
+    }
     /// Discards pending births. For use after an exception.
     void forget();
     /// Computes the deferred births.
