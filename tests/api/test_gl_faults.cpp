@@ -1,5 +1,6 @@
 // Each call of OpenGL that can fail fails once: a frame is drawn, or the picture is the host's, nothing
 // leaks, and the next frame is drawn.
+#include "tests/api/fault_table.h"
 #include "tests/api/gl_faults.h"
 #include "tests/api/view_fixture.h"
 #include "tests/rendering/gl/gl_host_state.h"
@@ -71,6 +72,7 @@ protected:
         const FxViewSettings all = settings();
         const FxFrameDef def = frame();
         fillPicture();
+        const uint64_t hash = hashOf(scene);
         const GlProbe before = states_.probe();
         faults_.failAt(n, ofCompilers);
         FxView* view = nullptr;
@@ -85,8 +87,12 @@ protected:
                     isOfTarget) // the host's target counts as one that cannot be drawn to
 
             << result << " " << fxGetLastErrorMessage();
-        EXPECT_EQ(picture(), result == FX_OK ? wanted_ : empty_) << fxGetLastErrorMessage();
-        EXPECT_EQ(fx::render::differences(before, states_.probe()), std::vector<std::string>());
+        const bool hasPicture = picture() == (result == FX_OK ? wanted_ : empty_);
+        EXPECT_TRUE(hasPicture) << fxGetLastErrorMessage();
+        const std::vector<std::string> changed = fx::render::differences(before, states_.probe());
+        EXPECT_EQ(changed, std::vector<std::string>());
+        const bool isSameScene = hashOf(scene) == hash;
+        EXPECT_TRUE(isSameScene);
         faults_.failAt(0, ofCompilers);
         fillPicture();
         if (view) {
@@ -95,7 +101,31 @@ protected:
         }
         EXPECT_EQ(fxDestroyView(view), FX_OK);
         refused_ += result != FX_OK;
-        return !failed.empty();
+        if (failed.empty())
+            return false;
+        fx::test::FaultRow& row = failed == "glCheckNamedFramebufferStatus" ? framebuffers_
+                                  : ofCompilers                             ? compilers_
+                                                                            : memoryFaults_;
+        ++row.injected;
+        row.refused += result != FX_OK;
+        row.pictures += !hasPicture;
+        row.glStates += !changed.empty();
+        row.scenes += !isSameScene;
+        return true;
+    }
+    static uint64_t hashOf(FxScene* scene)
+    {
+        uint64_t hash = 0;
+        EXPECT_EQ(fxScene_GetSimulationHash(scene, &hash), FX_OK);
+        return hash;
+    }
+    /// Number of GL objects that `before` does not have.
+    int64_t leftSince(const Objects& before)
+    {
+        int64_t left = 0;
+        for (const auto& [kind, count] : objects())
+            left += count - before.at(kind);
+        return left;
     }
     Objects objects()
     {
@@ -130,6 +160,9 @@ protected:
     fx::render::GlHost states_;
     std::vector<float> empty_, wanted_;
     uint64_t refused_ = 0; ///< frames that have failed
+    fx::test::FaultRow memoryFaults_{.fault = "out of memory: buffer, map, texture"};
+    fx::test::FaultRow framebuffers_{.fault = "incomplete framebuffer"};
+    fx::test::FaultRow compilers_{.fault = "compile or link error"};
 };
 
 } // namespace
@@ -148,8 +181,12 @@ TEST_F(GlFaultSweep, ofMemoryAndFramebuffersLeavesPictureStatesAndObjects)
     std::printf("%llu calls failed, %llu frames were refused\n", static_cast<unsigned long long>(n - 1),
                 static_cast<unsigned long long>(refused_));
     EXPECT_GT(refused_, 20u);
+    memoryFaults_.glObjects = leftSince(warm);
     ASSERT_EQ(fxDestroyContext(context), FX_OK);
     EXPECT_EQ(blocks_.blocks(), 0);
+    memoryFaults_.blocks = blocks_.blocks();
+    fx::test::FaultTable::note(memoryFaults_);
+    fx::test::FaultTable::note(framebuffers_);
 }
 
 TEST_F(GlFaultSweep, ofCompilersLeavesPictureStatesAndObjects)
@@ -171,6 +208,9 @@ TEST_F(GlFaultSweep, ofCompilersLeavesPictureStatesAndObjects)
                 static_cast<unsigned long long>(refused_));
     EXPECT_GT(refused_, 8u);
     EXPECT_EQ(blocks_.blocks(), 0);
+    compilers_.glObjects = leftSince(before);
+    compilers_.blocks = blocks_.blocks();
+    fx::test::FaultTable::note(compilers_);
 }
 
 TEST_F(GlFaultSweep, aMissingFunctionIsNamed)
@@ -189,6 +229,11 @@ TEST_F(GlFaultSweep, aMissingFunctionIsNamed)
         ASSERT_EQ(objects(), before) << name;
     }
     EXPECT_EQ(blocks_.blocks(), 0);
+    fx::test::FaultTable::note({.fault = "missing function",
+                                .injected = names.size(),
+                                .refused = names.size(),
+                                .glObjects = leftSince(before),
+                                .blocks = blocks_.blocks()});
 }
 
 TEST_F(GlFaultSweep, aTargetOfAnotherSizeInEachFrameLeaksNothing)
@@ -206,9 +251,16 @@ TEST_F(GlFaultSweep, aTargetOfAnotherSizeInEachFrameLeaksNothing)
         def.height = height;
         return fxView_Render(view, &def);
     };
+    const uint64_t hash = hashOf(scene);
+    const GlProbe states = states_.probe();
+    fx::test::FaultRow sizes{.fault = "another size in each frame"};
+    fx::test::FaultRow wrong{.fault = "target of no size, or too large"};
     uint64_t most = 0;
     for (int i = 0; i < 80; ++i) {
         ASSERT_EQ(draw(1 + i * 37 % kSize, 1 + i * 23 % kSize), FX_OK) << fxGetLastErrorMessage();
+        ++sizes.injected;
+        sizes.glStates += !fx::render::differences(states, states_.probe()).empty();
+        sizes.scenes += hashOf(scene) != hash;
         FxViewStatistics statistics{};
         statistics.structSize = sizeof statistics;
         ASSERT_EQ(fxView_GetStatistics(view, &statistics), FX_OK);
@@ -219,10 +271,24 @@ TEST_F(GlFaultSweep, aTargetOfAnotherSizeInEachFrameLeaksNothing)
     fillPicture();
     const std::vector<float> before = picture();
     for (const int size : {0, -1, kSize + 1, 16'384, 16'385, 1 << 30})
-        EXPECT_EQ(draw(size, kSize), FX_ERROR_INVALID_ARGUMENT) << size;
+        for (const bool isWidth : {true, false}) {
+            const FxResult result = isWidth ? draw(size, kSize) : draw(kSize, size);
+            EXPECT_EQ(result, FX_ERROR_INVALID_ARGUMENT) << size;
+            ++wrong.injected;
+            wrong.refused += result != FX_OK;
+            wrong.glStates += !fx::render::differences(states, states_.probe()).empty();
+            wrong.scenes += hashOf(scene) != hash;
+            wrong.pictures += picture() != before;
+        }
     EXPECT_EQ(picture(), before);
+    EXPECT_EQ(sizes.glStates + wrong.glStates + sizes.scenes + wrong.scenes + wrong.pictures, 0u);
     EXPECT_EQ(draw(kSize, kSize), FX_OK) << fxGetLastErrorMessage();
     ASSERT_EQ(fxDestroyView(view), FX_OK);
     EXPECT_EQ(objects(), warm);
+    sizes.glObjects = wrong.glObjects = leftSince(warm);
     ASSERT_EQ(fxDestroyContext(context), FX_OK);
+    sizes.blocks = wrong.blocks = blocks_.blocks();
+    EXPECT_EQ(blocks_.blocks(), 0);
+    fx::test::FaultTable::note(sizes);
+    fx::test::FaultTable::note(wrong);
 }

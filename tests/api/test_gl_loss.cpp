@@ -1,4 +1,5 @@
 // OpenGL contexts that are lost: views say so, call OpenGL no more, and go on in another context.
+#include "tests/api/fault_table.h"
 #include "tests/api/gl_loss.h"
 #include "tests/api/view_fixture.h"
 
@@ -53,6 +54,9 @@ protected:
     {
         EXPECT_EQ(fxDestroyContext(context_), FX_OK) << fxGetLastErrorMessage();
         EXPECT_EQ(memory_.blocks(), 0);
+        losses_.blocks = memory_.blocks();
+        if (losses_.injected > 0)
+            fx::test::FaultTable::note(losses_);
     }
 
     void openWindow()
@@ -159,6 +163,7 @@ protected:
     void sweep(uint64_t stride, Draw&& drawFrame)
     {
         uint64_t n = 1;
+        const uint64_t before = hash();
         for (bool wasLost = true; wasLost && !HasFailure(); n += stride) {
             ASSERT_EQ(fxContext_RestoreGl(context_, nullptr), FX_OK) << fxGetLastErrorMessage();
             loss_->loseAt(n);
@@ -179,6 +184,11 @@ protected:
             callEverything();
             EXPECT_EQ(loss_->calls(), calls);
             loss_->loseAt(0);
+            const bool isSameScene = hash() == before;
+            EXPECT_TRUE(isSameScene);
+            ++losses_.injected;
+            losses_.refused += isNoticed;
+            losses_.scenes += !isSameScene;
         }
         std::printf("%llu calls, each %llu. of them lost the context\n", static_cast<unsigned long long>(n),
                     static_cast<unsigned long long>(stride));
@@ -188,6 +198,7 @@ protected:
     }
 
     uint32_t composition_ = FX_COMPOSITION_SORTED; ///< of settings()
+    fx::test::FaultRow losses_{.fault = "context lost in a call", .endsWithContext = true};
     fx::test::HostAllocator memory_;
     std::unique_ptr<fx::render::GlContext> gl_;
     std::unique_ptr<GlLoss> loss_;

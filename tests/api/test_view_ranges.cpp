@@ -1,10 +1,13 @@
 // Frames that are drawn range by range of depth, between the transparent surfaces of a host.
+#include "rendering/image/image.h"
 #include "tests/api/view_fixture.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <utility>
@@ -119,6 +122,44 @@ protected:
         render(view, def, FX_RANGE_LAST, 0.0f, cut.ends[0]);
         return picture();
     }
+    /// A pane of green glass in the middle of the picture: it lets through a share of each color, and
+    /// reflects.
+    static void tint(std::vector<float>& io)
+    {
+        constexpr std::array<float, 3> kThrough{0.2f, 0.7f, 0.35f}, kReflected{0.02f, 0.03f, 0.04f};
+        for (int y = kSize / 8; y < kSize * 7 / 8; ++y)
+            for (int x = kSize / 3; x < kSize * 2 / 3; ++x)
+                for (size_t c = 0; c < 3; ++c) {
+                    float& value = io[(size_t(y) * kSize + size_t(x)) * 4 + c];
+                    value = value * kThrough[c] + kReflected[c];
+                }
+    }
+    void drawGlass()
+    {
+        std::vector<float> pixels = picture();
+        tint(pixels);
+        host_->gl.TextureSubImage2D(color_.name(), 0, 0, 0, kSize, kSize, GL_RGBA, GL_FLOAT, pixels.data());
+    }
+    /// Writes a PNG if FXSDK_PICTURES names a folder, four pixels for each, with a curve for bright light.
+    static void writePicture(const std::string& name, const std::vector<float>& pixels)
+    {
+        const char* const folder = std::getenv("FXSDK_PICTURES");
+        if (!folder)
+            return;
+        constexpr int kEach = 4, kSide = kSize * kEach;
+        fx::image::Image image{kSide, kSide, 3, std::vector<float>(size_t(kSide) * kSide * 3)};
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x)
+                for (size_t c = 0; c < 3; ++c) {
+                    const size_t row = size_t((kSide - 1 - y) / kEach); // the top row comes first
+                    const float value = pixels[(row * kSize + size_t(x / kEach)) * 4 + c];
+                    image.at(x, y)[c] = fx::image::linearToSrgb(value / (value + 0.5f));
+                }
+        const auto bytes = fx::image::writePng(image);
+        ASSERT_TRUE(bytes.ok()) << bytes.status().message();
+        std::ofstream(std::string(folder) + "/glass-" + name + ".png", std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes->data()), std::streamsize(bytes->size()));
+    }
     FxViewStatistics countsOf(FxView* view)
     {
         FxViewStatistics counts{};
@@ -180,6 +221,54 @@ TEST_F(ViewRanges, hideTheBackgroundAsTheWholePictureDoes)
         transmittance(inRanges(view, kCampfire, 0.0f), inRanges(view, kCampfire, 1.0f));
     EXPECT_LE(fx::test::largestShownDifference(throughRanges, throughWhole), kStep);
     EXPECT_LT(*std::min_element(throughWhole.begin(), throughWhole.end()), 0.9f); // there is smoke
+}
+
+TEST_F(ViewRanges, showEffectsBeforeInAndBehindGlass)
+{
+    FxView* const view = show(kCampfire, FX_COMPOSITION_SLABS);
+    FxViewSettings settings = sunny(FX_COMPOSITION_SLABS);
+    settings.shimmerStrength = 0.0f;
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    const FxFrameDef def = eye(kCampfire);
+    struct Place
+    {
+        const char* name;
+        float depth; ///< [m]
+    };
+    std::vector<std::vector<float>> pictures;
+    for (const Place& at : {Place{"before", 1.2f}, Place{"inside", 3.0f}, Place{"behind", 20.0f}}) {
+        SCOPED_TRACE(at.name);
+        clear(kBackground);
+        render(view, def, FX_RANGE_FIRST, at.depth, kEndless);
+        drawGlass(); // the transparent pass of the host
+        const std::vector<float> behind = picture();
+        render(view, def, FX_RANGE_LAST, 0.0f, at.depth);
+        pictures.push_back(picture());
+        writePicture(at.name, pictures.back());
+        // what is before the glass, over black and over white, tells what it shows of the picture with glass
+        const auto near = [&](float background) {
+            clear(background);
+            render(view, def, FX_RANGE_FIRST, at.depth, kEndless);
+            clear(background);
+            render(view, def, FX_RANGE_LAST, 0.0f, at.depth);
+            return picture();
+        };
+        const std::vector<float> dark = near(0.0f), bright = near(1.0f);
+        std::vector<float> wanted = pictures.back();
+        for (size_t i = 0; i < wanted.size(); ++i)
+            wanted[i] = i % 4 == 3 ? wanted[i] : dark[i] + (bright[i] - dark[i]) * behind[i];
+        EXPECT_LE(fx::test::largestShownDifference(pictures.back(), wanted), kStep);
+    }
+    std::vector<float> tinted = whole(view, def, kBackground);
+    tint(tinted);
+    EXPECT_LE(fx::test::largestShownDifference(pictures[0], tinted), kStep); // all is behind the glass
+    clear(kBackground);
+    drawGlass();
+    render(view, def, FX_RANGE_ONLY, 0.0f, kEndless);
+    EXPECT_LE(fx::test::largestShownDifference(pictures[2], picture()), kStep); // all is before it
+    EXPECT_GT(fx::test::largestShownDifference(pictures[1], pictures[0]), 0.1f);
+    EXPECT_GT(fx::test::largestShownDifference(pictures[1], pictures[2]), 0.1f);
+    hide(view);
 }
 
 TEST_F(ViewRanges, shareWhatTheFirstCallPreparesAndItsMoment)
