@@ -5,7 +5,7 @@
 namespace fx::editor {
 namespace {
 
-constexpr int kControl = 341, kEnter = 257, kLeft = 263; // of GLFW
+constexpr int kControl = 341, kAlt = 342, kEnter = 257, kLeft = 263; // of GLFW
 
 InputEvent key(int code, bool isDown)
 {
@@ -52,6 +52,29 @@ TEST(InputQueue, aModifierIsDownInTheFrameOfItsKey)
         queue.push(event);
     EXPECT_EQ(queue.take(), (std::vector{key(kControl, true), key('Z', true)}));
     EXPECT_EQ(queue.take(), (std::vector{key(kControl, false), key('Z', false)}));
+}
+
+TEST(InputQueue, aModifierHoldsForWhatFollowsItAlone)
+{
+    InputQueue queue;
+    queue.push(key(kControl, true));
+    (void)queue.take();
+    for (const auto& event : {key('Z', true), key(kControl, false), key('Z', false)})
+        queue.push(event);
+    EXPECT_EQ(queue.take(), std::vector{key('Z', true)}); // with Ctrl, which is released after it
+    EXPECT_EQ(queue.take(), (std::vector{key(kControl, false), key('Z', false)}));
+    const InputEvent wheel{InputKind::Wheel, 0, false, 0.0, 1.0};
+    for (const InputEvent& first : {key('Z', true), typed('z'), button(true), wheel}) {
+        queue.push(first);
+        queue.push(key(kAlt, true));
+        queue.push(key(kAlt, false));
+        EXPECT_EQ(framesOf(queue), (std::vector<size_t>{1, 1, 1}));
+    }
+    queue.push(motion(1.0));
+    queue.push(key(kControl, true));
+    queue.push(key(kAlt, true));
+    queue.push(key('Z', true));
+    EXPECT_EQ(framesOf(queue), std::vector<size_t>{4});
 }
 
 TEST(InputQueue, textIsTypedTogetherAndEnteredAfterIt)

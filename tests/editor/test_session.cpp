@@ -1,5 +1,6 @@
 #include "fxsdk/editor/document/document_findings.h"
 #include "fxsdk/editor/session/session.h"
+#include "fxsdk/editor/session/time_edits.h"
 #include "fxsdk/editor/session/time_marks.h"
 
 #include "tests/tool/temporary_folder.h"
@@ -76,6 +77,31 @@ TEST(Session, theTimelineFollowsTheTimeOfThePreview)
     EXPECT_EQ(open.document.json()["preview"]["camera"]["target"], Json::array({0.0, 1.0, 0.0}));
     open.undo();
     EXPECT_FALSE(open.document.json()["preview"].contains("camera"));
+}
+
+TEST(Session, theViewStaysWhileKeysOfTheCameraAreEditedAndWhenTheLastIsRemoved)
+{
+    test::TemporaryFolder folder;
+    const std::string path = (folder / "a.scene.json").string();
+    test::writeText(path, R"({"version": 1, "camera": {"position": [0, 1, 9], "target": [0, 1, 0]}})");
+    auto session = Session::open(path, folder / "state");
+    ASSERT_TRUE(session.ok());
+    Session& open = **session;
+    (void)open.followPreview();
+    open.run(open.document.set("/camera/fovYDegrees", 40));
+    EXPECT_TRUE(open.followPreview());
+    open.run(addCameraKey(open.document, open.camera, 0.0));
+    EXPECT_FALSE(open.followPreview());
+    open.run(open.document.set("/camera/fovYDegrees", 50));
+    EXPECT_FALSE(open.followPreview());
+    open.run(removeTimed(open.document, "/camera/keys/0/time"));
+    EXPECT_FALSE(open.hasCameraKeys());
+    EXPECT_FALSE(open.followPreview());
+    open.run(open.document.set("/camera/fovYDegrees", 60));
+    EXPECT_TRUE(open.followPreview());
+    open.followsCamera = true;
+    open.run(addCameraKey(open.document, open.camera, 0.0));
+    EXPECT_TRUE(open.followPreview());
 }
 
 TEST(Session, aViewThatIsKeptIsAValidCamera)

@@ -116,6 +116,46 @@ TEST(TimeEdits, cameraKeysAreAddedMovedReplacedAndRemovedAndTheRestIsKept)
     EXPECT_EQ(document.text(), kMoving);
 }
 
+TEST(TimeEdits, timesAreRoundedAtTheLimitsOfADragToo)
+{
+    const auto sceneOf = [](const std::string& times) {
+        std::string keys;
+        for (size_t at = 0, end = 0; end != std::string::npos; at = end + 1) {
+            end = times.find(' ', at);
+            keys += std::string(keys.empty() ? "" : ", ") + R"({"time": )" + times.substr(at, end - at) +
+                    R"(, "position": [0, 1, 9], "target": [0, 1, 0]})";
+        }
+        return documentOf(R"({"version": 1, "camera": {"keys": [)" + keys + "]}}", "a.scene.json");
+    };
+    const auto timesOf = [](const Document& document) {
+        std::vector<double> times;
+        for (const Json& key : document.json()["camera"]["keys"])
+            times.push_back(key["time"].get<double>());
+        return times;
+    };
+    Document document = sceneOf("0.06 0.5");
+    TimeMark mark = marksOf(document, MarkKind::CameraKey)[1];
+    EXPECT_EQ(timeAt(document, mark, 0.0), 0.07); // 0.06 + 0.01 is less
+    ASSERT_TRUE(document.set(mark.pointer, timeAt(document, mark, 0.0)).ok());
+    ASSERT_TRUE(addCameraKey(document, {}, 0.07).ok()); // replaces it
+    EXPECT_EQ(timesOf(document), (std::vector{0.06, 0.07}));
+    document = sceneOf("0.0654 0.5 0.6046"); // neighbors that are not rounded
+    mark = marksOf(document, MarkKind::CameraKey)[1];
+    EXPECT_EQ(timeAt(document, mark, 0.0), 0.08);
+    EXPECT_EQ(timeAt(document, mark, 2.0), 0.59);
+    document = sceneOf("0.061 0.066 0.071"); // without room between them
+    EXPECT_EQ(timeAt(document, marksOf(document, MarkKind::CameraKey)[1], 2.0), 0.066);
+    for (const auto& [times, wanted] :
+         {std::pair<std::string, std::vector<double>>{"0.06999999999999999 1", {0.07, 1.0}},
+          {"0.066 0.0724", {0.066, 0.07}},
+          {"0.064 0.076", {0.064, 0.07, 0.076}}})
+    {
+        document = sceneOf(times);
+        ASSERT_TRUE(addCameraKey(document, {}, 0.07).ok());
+        EXPECT_EQ(timesOf(document), wanted) << times;
+    }
+}
+
 TEST(TimeEdits, aSessionKnowsWhetherTheCameraMoves)
 {
     test::TemporaryFolder folder;

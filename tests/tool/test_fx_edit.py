@@ -5,9 +5,8 @@ FX_EDIT_EDITS: edits of the test of many edits in a row (default 60)."""
 import json
 import os
 import re
-import unittest
 
-from edit_test import SMALL, EditTest
+from edit_test import SMALL, EditTest, run_tests
 from fx_program import fx
 from png_pixels import Pixels
 
@@ -357,4 +356,4 @@ rendered
 
 
 if __name__ == "__main__":
-    unittest.main()
+    run_tests()

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """fx edit without a display: keys of several curves that are shown at once."""
 import json
-import unittest
 
-from edit_test import SMALL, EditTest
+from edit_test import SMALL, EditTest, run_tests
 from fx_program import fx
 
 CURVES = SMALL.replace('"speed": 0.6,', '''"speed": 0.6,
@@ -82,14 +81,26 @@ text {folder}/undone.fx.json
         self.assertEqual([scaled[0][1], scaled[1][1]], [[0.6, 0.5], [0.6, 0.5]])
         self.assertEqual(self.read("undone.fx.json"), CURVES)
 
-    def test_the_delete_key_removes_the_selected_keys_of_the_visible_curves(self):
+    def test_the_delete_key_removes_the_selected_keys_of_the_visible_curves_while_their_panel_has_the_focus(self):
         show = "click curve/show/sizeOverLife\n"
         places = self.run_script(show + "places\n").out
-        self.run_script(show + self.box(places) + "key delete\ntext {folder}/removed.fx.json\nkey ctrl+z\ntext {folder}/undone.fx.json\n")
+        self.run_script(show + self.box(places) + """
+move 5 5
+key delete
+text {folder}/removed.fx.json
+key ctrl+z
+text {folder}/undone.fx.json
+click select/emitters/0
+""" + self.box(places) + """
+click select/emitters/0
+key delete
+text {folder}/elsewhere.fx.json
+""")
+        self.assertEqual(self.read("elsewhere.fx.json"), CURVES)
         size, opacity, temperature = self.keys("removed.fx.json")
         self.assertEqual((size, opacity, len(temperature)), ([[0, 0.5], [1, 0.5]], [[0, 0], [1, 0]], 3))
         self.assertEqual(self.read("undone.fx.json"), CURVES)
 
 
 if __name__ == "__main__":
-    unittest.main()
+    run_tests()

@@ -2,9 +2,8 @@
 """fx edit without a display: events of mouse and keyboard edit the file that they should."""
 import json
 import re
-import unittest
 
-from edit_test import SCRIPT, SMALL, EditTest
+from edit_test import SCRIPT, SMALL, EditTest, run_tests
 from fx_program import LIBRARY, fx
 
 
@@ -179,4 +178,4 @@ text {folder}/added.fx.json
 
 
 if __name__ == "__main__":
-    unittest.main()
+    run_tests()

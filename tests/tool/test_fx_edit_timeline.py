@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """fx edit without a display: triggers and camera keys on the timeline, motions of the effect, and keys that are struck fast."""
 import json
-import unittest
 
-from edit_test import SMALL, EditTest
+from edit_test import SMALL, EditTest, run_tests
 from fx_program import fx
 
 LISTENING = SMALL.replace('"emitters": [', '''"emitters": [
@@ -170,4 +169,4 @@ strike ctrl+z ctrl+s
 
 
 if __name__ == "__main__":
-    unittest.main()
+    run_tests()

@@ -189,6 +189,14 @@ class Export(FxTest):
             self.export(balls, "-o", self.folder / name, "--voxel-size", "0.2", *words)
         self.assertEqual((self.folder / "a.vdb").read_bytes(), (self.folder / "b.vdb").read_bytes())
 
+    def test_small_balls_of_a_list_are_a_point_each(self):
+        balls = self.list_of_balls()
+        report, = self.export(balls, "-o", self.folder / "a.vdb", "--voxel-size", "0.2", "--balls-below", "2")
+        self.assertEqual((report["blobs"], report["balls"]), (3, 2))
+        self.assertEqual(report["cross_section"], 2.0)  # of the voxels
+        report, = self.export(balls, "-o", self.folder / "b.vdb", "--voxel-size", "1", "--balls-below", "2")
+        self.assertEqual((report["balls"], report["voxels"]), (3, 0))
+
     def test_an_interruption_leaves_whole_files_only(self):
         process = subprocess.Popen([FX, "export", "library:campfire", "-o", str(self.folder / "a.%03d.vdb"), "--frames", "0:999",
                                     "--voxel-size", "0.05"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)

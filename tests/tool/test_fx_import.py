@@ -4,6 +4,7 @@ import collections
 import json
 import os
 import random
+import struct
 import unittest
 
 from fx_program import FxTest, fx
@@ -72,6 +73,48 @@ class Import(FxTest):
         self.assertGreater(back["flame_volume"], 0.6 * line["flame_volume"])
         for a, b in zip(back["center"], line["center"]):
             self.assertAlmostEqual(a, b, delta=0.02)
+
+    def small_balls(self, volume, *arguments):
+        """Of the file beside the voxels that an import writes: 18 numbers a ball and its number, by the numbers."""
+        preset = self.folder / "small.fx.json"
+        outcome = fx("import", volume, "-o", preset, "--bricks", "--json", *arguments)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertEqual(fx("validate", preset).code, 0)
+        head, data = (self.folder / "small.0000.fxballs").read_bytes().split(b"data\n", 1)
+        self.assertEqual(int(head.split()[-1]), json.loads(outcome.out)["balls_beside"])
+        return list(struct.iter_unpack("<18fQ", data))
+
+    def test_small_balls_have_the_scales_of_the_voxels(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n1,2,-3,0.9,2,0,0,0,0\n2,2,-3,0.03,1,0.5,4,4,4\n3,2,-3,0.03,1,0.5,4,4,4\n")
+        volume = self.export("a.vdb", balls, "--voxel-size", "0.1", "--balls-below", "2")
+        given = self.small_balls(volume)
+        self.assertEqual(len({ball[18] for ball in given}), 2)
+        self.assertEqual(sorted(round(ball[0], 4) for ball in given), [2, 3])
+        scaled = self.small_balls(volume, "--density-scale", "2", "--flame-scale", "6")
+        for before, after in zip(given, scaled):
+            self.assertAlmostEqual(after[4], 2 * before[4], delta=1e-5)       # cross section
+            self.assertGreater(before[9], 0)
+            for a, b in zip(before[9:12], after[9:12]):
+                self.assertAlmostEqual(b, 3 * a, delta=1e-4 * a + 1e-12)     # light as opaque medium: flame over density
+            self.assertEqual(before[:4] + before[12:], after[:4] + after[12:])
+
+    def test_a_volume_of_small_balls_alone_is_refused_with_the_remedy(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n2,2,-3,0.03,1,0,0,0,0\n3,2,-3,0.03,1,0,0,0,0\n")
+        volume = self.export("a.vdb", balls, "--voxel-size", "0.1", "--balls-below", "2")
+        for words in (("--bricks",), ("--fit", "10")):
+            outcome = fx("import", volume, "-o", self.folder / "a.fx.json", *words)
+            self.assertEqual(outcome.code, 1)
+            self.assertIn("--balls-below 0", outcome.err)
+            self.assertIn("balls", outcome.err)
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.vdb"])
+
+    def test_the_name_of_a_preset_with_small_balls_has_no_percent_sign(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n1,2,-3,0.9,2,0,0,0,0\n2,2,-3,0.03,1,0,0,0,0\n")
+        volume = self.export("a.vdb", balls, "--voxel-size", "0.1", "--balls-below", "2")
+        outcome = fx("import", volume, "-o", self.folder / "50%.fx.json", "--bricks")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("'%'", outcome.err)
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.vdb"])
 
     def test_names_of_presets_are_checked(self):
         volume = self.export("a.vdb", "library:explosion", "--time", "0.6", "--voxels", "60000")

@@ -137,6 +137,20 @@ class Sequence(FxTest):
         self.assertEqual(outcome.code, 1)
         self.assertIn("b.0004.fxvolume", outcome.err + outcome.out)
 
+    def test_small_balls_of_a_list_are_played_each_and_counted(self):
+        balls = self.write("a.blobs.csv", f"{HEADER}\n0,2,0,0.5,2,0,0,0,0\n1,2,0,0.03,1,0.5,4,4,4\n2,2,0,0.03,1,0.5,4,4,4\n")
+        for number in (0, 1):
+            outcome = fx("export", balls, "-o", self.folder / f"d.{number:04}.vdb", "--voxel-size", "0.1", "--balls-below", "2")
+            self.assertEqual(outcome.code, 0, outcome.err)
+        outcome = fx("import", self.folder / "d.%04d.vdb", "-o", self.folder / "d.fx.json", "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        line = json.loads(outcome.out)
+        files = [path for path in self.folder.iterdir() if path.suffix in (".fxvolume", ".fxballs")]
+        self.assertEqual(len(files), 4)
+        self.assertEqual(line["balls_beside"], 2)
+        self.assertEqual(line["bytes"], sum(path.stat().st_size for path in files))
+        self.assertEqual(fx("validate", self.folder / "d.fx.json").code, 0)
+
     def test_a_damaged_frame_is_named(self):
         balls = self.write("a.blobs.csv", f"{HEADER}\n0,2,0,0.5,2,0,0,0,0\n")
         for number in (0, 1):

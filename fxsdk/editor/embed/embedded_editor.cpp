@@ -88,9 +88,7 @@ void EmbeddedEditor::showDocument(uint64_t revision)
         state_->picture.failure =
             (hadScene ? "The picture shows the last valid state. " : "There is no picture yet. ") +
             status.message();
-    // A key that is added, moved or removed leaves the view, from which further keys are taken.
-    const bool hasNewCamera = status.ok() && session_->followPreview() && preview_->hasCamera() &&
-                              (session_->followsCamera || !session_->hasCameraKeys());
+    const bool hasNewCamera = status.ok() && session_->followPreview() && preview_->hasCamera();
     const bool hasNewStage = shownStage_ != session_->stage().name;
     shownStage_ = session_->stage().name;
     const scene_file::Stage* const stage = scene_file::findStage(shownStage_);

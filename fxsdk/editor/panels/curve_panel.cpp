@@ -220,9 +220,9 @@ void editCanvas(PanelState& state, const Canvas& canvas, const std::vector<Curve
             return addAt(state, canvas, views, io.MousePos);
         if (ImGui::IsMouseClicked(1) && hit)
             return remove(state, views, {*hit});
-        if (isKeyPressed(ImGuiKey_Delete) && !state.keys.empty() && !io.WantTextInput)
-            return remove(state, views, state.keys);
     }
+    if (ImGui::IsWindowFocused() && isKeyPressed(ImGuiKey_Delete) && !state.keys.empty() && !io.WantTextInput)
+        return remove(state, views, state.keys);
     if (ImGui::IsItemActivated())
         return begin(state, views, hit);
     if (!ImGui::IsItemActive() || state.draggedCurves.size() != views.size())

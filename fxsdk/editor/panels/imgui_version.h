@@ -45,9 +45,13 @@ inline bool isLetterPressed(char letter)
 #if IMGUI_VERSION_NUM >= 18900
 constexpr ImGuiKey kControlKey = ImGuiMod_Ctrl;
 constexpr ImGuiKey kShiftKey = ImGuiMod_Shift;
+constexpr ImGuiKey kAltKey = ImGuiMod_Alt;
+constexpr ImGuiKey kSuperKey = ImGuiMod_Super;
 #elif IMGUI_VERSION_NUM >= 18700
 constexpr ImGuiKey kControlKey = ImGuiKey_ModCtrl;
 constexpr ImGuiKey kShiftKey = ImGuiKey_ModShift;
+constexpr ImGuiKey kAltKey = ImGuiKey_ModAlt;
+constexpr ImGuiKey kSuperKey = ImGuiKey_ModSuper;
 #endif
 
 #if IMGUI_VERSION_NUM >= 19100

@@ -32,8 +32,8 @@ constexpr auto kKeys = std::to_array<NamedKey>({
 #endif
 });
 
-constexpr int kShift = 340, kControl = 341; // of GLFW
-constexpr int kRightOf = 4;                 // from a modifier on the left to that on the right
+constexpr int kShift = 340, kControl = 341, kAlt = 342, kSuper = 343; // of GLFW
+constexpr int kRightOf = 4; // from a modifier on the left to that on the right
 
 bool isModifier(int code, int left)
 {
@@ -53,9 +53,9 @@ void pressMouse(int button, bool isDown)
 {
     ImGui::GetIO().AddMouseButtonEvent(button, isDown);
 }
-void turnWheel(float steps)
+void turnWheel(float steps, float sideways)
 {
-    ImGui::GetIO().AddMouseWheelEvent(0.0f, steps);
+    ImGui::GetIO().AddMouseWheelEvent(sideways, steps);
 }
 
 namespace {
@@ -71,6 +71,14 @@ void setControl(bool isDown)
 void setShift(bool isDown)
 {
     ImGui::GetIO().AddKeyEvent(kShiftKey, isDown);
+}
+void setAlt(bool isDown)
+{
+    ImGui::GetIO().AddKeyEvent(kAltKey, isDown);
+}
+void setSuper(bool isDown)
+{
+    ImGui::GetIO().AddKeyEvent(kSuperKey, isDown);
 }
 void setCode(int code, bool isDown)
 {
@@ -100,9 +108,10 @@ void pressMouse(int button, bool isDown)
     ImGui::GetIO().MouseDown[button] = isDown;
 }
 
-void turnWheel(float steps)
+void turnWheel(float steps, float sideways)
 {
     ImGui::GetIO().MouseWheel += steps;
+    ImGui::GetIO().MouseWheelH += sideways;
 }
 
 namespace {
@@ -120,6 +129,16 @@ void setControl(bool isDown)
 void setShift(bool isDown)
 {
     ImGui::GetIO().KeyShift = isDown;
+}
+
+void setAlt(bool isDown)
+{
+    ImGui::GetIO().KeyAlt = isDown;
+}
+
+void setSuper(bool isDown)
+{
+    ImGui::GetIO().KeySuper = isDown;
 }
 
 void setCode(int code, bool isDown)
@@ -141,6 +160,10 @@ void applyInput(const std::vector<InputEvent>& events)
                 setControl(event.isDown);
             if (isModifier(event.code, kShift))
                 setShift(event.isDown);
+            if (isModifier(event.code, kAlt))
+                setAlt(event.isDown);
+            if (isModifier(event.code, kSuper))
+                setSuper(event.isDown);
             setCode(event.code, event.isDown);
             break;
         case InputKind::Text:
@@ -154,7 +177,7 @@ void applyInput(const std::vector<InputEvent>& events)
             moveMouse(float(event.x), float(event.y));
             break;
         case InputKind::Wheel:
-            turnWheel(float(event.y));
+            turnWheel(float(event.y), float(event.x));
             break;
         }
 }

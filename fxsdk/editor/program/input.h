@@ -14,8 +14,10 @@ void startInput();
 
 void moveMouse(float x, float y);         ///< [pixel]
 void pressMouse(int button, bool isDown); ///< 0: left, 1: right, 2: middle
-void turnWheel(float steps);              ///< above 0: away from the user
-void typeText(const std::string& text);   ///< UTF-8
+/// @param steps above 0: away from the user
+/// @param sideways steps of a second wheel, above 0: to the left
+void turnWheel(float steps, float sideways = 0.0f);
+void typeText(const std::string& text); ///< UTF-8
 /// Presses or releases a key such as "ctrl+z" or "enter". @return false if it is unknown
 bool pressKey(const std::string& name, bool isDown);
 

@@ -43,6 +43,15 @@ int inLayout(int key, int scancode)
     return letter >= '0' && letter <= '9' ? letter - '0' + GLFW_KEY_0 : key;
 }
 
+/// Whether a button is down, so that the window follows the mouse beyond its edge.
+bool isDragging(GLFWwindow* window)
+{
+    for (int button = GLFW_MOUSE_BUTTON_1; button <= GLFW_MOUSE_BUTTON_3; ++button)
+        if (glfwGetMouseButton(window, button) == GLFW_PRESS)
+            return true;
+    return false;
+}
+
 InputQueue& queueOf(GLFWwindow* window)
 {
     return *static_cast<InputQueue*>(glfwGetWindowUserPointer(window));
@@ -74,8 +83,12 @@ void WindowInput::listen()
         queueOf(window).push({InputKind::Motion, 0, false, x, y});
     });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* window, int isInside) {
-        if (isInside == GLFW_FALSE)
-            queueOf(window).push({InputKind::Motion, 0, false, kNowhere, kNowhere});
+        double x = kNowhere, y = kNowhere;
+        if (isInside != GLFW_FALSE)
+            glfwGetCursorPos(window, &x, &y); // GLFW reports no motion if the mouse returns to its last place
+        else if (isDragging(window))
+            return;
+        queueOf(window).push({InputKind::Motion, 0, false, x, y});
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
         queueOf(window).push({InputKind::Wheel, 0, false, x, y});

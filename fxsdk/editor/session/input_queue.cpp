@@ -9,11 +9,22 @@ namespace {
 constexpr int kFirstCommand = 256; // numbers of keys without a character begin here
 constexpr int kFirstModifier = 340, kLastModifier = 347;
 
+bool isModifier(const InputEvent& event)
+{
+    return event.kind == InputKind::Key && event.code >= kFirstModifier && event.code <= kLastModifier;
+}
+
 /// Enter, tab, arrows and the like change what the text or command after them means.
 bool isCommand(const InputEvent& event)
 {
-    return event.kind == InputKind::Key && event.isDown && event.code >= kFirstCommand &&
-           !(event.code >= kFirstModifier && event.code <= kLastModifier);
+    return event.kind == InputKind::Key && event.isDown && event.code >= kFirstCommand && !isModifier(event);
+}
+
+/// Whether a modifier changes what the event means. A frame sees modifiers as they are after all of its
+/// events.
+bool isModified(const InputEvent& event)
+{
+    return event.kind != InputKind::Motion && !isModifier(event);
 }
 
 /// Whether a frame that has seen `before` can also see `event`.
@@ -21,7 +32,8 @@ bool canFollow(const InputEvent& before, const InputEvent& event)
 {
     switch (event.kind) {
     case InputKind::Key:
-        return before.kind != InputKind::Button && !(isCommand(before) && isCommand(event)) &&
+        return !(isModifier(event) && isModified(before)) && before.kind != InputKind::Button &&
+               !(isCommand(before) && isCommand(event)) &&
                !(before.kind == InputKind::Key && before.code == event.code);
     case InputKind::Text:
         return before.kind != InputKind::Button && !isCommand(before);

@@ -1,7 +1,8 @@
 /// @file input_queue.h
 /// Events of mouse and keyboard between two frames of a program that polls its state once a frame. A frame
 /// sees each key only up or down: a press and its release within one slow frame would be lost, so the release
-/// waits for the next frame. The order of all events is kept.
+/// waits for the next frame. The order of all events is kept. A modifier, such as Ctrl, holds for the keys,
+/// text, buttons and wheel steps after it, not for those before it.
 ///
 /// Needed with Dear ImGui before 1.87, which has no queue of its own. Threads: one at a time.
 #pragma once

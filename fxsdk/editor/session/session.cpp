@@ -41,6 +41,12 @@ Json partOf(const Json& document, const char* pointer)
     return document.contains(at) ? document.at(at) : Json();
 }
 
+bool hasKeys(const Json& camera)
+{
+    const auto keys = camera.is_object() ? camera.find("keys") : camera.end();
+    return keys != camera.end() && keys->is_array() && !keys->empty();
+}
+
 } // namespace
 
 base::Result<std::unique_ptr<Session>> Session::open(const std::string& input, std::filesystem::path recovery)
@@ -146,15 +152,14 @@ bool Session::followPreview()
     statedTime_ = std::move(time);
     Json stated = partOf(document.json(), cameraOf(document.kind()));
     const bool hasChanged = stated != statedCamera_;
+    const bool hadKeys = hasKeys(statedCamera_);
     statedCamera_ = std::move(stated);
-    return hasChanged;
+    return hasChanged && (followsCamera || !(hadKeys || hasKeys(statedCamera_)));
 }
 
 bool Session::hasCameraKeys() const
 {
-    const Json::json_pointer keys(std::string(cameraOf(document.kind())) + "/keys");
-    return document.json().contains(keys) && document.json().at(keys).is_array() &&
-           !document.json().at(keys).empty();
+    return hasKeys(partOf(document.json(), cameraOf(document.kind())));
 }
 
 void Session::keepCamera()

@@ -75,7 +75,9 @@ public:
     void setMotion(const MotionChoice& motion);
     /// Takes over the time that the document states for its picture, where it has changed since the last
     /// call.
-    /// @return whether the camera of the document has changed
+    /// @return whether the view is to become that of the document's camera: the camera has changed, and had
+    ///         and has no keys or is followed. A key that is added, moved or removed leaves the view, from
+    ///         which further keys are taken
     bool followPreview();
     /// Whether the camera of the document moves through keys.
     bool hasCameraKeys() const;

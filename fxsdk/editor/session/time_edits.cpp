@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fx::editor {
 
@@ -12,10 +13,11 @@ namespace {
 
 using Pointer = Json::json_pointer;
 
+constexpr double kStepsPerSecond = 100.0; // to which times are rounded
+
 double roundedTime(double time)
 {
-    constexpr double kHundredths = 100.0;
-    return std::max(std::round(time * kHundredths) / kHundredths, 0.0);
+    return std::max(std::round(time * kStepsPerSecond) / kStepsPerSecond, 0.0);
 }
 
 double timeOf(const Json& element)
@@ -44,6 +46,19 @@ Json presetOf(const Document& document, const std::string& documentName, const s
     const asset::AssetResolver resolver(folder.empty() ? "." : folder, preset::libraryFiles());
     const auto text = resolver.read(document.json().at(at).get<std::string>(), preset::kPresetBytes);
     return text ? Json::parse(*text, nullptr, false) : Json();
+}
+
+/// Index of the nearest element that is less than half a step from `time`; empty: there is none.
+std::optional<size_t> indexAt(const Json& list, double time)
+{
+    std::optional<size_t> nearest;
+    double least = 0.5 / kStepsPerSecond;
+    for (size_t i = 0; i < list.size(); ++i)
+        if (const double distance = std::abs(timeOf(list[i]) - time); distance < least) {
+            nearest = i;
+            least = distance;
+        }
+    return nearest;
 }
 
 /// Index of the first element that is later than `time`.
@@ -106,10 +121,9 @@ base::Status addCameraKey(Document& io, const OrbitCamera& camera, double time)
     const double at = roundedTime(time);
     Json key = {{"time", at}, {"position", placeOf(camera.position())}, {"target", placeOf(camera.target())}};
     const Json keys = listAt(io, list);
-    const size_t after = indexAfter(keys, at);
-    if (after > 0 && timeOf(keys[after - 1]) == at)
-        return io.set(list + "/" + std::to_string(after - 1), std::move(key));
-    return io.insert(list, after, std::move(key));
+    if (const std::optional<size_t> present = indexAt(keys, at))
+        return io.set(list + "/" + std::to_string(*present), std::move(key));
+    return io.insert(list, indexAfter(keys, at), std::move(key));
 }
 
 base::Status removeTimed(Document& io, const std::string& pointer)

@@ -26,8 +26,8 @@ std::vector<std::string> triggerNames(const Document& document, const std::strin
 /// @return InvalidArgument if `instance` is empty
 base::Status addTrigger(Document& io, const std::string& instance, const std::string& name, double time);
 
-/// Adds a key with position and target of `camera`. A key at this time is replaced. The camera keeps its
-/// other members. @param time [s] rounded to 1/100 s, >= 0
+/// Adds a key with position and target of `camera`. A key less than 1/200 s from this time is replaced. The
+/// camera keeps its other members. @param time [s] rounded to 1/100 s, >= 0
 base::Status addCameraKey(Document& io, const OrbitCamera& camera, double time);
 
 /// Removes the element of a list to which a time belongs, and the list with its last one.

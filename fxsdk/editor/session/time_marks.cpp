@@ -12,6 +12,7 @@ namespace fx::editor {
 namespace {
 
 constexpr double kHundredths = 100.0;
+constexpr double kSlack = 1e-6; // [1/100 s] by which sums of rounded times differ from rounded times
 
 /// Calls `use` with the object elements of an array member and their pointers.
 template <class Use>
@@ -171,8 +172,11 @@ std::string markText(const Document& document, const TimeMark& mark)
 
 Json timeAt(const Document& document, const TimeMark& mark, double time)
 {
-    const double rounded = std::round((time - mark.begin) * kHundredths) / kHundredths;
-    const double value = std::max(std::min(rounded, mark.most), mark.least);
+    const double least = std::ceil(mark.least * kHundredths - kSlack);
+    const double most = std::floor(mark.most * kHundredths + kSlack);
+    if (least > most) // no rounded time is between the neighbors
+        return document.json().at(Json::json_pointer(mark.pointer));
+    const double value = std::clamp(std::round((time - mark.begin) * kHundredths), least, most) / kHundredths;
     const Json* const schema = schemaAt(document.schema(), document.json(), Json::json_pointer(mark.pointer));
     const auto limit = [&](const char* name, double otherwise) {
         return schema && schema->contains(name) ? (*schema)[name].get<double>() : otherwise;

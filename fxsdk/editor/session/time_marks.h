@@ -41,7 +41,7 @@ std::vector<TimeMark> timeMarks(const Document& document);
 std::string markText(const Document& document, const TimeMark& mark);
 
 /// Value of the number of a mark at another time, rounded to 1/100 s and limited to the range of the schema
-/// and of the mark.
+/// and of the mark; the present value if the range of the mark has no such time.
 Json timeAt(const Document& document, const TimeMark& mark, double time);
 
 } // namespace fx::editor
