@@ -92,8 +92,10 @@ private:
 
 } // namespace
 
-std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, double scale, uint64_t& outDropped)
+std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, const PointScales& scales,
+                                     uint64_t& outDropped)
 {
+    const double scale = scales.length;
     const auto& data = dynamic_cast<const points::PointDataGrid&>(grid);
     const openvdb::math::Transform& transform = data.transform();
     const auto vector = [](const auto& v) { return glm::dvec3(double(v[0]), double(v[1]), double(v[2])); };
@@ -114,7 +116,7 @@ std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, double scale
         if (!id.isThere(count) || !instance.isThere(count))
             return {};
         if (balls.size() + count > kMostGridBalls)
-            throw std::length_error("too many points");
+            throw TooManyPoints();
         for (auto point = leaf->beginIndexOn(); point; ++point) {
             const openvdb::Index i = *point;
             if (i >= count)
@@ -122,9 +124,9 @@ std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, double scale
             VoxelBall ball;
             ball.center = scale * vector(transform.indexToWorld(place.at(i) + point.getCoord().asVec3d()));
             ball.radius = scale * double(radius.at(i));
-            ball.crossSection = scale * scale * double(section.at(i));
-            ball.temperature = double(temperature.at(i));
-            ball.luminance = double(luminance.at(i));
+            ball.crossSection = scales.extinction * scale * scale * scale * double(section.at(i));
+            ball.temperature = scales.temperature * double(temperature.at(i));
+            ball.luminance = scales.luminance * double(luminance.at(i));
             ball.velocity = scale * vector(velocity.at(i));
             ball.albedo = vector(albedo.at(i));
             ball.streak = scale * vector(streak.at(i));

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace fx::render {
@@ -17,10 +18,26 @@ namespace fx::render {
 /// @param voxelSize [m] side of a voxel of the lattice into which the points are sorted
 openvdb::GridBase::Ptr makePoints(std::span<const VoxelBall> balls, double voxelSize, bool areMedium);
 
+/// Factors of what points state, by which they fit to the voxels of their file.
+struct PointScales
+{
+    double length = 1.0;      ///< [m] of a unit of the file
+    double extinction = 1.0;  ///< of cross sections, besides that of areas
+    double temperature = 1.0; ///< [K] of temperature 1
+    double luminance = 1.0;   ///< [cd/m2] of luminance 1
+};
+
+/// A grid has more than kMostGridBalls points of medium.
+struct TooManyPoints final : std::runtime_error
+{
+    TooManyPoints() : std::runtime_error("too many points") {}
+};
+
 /// The balls of a grid of makePoints() with `areMedium`, in any order; a grid without these attributes has
 /// none.
-/// @param scale [m] of a unit of the file  @param outDropped number of points with numbers out of range
-/// @throws std::length_error for more than kMostGridBalls points
-std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, double scale, uint64_t& outDropped);
+/// @param outDropped number of points with numbers out of range
+/// @throws TooManyPoints; std::length_error for an index that is damaged
+std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, const PointScales& scales,
+                                     uint64_t& outDropped);
 
 } // namespace fx::render

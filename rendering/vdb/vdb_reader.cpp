@@ -320,10 +320,19 @@ void readLattice(const openvdb::math::Transform& transform, double scale, Medium
 
 /// Balls beside the voxels, which fx export --balls-below writes. Points of other programs have no attributes
 /// of a medium, and are left out.
-void readBalls(const openvdb::GridBase& grid, double scale, MediumGrid& io)
+void readBalls(const openvdb::GridBase& grid, const VdbReadOptions& options, MediumGrid& io)
 {
+    // Luminance is flame over extinction.
+    const PointScales scales{options.lengthScale, options.densityScale, options.temperatureScale,
+                             options.flameScale / options.densityScale};
     uint64_t dropped = 0;
-    io.balls = ballsOfPoints(grid, scale, dropped);
+    try {
+        io.balls = ballsOfPoints(grid, scales, dropped);
+    } catch (const TooManyPoints&) {
+        refuse(Code::TooLarge, "grid " + quoted(grid.getName()) + " has more than " +
+                                   std::to_string(kMostGridBalls) +
+                                   " balls of medium; export it with a smaller --balls-below");
+    }
     std::ranges::stable_sort(io.balls, [](const VoxelBall& a, const VoxelBall& b) {
         return std::pair(a.instance, a.id) < std::pair(b.instance, b.id);
     });
@@ -358,7 +367,7 @@ MediumGrid readGrids(const std::string& path, const VdbReadOptions& options)
                                       options.lengthScale, -kFast, kFast, medium);
     using Points = openvdb::points::PointDataGrid;
     if (const auto found = file.find("", {"points"}, ""); found && found->type() == Points::gridType())
-        readBalls(*file.read<Points>(*found, options), options.lengthScale, medium);
+        readBalls(*file.read<Points>(*found, options), options, medium);
     return medium;
 }
 

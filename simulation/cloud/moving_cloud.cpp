@@ -11,6 +11,7 @@ namespace {
 
 namespace blob = base::blob_column;
 
+constexpr size_t kNoBall = ~size_t(0);
 constexpr float kDefaultShutter = 1.0f / 60.0f; ///< [s]
 constexpr float kBorn = 1.0f; ///< [s] age of all balls: longer than a step, in which none is hidden
 
@@ -58,23 +59,89 @@ MovingBall between(const MovingBall& a, const MovingBall& b, const Moment& momen
     return out;
 }
 
-MovingBalls blend(const MovingBalls& first, const MovingBalls& second, const Moment& moment)
+/// Calls visit(i, j) for each number of two frames, rising, with the indices of its balls; kNoBall: none.
+template <class Visit>
+void forEachPair(const MovingBalls& first, const MovingBalls& second, const Visit& visit)
 {
-    MovingBalls out;
-    out.reserve(std::max(first.size(), second.size()));
-    const float since = moment.share * moment.seconds, until = (1.0f - moment.share) * moment.seconds;
     for (size_t i = 0, j = 0; i < first.size() || j < second.size();) {
         if (j == second.size() || (i < first.size() && first[i].number < second[j].number))
-            out.push_back(alone(first[i++], since, 1.0f - moment.share));
+            visit(i++, kNoBall);
         else if (i == first.size() || second[j].number < first[i].number)
-            out.push_back(alone(second[j++], -until, moment.share));
+            visit(kNoBall, j++);
         else
-            out.push_back(between(first[i++], second[j++], moment));
+            visit(i++, j++);
     }
-    return out;
 }
 
 } // namespace
+
+void MovingCloudDef::setFrames(std::vector<std::shared_ptr<const MovingBalls>> balls)
+{
+    frames = std::move(balls);
+    ids_.assign(frames.size(), {});
+    counts_.assign(frames.size(), 0);
+    mostBalls = 0;
+    shutter = 0.0f;
+    std::vector<uint64_t> numbers;
+    for (size_t i = 0; i < frames.size(); ++i) {
+        for (const MovingBall& ball : *frames[i]) {
+            numbers.push_back(ball.number);
+            if (ball.streak != glm::vec3(0.0f))
+                shutter = kDefaultShutter;
+        }
+        forEachPair(*frames[i], *frames[(i + 1) % frames.size()], [&](size_t, size_t) { ++counts_[i]; });
+        mostBalls = std::max(mostBalls, counts_[i]);
+    }
+    std::ranges::sort(numbers);
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    for (size_t i = 0; i < frames.size(); ++i) {
+        ids_[i].reserve(frames[i]->size());
+        auto found = numbers.begin();
+        for (const MovingBall& ball : *frames[i]) {
+            found = std::lower_bound(found, numbers.end(), ball.number);
+            ids_[i].push_back(uint32_t(found - numbers.begin()));
+        }
+    }
+}
+
+template <class Visit>
+void MovingCloudDef::forEachAt(double frame, const Visit& visit) const
+{
+    const auto i = size_t(frame);
+    const auto share = float(frame - double(i));
+    const MovingBalls& first = *frames[i];
+    if (!(share > 0.0f) || frames.size() == 1) { // a single frame does not move
+        for (size_t k = 0; k < first.size(); ++k)
+            visit(first[k], ids_[i][k]);
+        return;
+    }
+    const size_t next = (i + 1) % frames.size();
+    const MovingBalls& second = *frames[next];
+    const Moment moment{share, 1.0f / framesPerSecond};
+    const float since = share * moment.seconds, until = (1.0f - share) * moment.seconds;
+    forEachPair(first, second, [&](size_t a, size_t b) {
+        if (b == kNoBall)
+            visit(alone(first[a], since, 1.0f - share), ids_[i][a]);
+        else if (a == kNoBall)
+            visit(alone(second[b], -until, share), ids_[next][b]);
+        else
+            visit(between(first[a], second[b], moment), ids_[i][a]);
+    });
+}
+
+MovingBalls MovingCloudDef::at(double frame) const
+{
+    MovingBalls balls;
+    balls.reserve(countAt(frame));
+    forEachAt(frame, [&](const MovingBall& ball, uint32_t) { balls.push_back(ball); });
+    return balls;
+}
+
+uint32_t MovingCloudDef::countAt(double frame) const
+{
+    const auto first = size_t(frame);
+    return float(frame - double(first)) > 0.0f ? counts_[first] : uint32_t(frames[first]->size());
+}
 
 class MovingCloudSolver final : public Solver, public SeekableSolver
 {
@@ -94,37 +161,33 @@ public:
     {
         if (kind_ == base::kNoKind)
             return;
-        const MovingBalls balls = def_.at(def_.time().frameAt(tick_));
-        const auto count = uint32_t(balls.size());
+        const double frame = def_.time().frameAt(tick_);
+        const uint32_t count = def_.countAt(frame);
         BlobWriter writer(snapshot, base, kind_, count, std::max(def_.capacity(), count));
         StillMediumSolver::writeShared(def_, writer);
         writer.constant(base::blob_constant::Shutter) = def_.shutter;
         writer.fill(blob::Age, kBorn);
-        const float perShutter = def_.shutter > 0.0f ? def_.scale / def_.shutter : 0.0f;
-        size_t id = 0;
-        for (uint32_t i = 0; i < count; ++i) {
-            const ListedBall& ball = balls[i].ball;
+        uint32_t i = 0;
+        def_.forEachAt(frame, [&](const MovingBall& moving, uint32_t id) {
+            const ListedBall& ball = moving.ball;
+            const glm::vec3 velocity = def_.shutter > 0.0f ? moving.streak / def_.shutter : moving.velocity;
             for (int k = 0; k < 3; ++k) {
                 writer.column(blob::PositionX + size_t(k))[i] =
                     def_.position[k] + def_.scale * ball.center[k];
-                writer.column(blob::VelocityX + size_t(k))[i] = perShutter * balls[i].streak[k];
+                writer.column(blob::VelocityX + size_t(k))[i] = def_.scale * velocity[k];
                 writer.column(blob::AlbedoR + size_t(k))[i] = ball.albedo[k];
                 writer.column(blob::EmissionR + size_t(k))[i] = ball.emission[k];
             }
             writer.column(blob::Radius)[i] = def_.scale * ball.radius;
             writer.column(blob::CrossSection)[i] = def_.sectionScale() * ball.crossSection;
             writer.column(blob::Temperature)[i] = ball.temperature;
-            while (def_.numbers_[id] < balls[i].number)
-                ++id;
             writer.ids()[i] = blobId(base.solver, id);
-        }
+            ++i;
+        });
         writer.closeBounds();
     }
 
-    uint32_t elementCount() const override
-    {
-        return uint32_t(def_.frames[size_t(def_.time().frameAt(tick_))]->size());
-    }
+    uint32_t elementCount() const override { return def_.countAt(def_.time().frameAt(tick_)); }
     bool hasElements() const override { return true; } // of another frame
 
 private:
@@ -132,34 +195,6 @@ private:
     base::KindId kind_;
     base::Ticks tick_ = 0;
 };
-
-void MovingCloudDef::setFrames(std::vector<std::shared_ptr<const MovingBalls>> balls)
-{
-    frames = std::move(balls);
-    numbers_.clear();
-    mostBalls = 0;
-    shutter = 0.0f;
-    for (size_t i = 0; i < frames.size(); ++i) {
-        for (const MovingBall& ball : *frames[i]) {
-            numbers_.push_back(ball.number);
-            if (ball.streak != glm::vec3(0.0f))
-                shutter = kDefaultShutter;
-        }
-        const MovingBalls& next = *frames[(i + 1) % frames.size()];
-        mostBalls = std::max(mostBalls, uint32_t(blend(*frames[i], next, {0.5f, 0.0f}).size()));
-    }
-    std::ranges::sort(numbers_);
-    numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
-}
-
-MovingBalls MovingCloudDef::at(double frame) const
-{
-    const auto first = size_t(frame);
-    const auto share = float(frame - double(first));
-    if (!(share > 0.0f))
-        return *frames[first];
-    return blend(*frames[first], *frames[(first + 1) % frames.size()], {share, 1.0f / framesPerSecond});
-}
 
 std::unique_ptr<Solver> MovingCloudDef::create(const base::SnapshotSchema& schema, const Quality&,
                                                std::pmr::memory_resource*) const
@@ -172,7 +207,7 @@ uint64_t MovingCloudDef::bytes() const
     uint64_t balls = 0;
     for (const std::shared_ptr<const MovingBalls>& frame : frames)
         balls += frame->size();
-    return balls * sizeof(MovingBall) + numbers_.size() * sizeof(uint64_t);
+    return balls * (sizeof(MovingBall) + sizeof(uint32_t)) + frames.size() * sizeof(uint32_t);
 }
 
 float MovingCloudDef::reach(float, float, float) const

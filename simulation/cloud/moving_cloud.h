@@ -41,13 +41,22 @@ struct MovingCloudDef final : StillMediumDef
     float framesPerSecond = 24.0f;
     SequenceEnd end = SequenceEnd::Hold;
     uint32_t mostBalls = 0; ///< at any moment
-    float shutter = 0.0f;   ///< [s] by which published velocities times this are the streaks; 0: no streaks
+
+    /// [s] If a ball has a streak: published velocities times this are the streaks, and balls without a
+    /// streak have the velocity 0. Otherwise 0, and published velocities are those of the balls.
+    float shutter = 0.0f;
 
     /// Sets `frames`, `mostBalls` and `shutter`.
     void setFrames(std::vector<std::shared_ptr<const MovingBalls>> balls);
-    SequenceTime time() const { return {uint32_t(frames.size()), framesPerSecond, end}; }
+    /// A single frame stays also if it is looped.
+    SequenceTime time() const
+    {
+        return {uint32_t(frames.size()), framesPerSecond, frames.size() == 1 ? SequenceEnd::Hold : end};
+    }
     /// The balls at a moment. @param frame 0 to below the number of frames, with a fraction
     MovingBalls at(double frame) const;
+    /// Number of balls that at() returns.
+    uint32_t countAt(double frame) const;
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
@@ -57,7 +66,13 @@ struct MovingCloudDef final : StillMediumDef
     float reach(float gravity, float wind, float seconds) const override;
 
 private:
-    std::vector<uint64_t> numbers_; ///< of all balls, rising: the index is the id of the ball
+    /// Calls visit(ball, id) for the balls at a moment. Allocates nothing.
+    template <class Visit>
+    void forEachAt(double frame, const Visit& visit) const;
+
+    /// Of each frame, of each ball: the index of its number among those of all frames, which is the id.
+    std::vector<std::vector<uint32_t>> ids_;
+    std::vector<uint32_t> counts_; ///< of each frame: balls that it or the next one shows
 
     friend class MovingCloudSolver;
 };

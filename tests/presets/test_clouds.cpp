@@ -181,6 +181,9 @@ TEST(MovingCloud, publishesStreaksAndTheSameIdsInAllFrames)
         const size_t own = frame < 1.0 ? 1 : 0;
         ASSERT_EQ(group.count(), frame == 0.5 ? 3u : 2u);
         EXPECT_EQ(group.ids()[own], 1u); // the second of the numbers 2, 5, 9
+        EXPECT_EQ(group.ids()[group.count() - 1], frame > 0.0 ? 2u : 1u);
+        EXPECT_EQ(group.ids()[0], frame < 1.0 ? 0u : 1u);
+        EXPECT_EQ(def.countAt(frame), group.count());
         const sim::MovingBall wanted = thrown(float(frame) / 10.0f, 5);
         const float shutter = group.constants()[base::blob_constant::Shutter];
         for (size_t a = 0; a < 3; ++a) {
@@ -193,6 +196,46 @@ TEST(MovingCloud, publishesStreaksAndTheSameIdsInAllFrames)
     }
     EXPECT_EQ(cloud->seekable()->restsUntil(0), 0);
     EXPECT_GT(cloud->seekable()->restsUntil(base::toTicks(2.0)), base::toTicks(1e6)); // the last frame stays
+}
+
+TEST(MovingCloud, publishesTheVelocitiesOfBallsWithoutStreaks)
+{
+    base::SnapshotSchema schema;
+    schema.add(base::kBlobKind);
+    sim::MovingBall ball = thrown(0.0f, 2);
+    ball.streak = glm::vec3(0.0f);
+    sim::MovingCloudDef def;
+    def.scale = 2.0f;
+    def.setFrames({std::make_shared<const sim::MovingBalls>(sim::MovingBalls{ball})});
+    const auto cloud = def.create(schema, {}, std::pmr::get_default_resource());
+    base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+    cloud->publish({}, snapshot);
+    const base::SnapshotGroup& group = snapshot.group(0);
+    EXPECT_EQ(group.constants()[base::blob_constant::Shutter], 0.0f);
+    for (size_t a = 0; a < 3; ++a)
+        EXPECT_EQ(group.column(base::blob_column::VelocityX + a)[0], 2.0f * kSpeed[glm::length_t(a)]);
+}
+
+TEST(MovingCloud, oneFrameInALoopStaysWhereItIs)
+{
+    base::SnapshotSchema schema;
+    schema.add(base::kBlobKind);
+    sim::MovingCloudDef def;
+    def.framesPerSecond = 1.0f;
+    def.end = sim::SequenceEnd::Loop;
+    def.setFrames({std::make_shared<const sim::MovingBalls>(sim::MovingBalls{thrown(0.0f, 2)})});
+    const auto cloud = def.create(schema, {}, std::pmr::get_default_resource());
+    EXPECT_EQ(def.at(0.3)[0].ball.center, kPlace);
+    EXPECT_GT(cloud->seekable()->restsUntil(0), base::toTicks(1e6));
+    for (const double seconds : {0.0, 0.2, 0.7, 3.4}) {
+        cloud->seekable()->seek({}, base::toTicks(seconds));
+        base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+        cloud->publish({}, snapshot);
+        ASSERT_EQ(snapshot.group(0).count(), 1u);
+        for (size_t a = 0; a < 3; ++a)
+            EXPECT_EQ(snapshot.group(0).column(base::blob_column::PositionX + a)[0], kPlace[glm::length_t(a)])
+                << seconds;
+    }
 }
 
 TEST(Clouds, aFrameThatIsMissingIsNamed)

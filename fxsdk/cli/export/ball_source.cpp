@@ -120,9 +120,11 @@ private:
 base::Result<std::unique_ptr<BallFile>> openBallFile(const std::string& input)
 {
     if (input.ends_with(".blobs.csv")) {
-        const auto blobs = loadBlobList(input);
+        auto blobs = loadBlobList(input);
         if (!blobs.ok())
             return blobs.status();
+        for (size_t i = 0; i < blobs->size(); ++i)
+            (*blobs)[i].id = i; // a list has none; balls of equal ids would be pieces of one streak
         return std::unique_ptr<BallFile>(new ListFile(ballsOf(*blobs)));
     }
     const bool isScene = input.ends_with(".scene.json");

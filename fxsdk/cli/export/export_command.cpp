@@ -74,7 +74,8 @@ public:
     uint64_t nonFinite() const { return nonFinite_; }
 
 private:
-    /// The smallest at which all frames keep to the budget; a sequence is simulated once more for that.
+    /// The smallest at which all frames, with small balls as voxels too, keep to the budget; a sequence is
+    /// simulated once more for that.
     base::Status chooseVoxelSize()
     {
         auto source = file_.start(optionsOf(arguments_));

@@ -10,6 +10,7 @@
 #include "fxsdk/presets/preset_loader.h"
 #include "rendering/optics/color_temperature.h"
 #include "rendering/volumes/block_table.h"
+#include "simulation/cloud/moving_cloud.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -115,6 +116,15 @@ std::array<int, 3> keyOf(const glm::ivec3& brick)
 base::Status tooLarge(const std::string& what)
 {
     return {base::Code::TooLarge, what + "; write the volume with larger voxels, or fit balls to it (--fit)"};
+}
+
+base::Status noMedium(const render::MediumGrid& grid)
+{
+    if (grid.balls.empty())
+        return {base::Code::InvalidArgument, "the volume has no medium"};
+    return {base::Code::InvalidArgument,
+            "the voxels have no medium: all of it is in " + std::to_string(grid.balls.size()) +
+                " balls beside them, and a preset needs voxels; export with --balls-below 0"};
 }
 
 /// Bricks of the lattice that blocks of the grid touch, ascending.
@@ -236,7 +246,7 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
     lattice.origin = isCopied ? grid.origin : glm::dvec3(0.0);
     const double mass = render::sumsOf(grid).crossSection;
     if (!(mass > 0.0))
-        return base::Status(base::Code::InvalidArgument, "the volume has no medium");
+        return noMedium(grid);
     const base::Result<std::vector<glm::ivec3>> bricks = bricksOf(grid, lattice, isCopied);
     if (!bricks)
         return bricks.status();
@@ -263,7 +273,7 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
             append(voxel, keepsVelocity, volume, grid);
     }
     if (volume.bricks.empty())
-        return base::Status(base::Code::InvalidArgument, "the volume has no medium");
+        return noMedium(grid);
     glm::ivec3 low = volume.bricks.front(), high = low;
     for (const glm::ivec3& brick : volume.bricks) {
         low = glm::min(low, brick);
@@ -317,13 +327,36 @@ nlohmann::ordered_json cloudOf(const std::string& stem, const SequencePlay& play
             {"firstFrame", play.first}, {"framesPerSecond", play.framesPerSecond}, {"end", play.end}};
 }
 
+/// Names of numbered files have one '%', that of the number.
+base::Status checkNumberedStem(const std::string& stem, const std::filesystem::path& preset, const char* what)
+{
+    if (stem.find('%') == std::string::npos)
+        return {};
+    return {base::Code::InvalidArgument,
+            preset.string() + ": the name of the preset of " + what + " has no '%'"};
+}
+
+/// Counts the balls of a frame. @return TooLarge if all frames together have more than are allowed
+base::Status addBalls(size_t count, uint64_t& io)
+{
+    io += count;
+    if (io <= sim::kMaxPlayedBalls)
+        return {};
+    return {base::Code::TooLarge, "the frames up to this one have " + std::to_string(io) +
+                                      " balls beside the voxels; allowed are " +
+                                      std::to_string(sim::kMaxPlayedBalls) +
+                                      ": import fewer frames, or export with a smaller --balls-below"};
+}
+
 /// @return Io, InvalidArgument for numbers out of range
-base::Status writeBalls(const sim::MovingBalls& balls, const std::filesystem::path& file)
+base::Result<uint64_t> writeBalls(const sim::MovingBalls& balls, const std::filesystem::path& file)
 {
     const std::string bytes = sim::writeMovingBalls(balls);
     if (const auto readBack = sim::parseMovingBalls(bytes); !readBack)
-        return {readBack.status().code(), file.string() + ": " + readBack.status().message()};
-    return writeFileAtomically(file, bytes);
+        return base::Status(readBack.status().code(), file.string() + ": " + readBack.status().message());
+    if (base::Status status = writeFileAtomically(file, bytes); !status)
+        return status;
+    return uint64_t(bytes.size());
 }
 
 } // namespace
@@ -334,6 +367,9 @@ base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, doub
     const base::Result<std::string> stem = presetStem(preset);
     if (!stem)
         return stem.status();
+    if (!grid.balls.empty())
+        if (base::Status status = checkNumberedStem(*stem, preset, "voxels with balls beside them"); !status)
+            return status;
     const base::Result<base::VoxelVolume> volume = voxelVolumeOf(grid, albedo);
     if (!volume)
         return volume.status();
@@ -357,9 +393,9 @@ base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, doub
     if (const sim::MovingBalls balls = movingBallsOf(grid); !balls.empty()) {
         report.balls = balls.size();
         text["clouds"] = nlohmann::ordered_json::array({cloudOf(*stem, {})});
-        if (base::Status status = writeBalls(balls, preset.parent_path() / (*stem + ".0000.fxballs"));
-            !status)
-            return status;
+        const auto written = writeBalls(balls, preset.parent_path() / (*stem + ".0000.fxballs"));
+        if (!written)
+            return written.status();
     }
     if (base::Status status = writePresetFiles(preset, text, report.file, *bytes); !status)
         return status;
@@ -385,11 +421,11 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
     const base::Result<std::string> stem = presetStem(preset);
     if (!stem)
         return stem.status();
-    if (stem->find('%') != std::string::npos)
-        return base::Status(base::Code::InvalidArgument,
-                            preset.string() + ": the name of the preset of a sequence has no '%'");
+    if (base::Status status = checkNumberedStem(*stem, preset, "a sequence"); !status)
+        return status;
     const std::string pattern = *stem + ".%04d.fxvolume";
     std::vector<sim::MovingBalls> balls;
+    uint64_t sumOfBalls = 0;
     SequenceReport report;
     report.files = preset.parent_path() / pattern;
     for (uint32_t i = 0; i < play.count; ++i) {
@@ -402,6 +438,8 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
         const auto inFrame = [&](const base::Status& status) {
             return base::Status(status.code(), "frame " + std::to_string(number) + ": " + status.message());
         };
+        if (base::Status status = addBalls(grid->balls.size(), sumOfBalls); !status)
+            return inFrame(status);
         const base::Result<base::VoxelVolume> volume = voxelVolumeOf(*grid, albedo, true);
         if (!volume)
             return inFrame(volume.status());
@@ -439,8 +477,10 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
         const nlohmann::ordered_json cloud = cloudOf(*stem, play);
         for (uint32_t i = 0; i < play.count; ++i) {
             const auto name = asset::frameName(cloud["file"].get<std::string>(), play.first + i);
-            if (base::Status status = writeBalls(balls[i], preset.parent_path() / *name); !status)
-                return status;
+            const base::Result<uint64_t> size = writeBalls(balls[i], preset.parent_path() / *name);
+            if (!size)
+                return size.status();
+            report.bytes += *size;
         }
         text["clouds"] = nlohmann::ordered_json::array({cloud});
     }

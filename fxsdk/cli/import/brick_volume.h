@@ -31,7 +31,7 @@ struct BrickReport
 /// does.
 /// @param keepsVelocity whether the velocities of the grid are taken
 /// @param albedo [1] of grids that have no colors
-/// @return TooLarge with the remedy, InvalidArgument for a grid without medium
+/// @return TooLarge with the remedy, InvalidArgument for a grid whose voxels have no medium
 base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo,
                                               bool keepsVelocity = false);
 
@@ -65,13 +65,14 @@ sim::MovingBalls movingBallsOf(const render::MediumGrid& grid);
 
 /// Writes the voxels of all frames, NAME.%04d.fxvolume, and then `preset`, NAME.fx.json, which plays them. If
 /// a frame has balls beside the voxels, all frames have a file NAME.%04d.fxballs.
-/// @return errors of voxelVolumeOf() and writeVolume(), and of presets that name the files; Io
+/// @return errors of voxelVolumeOf() and writeVolume(), and of presets that name the files; Io;
+///         TooLarge with the number of the frame up to which there are more than sim::kMaxPlayedBalls balls
 base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const SequencePlay& play,
                                                  double albedo, const std::filesystem::path& preset);
 
 /// Writes `preset` (*.fx.json) and, beside it, the voxels (*.fxvolume) that it names. Balls beside the voxels
 /// are in NAME.0000.fxballs, a sequence of one frame.
-/// @return errors of voxelVolumeOf() and writeVolume(); Io
+/// @return errors of voxelVolumeOf() and writeVolume(); Io; InvalidArgument for a name with '%' and balls
 base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, double albedo,
                                             const std::filesystem::path& preset);
 

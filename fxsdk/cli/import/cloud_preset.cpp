@@ -76,7 +76,10 @@ base::Result<CloudFitReport> writeCloudPreset(const render::MediumGrid& grid,
     if (interruptRequested())
         return interruptedStatus();
     if (balls.empty())
-        return base::Status(base::Code::InvalidArgument, "the volume has no medium");
+        return base::Status(base::Code::InvalidArgument,
+                            grid.balls.empty() ? "the volume has no medium"
+                                               : "the voxels have no medium, and a fit leaves out the balls "
+                                                 "beside them; export with --balls-below 0");
     const sim::BallList list = ballListOf(grid, balls, albedo);
     const std::string bytes = sim::writeBallList(list);
     if (const auto readBack = sim::parseBallList(bytes); !readBack)

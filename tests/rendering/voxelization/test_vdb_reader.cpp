@@ -108,7 +108,7 @@ TEST_F(VdbReader, ballsBesideTheVoxelsAreReadAsTheyWereWritten)
         EXPECT_EQ(found.instance, wanted.instance);
         EXPECT_LT(glm::length(found.center - 2.0 * wanted.center), 1e-6);
         EXPECT_NEAR(found.radius, 2.0 * wanted.radius, 1e-6);
-        EXPECT_NEAR(found.crossSection, 4.0 * wanted.crossSection, 1e-5);
+        EXPECT_NEAR(found.crossSection, 8.0 * wanted.crossSection, 1e-5);
         EXPECT_NEAR(found.temperature, wanted.temperature, 1e-3);
         EXPECT_NEAR(found.luminance, wanted.luminance, 1e-2);
         EXPECT_LT(glm::length(found.velocity - 2.0 * wanted.velocity), 1e-6);
