@@ -90,6 +90,7 @@ base::Status GlDevice::readLimits()
     limits_.uniformBlockBytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
     limits_.storageAlignment = integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
     limits_.reportsReset = integer(GL_RESET_NOTIFICATION_STRATEGY) == GL_LOSE_CONTEXT_ON_RESET;
+    limits_.tellsTextureTarget = (integer(GL_CONTEXT_PROFILE_MASK) & GL_CONTEXT_CORE_PROFILE_BIT) != 0;
     limits_.debugContext = (integer(GL_CONTEXT_FLAGS) & GL_CONTEXT_FLAG_DEBUG_BIT) != 0;
     return {};
 }

@@ -33,6 +33,8 @@ struct GlLimits
     int uniformBlockBytes = 0; ///< [byte] largest uniform block
     int storageAlignment = 0;  ///< [byte] alignment of offsets into storage buffers
     bool debugContext = false; ///< true: passes are named by debug groups
+    /// True in core profiles. Elsewhere Mesa refuses the query GL_TEXTURE_TARGET, with an error in each call.
+    bool tellsTextureTarget = false;
     bool reportsReset = false; ///< true: a reset of the GPU loses the context, and GL reports the reset
     std::string renderer;      ///< GL_RENDERER
     std::string versionText;

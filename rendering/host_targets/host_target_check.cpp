@@ -180,7 +180,7 @@ base::Status HostTargetCheck::checkFramebufferDepth(const HostTargets& targets, 
         GLint stencilBits = 0;
         if (type == GL_TEXTURE) {
             const GLint level = ask(depth, GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
-            const GLint target = textureTargetOf(gl, object);
+            const GLint target = textureTargetOf(device_, object);
             const bool isPlain = target == GL_TEXTURE_2D && level == 0 && targets.x == 0 && targets.y == 0;
             if (isPlain && checkDepth(targets, object, drawn, outFacts))
                 return {};

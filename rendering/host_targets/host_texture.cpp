@@ -4,6 +4,7 @@
 #include "rendering/gl/gl_name.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace fx::render {
 
@@ -29,10 +30,12 @@ struct TargetBinding
     GLenum binding; ///< name of the query of the bound texture
 };
 
+constexpr TargetBinding kMultisample = {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE};
+
 /// The targets that messages name; those that frames use are tried first.
 constexpr TargetBinding kTargetBindings[] = {
     {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
-    {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE},
+    kMultisample,
     {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
     {GL_TEXTURE_2D_MULTISAMPLE_ARRAY, GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY},
     {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP},
@@ -91,21 +94,24 @@ std::string stateFault(const HostTexture& facts)
 
 } // namespace
 
-GLint textureTargetOf(const GlFunctions& gl, uint32_t name)
+GLint textureTargetOf(const GlDevice& device, uint32_t name)
 {
-    if (const GLint target = parameter(gl, name, GL_TEXTURE_TARGET); target != GL_NONE)
-        return target;
+    const GlFunctions& gl = device.gl;
+    if (device.limits().tellsTextureTarget)
+        return parameter(gl, name, GL_TEXTURE_TARGET);
     forgetErrors(gl);
-    for (const TargetBinding& tried : kTargetBindings) {
+    const auto binds = [&gl, name](const TargetBinding& tried) {
         GLint bound = 0;
         gl.GetIntegerv(tried.binding, &bound);
         gl.BindTexture(tried.target, name);
         const bool isTarget = gl.GetError() == GL_NO_ERROR;
         gl.BindTexture(tried.target, static_cast<GLuint>(bound));
-        if (isTarget)
-            return static_cast<GLint>(tried.target);
-    }
-    return GL_NONE;
+        return isTarget;
+    };
+    if (levelParameter(gl, name, GL_TEXTURE_SAMPLES) > 0 && binds(kMultisample))
+        return GL_TEXTURE_2D_MULTISAMPLE;
+    const TargetBinding* const found = std::ranges::find_if(kTargetBindings, binds);
+    return found == std::end(kTargetBindings) ? GL_NONE : static_cast<GLint>(found->target);
 }
 
 HostTexture HostTextureCheck::factsOf(uint32_t name, HostUse use) const
@@ -120,7 +126,7 @@ HostTexture HostTextureCheck::factsOf(uint32_t name, HostUse use) const
     // a buffer has no parameters that could be asked for, not even its target; its height is 1
     const bool isBuffer =
         facts.height == 1 && levelParameter(gl, name, GL_TEXTURE_BUFFER_DATA_STORE_BINDING) != 0;
-    facts.target = isBuffer ? GL_TEXTURE_BUFFER : textureTargetOf(gl, name);
+    facts.target = isBuffer ? GL_TEXTURE_BUFFER : textureTargetOf(device_, name);
     if (facts.target != GL_TEXTURE_2D && !facts.hasSamples())
         return facts;
     facts.baseLevel = parameter(gl, name, GL_TEXTURE_BASE_LEVEL);

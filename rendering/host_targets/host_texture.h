@@ -16,7 +16,6 @@
 namespace fx::render {
 
 class GlDevice;
-struct GlFunctions;
 
 /// Use of a host texture in a frame.
 enum class HostUse : uint8_t
@@ -35,10 +34,12 @@ constexpr bool isDepth(HostUse use)
 }
 
 /// Target of a texture, such as GL_TEXTURE_2D. Mesa answers the query GL_TEXTURE_TARGET in core profiles
-/// only; in other contexts the texture is bound on trial, and the host's texture is bound again.
+/// only; in other contexts the texture is bound on trial, and the host's texture is bound again. A texture of
+/// the kinds that frames use causes no OpenGL error thereby. A debug callback of the host receives the errors
+/// of other textures, which the frame refuses anyway.
 /// @param name an existing texture
 /// @return GL_NONE if the texture has none of the targets that a frame can use or name
-GLint textureTargetOf(const GlFunctions& gl, uint32_t name);
+GLint textureTargetOf(const GlDevice& device, uint32_t name);
 
 /// Properties of a texture that can be queried from OpenGL in a few calls. The result of the check depends
 /// only on these properties. So the result is still valid if the host has replaced the texture by a new

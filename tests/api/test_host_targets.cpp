@@ -199,6 +199,14 @@ TEST_F(HostTargets, namesThatAreNoTexturesAreRefusedWithoutAnOpenGlError)
 namespace {
 
 PFNGLGETTEXTUREPARAMETERIVPROC realGetTextureParameter = nullptr;
+PFNGLGETINTEGERVPROC realGetInteger = nullptr;
+
+void APIENTRY compatibilityProfile(GLenum what, GLint* out)
+{
+    realGetInteger(what, out);
+    if (what == GL_CONTEXT_PROFILE_MASK)
+        *out = GL_CONTEXT_COMPATIBILITY_PROFILE_BIT;
+}
 
 /// Mesa's answer outside of core profiles.
 void APIENTRY refuseTarget(GLuint texture, GLenum what, GLint* out)
@@ -210,6 +218,10 @@ void* findWithoutTarget(void* user, const char* name)
 {
     const auto& loader = *static_cast<const fx::render::GlLoader*>(user);
     void* const real = loader.getProcAddress(loader.user, name);
+    if (std::strcmp(name, "glGetIntegerv") == 0) {
+        realGetInteger = reinterpret_cast<PFNGLGETINTEGERVPROC>(real);
+        return reinterpret_cast<void*>(&compatibilityProfile);
+    }
     if (std::strcmp(name, "glGetTextureParameteriv") != 0)
         return real;
     realGetTextureParameter = reinterpret_cast<PFNGLGETTEXTUREPARAMETERIVPROC>(real);
@@ -239,11 +251,14 @@ TEST_F(HostTargets, texturesAreKnownInContextsThatDoNotTellTheirTarget)
     const GLuint array = textures_.make(GL_TEXTURE_2D_ARRAY, GL_RGBA16F, kSize, kSize);
     const GLuint bound = textures_.make2D(GL_RGBA8, kSize);
     textures_.gl.BindTexture(GL_TEXTURE_2D, bound);
-    messages_.reset(); // OpenGL reports the queries and bindings that are tried
     FxFrameDef def = frame();
     const std::vector<float> before = picture();
     EXPECT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
     EXPECT_NE(picture(), before);
+    def.colorTexture = textures_.make(GL_TEXTURE_2D_MULTISAMPLE, GL_RGBA16F, kSize, kSize);
+    EXPECT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(messages_->serious(), 0u) << messages_->first(); // a host's debug callback receives none
+    messages_.reset(); // OpenGL reports the bindings of refused textures that are tried
     for (const GLuint name : {array, textures_.make(GL_TEXTURE_3D, GL_RGBA16F, kSize, kSize)}) {
         def.colorTexture = name;
         EXPECT_EQ(fxView_Render(view, &def), FX_ERROR_INVALID_ARGUMENT);

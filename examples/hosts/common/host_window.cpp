@@ -37,9 +37,9 @@ void hostCloseOffscreen(void)
     offscreen.reset();
 }
 
-int hostOpenWindow(const HostOptions* options, const char* title)
+int hostOpenWindow(HostOptions* ioOptions, const char* title)
 {
-    if (options->output)
+    if (ioOptions->output)
         return hostOpenOffscreen();
 #ifdef HOST_WITH_GLFW
     if (glfwInit()) {
@@ -47,12 +47,14 @@ int hostOpenWindow(const HostOptions* options, const char* title)
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
-        window = glfwCreateWindow(options->width, options->height, title, nullptr, nullptr);
-        if (window)
-            glfwMakeContextCurrent(window);
+        window = glfwCreateWindow(ioOptions->width, ioOptions->height, title, nullptr, nullptr);
     }
-    if (window)
+    if (window) {
+        glfwMakeContextCurrent(window);
+        glfwSwapInterval(1);
+        glfwGetFramebufferSize(window, &ioOptions->width, &ioOptions->height);
         return 1;
+    }
     std::fprintf(stderr, "no window with OpenGL 4.5; use --headless FILE.png\n");
 #else
     std::fprintf(stderr, "%s: built without GLFW; use --headless FILE.png\n", title);

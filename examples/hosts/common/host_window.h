@@ -17,10 +17,12 @@ int hostOpenOffscreen(void);
 void hostCloseOffscreen(void);
 
 /// Opens a window of the size of the options, or OpenGL without one for --headless.
+/// @param ioOptions receives the size of the window's framebuffer, which is larger on displays that scale
 /// @return 1; 0 after printing why
-int hostOpenWindow(const HostOptions* options, const char* title);
+int hostOpenWindow(HostOptions* ioOptions, const char* title);
 
-/// Copies a framebuffer of that size to the window and shows it; does nothing without a window.
+/// Copies a framebuffer of that size to the window and shows it at the next refresh of the display; does
+/// nothing without a window.
 /// @return 0 when the user closes the window
 int hostPresent(unsigned framebuffer, int width, int height);
 

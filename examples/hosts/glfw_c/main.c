@@ -45,7 +45,8 @@ static void* findFunction(void* user, const char* name)
     return address;
 }
 
-static GLFWwindow* openWindow(const HostOptions* options)
+/* The framebuffer of a window has more pixels than the window is large on displays that scale. */
+static GLFWwindow* openWindow(HostOptions* ioOptions)
 {
     GLFWwindow* window = NULL;
     if (glfwInit()) {
@@ -53,12 +54,15 @@ static GLFWwindow* openWindow(const HostOptions* options)
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
-        window = glfwCreateWindow(options->width, options->height, "fxsdk: GLFW", NULL, NULL);
+        window = glfwCreateWindow(ioOptions->width, ioOptions->height, "fxsdk: GLFW", NULL, NULL);
     }
-    if (window)
-        glfwMakeContextCurrent(window);
-    else
+    if (!window) {
         fprintf(stderr, "no window with OpenGL 4.5; use --headless FILE.png\n");
+        return NULL;
+    }
+    glfwMakeContextCurrent(window);
+    glfwSwapInterval(1); /* one frame for each refresh of the display */
+    glfwGetFramebufferSize(window, &ioOptions->width, &ioOptions->height);
     return window;
 }
 
@@ -142,8 +146,8 @@ static int draw(void* host, int withEffects)
 
 static int play(Game* game, const HostOptions* options, GLFWwindow* window)
 {
-    for (int frame = 0; window ? !glfwWindowShouldClose(window) : frame < options->frames; ++frame) {
-        if (fxScene_Update(game->effects.scene, 1.0 / 60.0) != FX_OK)
+    for (int frame = 0; hostPlays(options, frame) && !(window && glfwWindowShouldClose(window)); ++frame) {
+        if (fxScene_Update(game->effects.scene, hostStep(options)) != FX_OK)
             return 0;
         if (hostDraws(options, frame) && !draw(game, 1))
             return 0;

@@ -97,8 +97,8 @@ public:
 
     bool play()
     {
-        for (int frame = 0; isRight_ && (!options_.output || frame < options_.frames); ++frame) {
-            isRight_ = fxScene_Update(effects_.scene, 1.0 / 60.0) == FX_OK;
+        for (int frame = 0; isRight_ && hostPlays(&options_, frame); ++frame) {
+            isRight_ = fxScene_Update(effects_.scene, hostStep(&options_)) == FX_OK;
             if (isRight_ && hostDraws(&options_, frame))
                 isRight_ = draw(true);
             if (!hostPresent(renderer_.framebuffer(), options_.width, options_.height))

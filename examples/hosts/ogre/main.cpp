@@ -1,9 +1,9 @@
 // host_ogre [--headless FILE.png] [--frames N] [--size WxH]
 //
 // A scene of OGRE 1.12 with the render system GL3Plus. OGRE draws into a float texture; a listener of that
-// target draws the effects after the opaque objects; a second viewport makes the picture for the window.
-// Shows: matrices of an Ogre::Camera, the flipped projection of Ogre's textures, depth of an Ogre target, and
-// that Ogre's cache of GL state stays valid. Needs a display (xvfb-run has one).
+// target draws the effects after all objects of the target; a second viewport makes the picture for the
+// window. Shows: matrices of an Ogre::Camera, the flipped projection of Ogre's textures, depth of an Ogre
+// target, and that Ogre's cache of GL state stays valid. Needs a display (xvfb-run has one).
 #include "host_effects.h"
 #include "host_options.h"
 #include "host_report.h"
@@ -12,6 +12,7 @@
 #include <Ogre.h>
 #include <OgreHardwarePixelBuffer.h>
 #include <OgreRectangle2D.h>
+#include <OgreWindowEventUtilities.h>
 
 #include <cstdio>
 #include <memory>
@@ -81,7 +82,10 @@ Ogre::MaterialPtr makeMaterial(const char* name, const char* vertex, const std::
     return material;
 }
 
-/// Draws the effects into a target of Ogre, after Ogre has drawn the opaque objects.
+/// Draws the effects into a target of Ogre, after Ogre has drawn all of it: opaque and transparent objects,
+/// and overlays, which this scene has not. A game that draws transparent objects over the effects puts them
+/// into a render queue after the opaque ones and calls the same from
+/// Ogre::RenderQueueListener::renderQueueEnded().
 class EffectsListener final : public Ogre::RenderTargetListener
 {
 public:
@@ -122,6 +126,20 @@ private:
     const Ogre::Camera& camera_;
 };
 
+/// Remembers that the user wants to close the window. Ogre would destroy it at once, while effects still need
+/// its OpenGL.
+class CloseListener final : public OgreBites::WindowEventListener
+{
+public:
+    bool isClosing = false;
+
+    bool windowClosing(Ogre::RenderWindow*) override
+    {
+        isClosing = true;
+        return false;
+    }
+};
+
 /// Keeps the log of Ogre off files and the output.
 struct QuietLog
 {
@@ -137,9 +155,11 @@ public:
         root_.loadPlugin(OGRE_PLUGINS "/RenderSystem_GL3Plus");
         root_.setRenderSystem(root_.getAvailableRenderers().at(0));
         root_.initialise(false);
-        const Ogre::NameValuePairList windowOptions = {{"vsync", "false"}, {"gamma", "false"}};
+        const Ogre::NameValuePairList windowOptions = {{"vsync", "true"}, {"gamma", "false"}};
         window_ = root_.createRenderWindow("fxsdk: OGRE", unsigned(options.width), unsigned(options.height),
                                            false, &windowOptions);
+        OgreBites::WindowEventUtilities::_addRenderWindow(window_);
+        OgreBites::WindowEventUtilities::addWindowEventListener(window_, &close_);
         Ogre::ResourceGroupManager::getSingleton().initialiseAllResourceGroups();
         makeScene();
         makeDisplay();
@@ -151,21 +171,24 @@ public:
         texture_->getCustomAttribute("GLID", &listener_->color);
         target_->addListener(&*listener_);
     }
-    ~Game() { hostCloseEffects(&effects_); } // while Ogre's context still exists
+    ~Game()
+    {
+        hostCloseEffects(&effects_); // while Ogre's context still exists
+        OgreBites::WindowEventUtilities::removeWindowEventListener(window_, &close_);
+        OgreBites::WindowEventUtilities::_removeRenderWindow(window_);
+    }
     Game(const Game&) = delete;
     Game& operator=(const Game&) = delete;
 
     bool play()
     {
-        for (int frame = 0; isRight_ && (!options_.output || frame < options_.frames); ++frame) {
-            isRight_ = fxScene_Update(effects_.scene, 1.0 / 60.0) == FX_OK;
+        for (int frame = 0; isRight_ && !close_.isClosing && hostPlays(&options_, frame); ++frame) {
+            isRight_ = fxScene_Update(effects_.scene, hostStep(&options_)) == FX_OK;
             if (isRight_ && hostDraws(&options_, frame))
                 isRight_ = draw(true);
-            if (!options_.output) {
+            if (!options_.output)
                 window_->swapBuffers();
-            }
-            if (window_->isClosed())
-                break;
+            OgreBites::WindowEventUtilities::messagePump(); // Ogre itself handles no events of the window
         }
         if (!isRight_)
             std::fprintf(stderr, "ogre: %s\n", fxGetLastErrorMessage());
@@ -264,6 +287,7 @@ private:
     HostOptions options_;
     QuietLog log_; ///< before Root, which makes a log of its own if there is none
     Ogre::Root root_{"", "", ""};
+    CloseListener close_;
     Ogre::RenderWindow* window_ = nullptr;
     Ogre::SceneManager* scene_ = nullptr;
     Ogre::Camera* camera_ = nullptr;

@@ -34,18 +34,24 @@ void main() { color = vec4(hostToneMap(texelFetch(light, ivec2(gl_FragCoord.xy),
 class Window
 {
 public:
-    explicit Window(const HostOptions& options)
+    /// @param ioOptions receives the size of the window's framebuffer, which is larger on displays that scale
+    explicit Window(HostOptions& ioOptions)
     {
-        if (options.output)
+        if (ioOptions.output)
             SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
         if (SDL_Init(SDL_INIT_VIDEO) != 0)
             return;
         SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
         SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
         SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
-        window_ = SDL_CreateWindow("fxsdk: SDL2", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                   options.width, options.height, SDL_WINDOW_OPENGL);
+        window_ =
+            SDL_CreateWindow("fxsdk: SDL2", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, ioOptions.width,
+                             ioOptions.height, SDL_WINDOW_OPENGL | SDL_WINDOW_ALLOW_HIGHDPI);
         context_ = window_ ? SDL_GL_CreateContext(window_) : nullptr;
+        if (!context_)
+            return;
+        SDL_GL_SetSwapInterval(1); // one frame for each refresh of the display
+        SDL_GL_GetDrawableSize(window_, &ioOptions.width, &ioOptions.height);
     }
     ~Window()
     {
@@ -108,8 +114,8 @@ public:
 
     bool play(const Window& window)
     {
-        for (int frame = 0; isRight_ && (!options_.output || frame < options_.frames); ++frame) {
-            isRight_ = fxScene_Update(effects_.scene, 1.0 / 60.0) == FX_OK;
+        for (int frame = 0; isRight_ && hostPlays(&options_, frame); ++frame) {
+            isRight_ = fxScene_Update(effects_.scene, hostStep(&options_)) == FX_OK;
             if (isRight_ && hostDraws(&options_, frame))
                 isRight_ = draw(true);
             if (!options_.output && !present(window))
@@ -182,9 +188,9 @@ private:
         frame.height = options_.height;
         hostBeforeEffects(); // measures; a game leaves this out
         const FxResult result = fxView_Render(effects_.view, &frame);
-        hostAfterEffects(&frame);
         if (options_.hostRestores)
             restoreState(); // saveState = 0: the states that fxGetTouchedGlState() lists have changed
+        hostAfterEffects(&frame);
         if (const int count = state_.countFalse(); count != 0) { // a check; a game leaves this out
             std::fprintf(stderr, "sdl2: %d values of the cache are false\n", count);
             return false;
@@ -192,16 +198,34 @@ private:
         return result == FX_OK;
     }
 
-    /// What a host does after fxView_Render() with saveState = 0: the cache forgets, and states that it does
-    /// not know get the value that the host always has.
+    /// What a host does after fxView_Render() with saveState = 0: the cache forgets, and the other states of
+    /// fxGetTouchedGlState() get the value that the host always has, here that of a new context.
     void restoreState()
     {
         state_.forget();
-        glBindSampler(0, 0);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-        glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-        glDisable(GL_SCISSOR_TEST);
+        for (const GLenum what :
+             {GL_STENCIL_TEST, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB, GL_RASTERIZER_DISCARD,
+              GL_PRIMITIVE_RESTART, GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_COLOR_LOGIC_OP,
+              GL_POLYGON_OFFSET_FILL, GL_POLYGON_SMOOTH, GL_SAMPLE_MASK, GL_SAMPLE_ALPHA_TO_COVERAGE,
+              GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_SAMPLE_SHADING, GL_SCISSOR_TEST})
+            glDisable(what);
+        for (GLenum plane = 0; plane < 8; ++plane)
+            glDisable(GL_CLIP_DISTANCE0 + plane);
+        glEnable(GL_DITHER);
+        glBlendEquation(GL_FUNC_ADD);
+        glBlendFunc(GL_ONE, GL_ZERO);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+        glDepthRange(0.0, 1.0);
+        glActiveTexture(GL_TEXTURE0);
+        glBindTextures(0, 13, nullptr); // as many units as fxGetTouchedGlState() names
+        glBindSamplers(0, 13, nullptr);
+        glBindImageTextures(0, 7, nullptr);
+        glBindBuffersBase(GL_UNIFORM_BUFFER, 0, 2, nullptr);
+        glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 8, nullptr);
+        for (const GLenum target : {GL_UNIFORM_BUFFER, GL_SHADER_STORAGE_BUFFER, GL_DRAW_INDIRECT_BUFFER})
+            glBindBuffer(target, 0);
     }
 
     bool present(const Window& window)
