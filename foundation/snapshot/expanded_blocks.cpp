@@ -97,6 +97,11 @@ void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io
     io.editInfo().count -= writer.missing();
 }
 
+LateRows lateRowsOf(const KindDesc& kind)
+{
+    return kind == kMaterialKind ? expandMaterials : expandBlocks;
+}
+
 void expandMaterials(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io)
 {
     const BlockGroups groups(snapshot, place - 1);

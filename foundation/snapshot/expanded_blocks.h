@@ -21,4 +21,7 @@ void expandBlocks(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io
 /// block itself, so that noise moves with blocks.
 void expandMaterials(const FrameSnapshot& snapshot, size_t place, SnapshotGroup& io);
 
+/// The function that writes the rows of a late group of a kind: expandBlocks() or expandMaterials().
+LateRows lateRowsOf(const KindDesc& kind);
+
 } // namespace fx::base

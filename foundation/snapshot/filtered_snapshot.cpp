@@ -12,8 +12,8 @@ namespace {
 void copyGroup(const SnapshotGroup& from, FrameSnapshot& out)
 {
     const GroupInfo& info = from.info();
-    if (info.isLate) { // all of them consist of blocks
-        SnapshotGroup& to = out.addLateGroup(info.kind, expandBlocks);
+    if (info.isLate) {
+        SnapshotGroup& to = out.addLateGroup(info.kind, lateRowsOf(out.schema().kind(info.kind)));
         to.editInfo() = info;
         std::ranges::copy(from.constants(), to.editConstants().begin());
         return;

@@ -10,7 +10,8 @@
 /// Place1 for odd n. The coordinate at a point x is the mean of growth (x - position) + place over the balls
 /// at x, weighted by their extinction. The noise is evaluated at this coordinate divided by the length of the
 /// generation. The younger generation has the weight Fade, the older 1 - Fade. Generation + Fade changes
-/// linearly between two snapshots. The place of a ball is constant during a generation.
+/// linearly between two snapshots. The place of a ball is constant during a generation, but for balls that
+/// move within a block (block_kind.h): their place changes linearly between two snapshots.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"

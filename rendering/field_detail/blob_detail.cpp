@@ -1,9 +1,10 @@
 #include "rendering/field_detail/blob_detail.h"
 
-#include "foundation/snapshot/material_kind.h"
+#include "foundation/snapshot/block_groups.h"
 #include "rendering/frame/snapshot_match.h"
 #include "shaders/formulas/formula.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -65,9 +66,12 @@ void BlobDetail::read(const base::SnapshotGroup& newer, const base::SnapshotGrou
         constants[c] = chosen_->constants()[c];
     if (chosen_ == older || !isUnborn)
         constants[constant::Fade] = float(phase - double(constants[constant::Generation]));
-    if (older->constants()[constant::Generation] == born)
+    if (older->constants()[constant::Generation] == born) {
+        older_ = older;
+        t_ = t;
         for (const size_t c : {constant::Growth0, constant::Growth1})
             constants[c] = older->constants()[c] + t * (newer_->constants()[c] - older->constants()[c]);
+    }
     numbers_ = fieldDetailNumbers(constants);
 }
 
@@ -94,7 +98,9 @@ std::array<glm::vec3, 2> BlobDetail::carried(size_t newer, size_t older, bool ha
     std::array<glm::vec3, 2> result;
     for (size_t g = 0; g < 2; ++g) {
         const size_t first = column::Place0X + 3 * g;
-        const glm::vec3 place(group.column(first)[i], group.column(first + 1)[i], group.column(first + 2)[i]);
+        glm::vec3 place = base::vectorAt(group, first, uint32_t(i));
+        if (older_ && hasOlder)
+            place = glm::mix(base::vectorAt(*older_, first, uint32_t(older)), place, t_);
         const FieldDetailNumbers::Generation& own = numbers_.generations[g];
         result[g] = (place - own.growth * position) / own.length;
     }

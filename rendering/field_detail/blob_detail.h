@@ -63,6 +63,10 @@ private:
     const base::SnapshotGroup* newer_ = nullptr;
     /// Group whose noise coordinates are used at the moment `t`; null: no detail.
     const base::SnapshotGroup* chosen_ = nullptr;
+    /// Group whose places are blended with those of newer_; null: its generations are others. Only places of
+    /// balls of blocks change within a generation.
+    const base::SnapshotGroup* older_ = nullptr;
+    float t_ = 1.0f;
     FieldDetailNumbers numbers_;
 };
 

@@ -16,6 +16,7 @@ constexpr double kWrittenBall = 0.25; ///< [unit of base::WorkBudget] work of a 
 constexpr double kWrittenBlock = 0.5; ///< [unit of base::WorkBudget] work of a block
 constexpr uint64_t kBallBytes = base::blob_column::Count * sizeof(float) + sizeof(uint64_t);
 constexpr uint64_t kBlockBytes = base::block_column::Count * sizeof(float) + sizeof(uint64_t);
+constexpr uint64_t kMaterialBytes = base::material_column::Count * sizeof(float) + sizeof(uint64_t);
 constexpr uint64_t kSnapshots = 3;
 
 uint64_t hashPlacements(uint64_t hash, const std::vector<BlockPlacement>& blocks)
@@ -71,6 +72,8 @@ uint64_t BlocksDef::bytes() const
         content +=
             type.hasBlocks() ? type.blocks.size() * kBlockBytes : type.phases * type.ballCount * kBallBytes;
     const uint64_t instances = blocks.size() + (emitter ? emitter->maxParticles : 0);
+    if (detail.given)
+        content += (instances + capacity()) * kMaterialBytes;
     return (emitter ? emitter->bytes() + emitter->maxParticles * kBallBytes : 0) +
            kSnapshots * (content + instances * kBlockBytes);
 }

@@ -168,7 +168,6 @@ void BlocksSolver::openMaterial(const base::GroupInfo& base, base::FrameSnapshot
 void BlocksSolver::writeMaterial(const SnapshotGroup& root, SnapshotGroup& io) const
 {
     io.editInfo().count = root.count();
-    io.editInfo().bounds = root.info().bounds;
     std::ranges::copy(root.ids(), io.editIds().begin());
     const SnapshotGroup* const moving = emitter_ && root.count() > 0 ? &particles_.group(1) : nullptr;
     for (size_t column = 0; column < base::material_column::Count; ++column) {
@@ -217,10 +216,12 @@ void BlocksSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& sna
         openMaterial(base, snapshot);
     const size_t root = snapshot.addedCount();
     findUsed(addRoot(base, snapshot));
+    if (hasMaterial())
+        writeMaterial(snapshot.editGroup(root), snapshot.editGroup(first));
     addContents(base, snapshot);
     addBalls(base, root, snapshot);
     if (hasMaterial())
-        writeMaterial(snapshot.editGroup(root), snapshot.editGroup(first));
+        snapshot.editGroup(first).editInfo().bounds = snapshot.editGroup(root).info().bounds;
 }
 
 /// The group of the balls of all blocks, and what is known of it: bounds and counts.

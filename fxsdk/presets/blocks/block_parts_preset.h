@@ -29,6 +29,7 @@ std::vector<uint32_t> readBlockNames(const PresetValue& element, std::span<const
 sim::BlockTurn readBlockTurn(const PresetValue& element);
 
 /// Reads the member "emitter" of `element`, a medium without events, trails, lights and detail.
+/// @param detail which it gets
 /// @return null with a finding for another emitter
 std::shared_ptr<const sim::EmitterDef> readBlockEmitter(const PresetValue& element,
                                                         const sim::FieldDetail& detail = {});

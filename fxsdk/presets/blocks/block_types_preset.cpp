@@ -282,7 +282,11 @@ std::shared_ptr<const sim::EmitterDef> readBlockEmitter(const PresetValue& eleme
                                                         const sim::FieldDetail& detail)
 {
     const PresetValue member = element.child("emitter");
-    for (const char* refused : {"events", "trail", "light", "detail"})
+    if (member.has("detail")) {
+        member.error("detail", "the detail is that of all blocks; move it to the element of \"blocks\"");
+        return nullptr;
+    }
+    for (const char* refused : {"events", "trail", "light"})
         if (member.has(refused)) {
             member.error(refused, "the emitter of blocks has no " + std::string(refused) + "; remove it");
             return nullptr;

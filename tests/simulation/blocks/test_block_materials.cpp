@@ -1,9 +1,12 @@
 // Tests the noise coordinates of blocks and of the balls in them.
 #include "block_fixture.h"
+#include "foundation/snapshot/filtered_snapshot.h"
+#include "simulation/emitters/emitter_detail.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 
 using namespace fx;
 using namespace fx::test;
@@ -146,6 +149,39 @@ TEST(BlockMaterials, ofBallsAreAsFarApartAsTheBalls)
             EXPECT_LE(glm::length(placeIn(own, generation, i) - placeIn(ofBlocks, generation, i / 3) - away),
                       1e-5f);
         }
+}
+
+TEST(BlockMaterials, haveTheGenerationsOfTheEmitter)
+{
+    namespace constant = base::material_constant;
+    BlockBench bench(emittedHeaps());
+    const base::Ticks period = sim::EmitterDetail::periodOf(*emittedHeaps().emitter);
+    const int steps = int(2.6 * double(period) / double(kBlockStep));
+    bench.play(steps);
+    const base::FrameSnapshot& snapshot = bench.look();
+    const base::SnapshotGroup &ofBlocks = *groupOf(snapshot, base::kBlockMaterialKind),
+                              &ofBalls = *groupOf(snapshot, base::kMaterialKind);
+    EXPECT_EQ(ofBlocks.constants()[constant::Generation], 3.0f); // 1, 2, and the third
+    EXPECT_NEAR(ofBlocks.constants()[constant::Fade], 0.6f, 0.05f);
+    for (size_t c = 0; c < constant::Count; ++c)
+        EXPECT_EQ(ofBalls.constants()[c], ofBlocks.constants()[c]) << c;
+}
+
+TEST(BlockMaterials, areThereInSnapshotsWithoutSomeInstances)
+{
+    BlockBench bench(emittedHeaps());
+    bench.play(60);
+    const base::FrameSnapshot& snapshot = bench.look();
+    base::HostMemory memory;
+    base::FrameSnapshot copy(&blockSchema(), &memory);
+    base::copyWithout(snapshot, std::array<uint64_t, 1>{77}, copy);
+    const base::SnapshotGroup &before = *groupOf(snapshot, base::kMaterialKind),
+                              &after = *groupOf(copy, base::kMaterialKind);
+    ASSERT_GT(before.count(), 0u);
+    ASSERT_EQ(after.count(), before.count());
+    EXPECT_TRUE(std::ranges::equal(before.ids(), after.ids()));
+    for (size_t c = 0; c < material::Count; ++c)
+        EXPECT_TRUE(std::ranges::equal(before.column(c), after.column(c))) << c;
 }
 
 TEST(BlockMaterials, ofAStateContinueAsTheyWere)
