@@ -9,6 +9,8 @@
 #include <memory_resource>
 #include <mutex>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace fx::base {
 
@@ -61,8 +63,9 @@ public:
             if (slots_[i].isReplaced)
                 continue;
             if (slots_[i].readers > 0) {
-                slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_)});
-                f(*slots_.back().snapshot);
+                auto replacement = std::make_unique<FrameSnapshot>(schema_, memory_);
+                f(*replacement);
+                slots_.push_back({std::move(replacement)});
                 slots_[i].isReplaced = true;
             } else {
                 f(*slots_[i].snapshot);

@@ -64,9 +64,14 @@ struct FxScene
     /// Implements fxScene_ReservePreset() for checked arguments.
     fx::base::Status reserve(FxPresetId preset, const std::shared_ptr<const fx::sim::EffectDef>& effect,
                              fx::sim::QualityLevel level, uint32_t count);
+    /// Number of instances that all presets with this content have reserved, plus `more`; at most
+    /// maxInstances.
+    uint32_t reservedInstances(const fx::sim::EffectDef& effect, fx::sim::QualityLevel level,
+                               uint64_t more = 0) const;
     /// Ends the reservations of unloaded presets, and lets those of redirected presets go on with their new
-    /// content.
+    /// content. After an exception the next update calls the function again.
     void followPresets();
+    bool followPreset(ReservedPreset& one);
     uint32_t maxInstances = 0; ///< FxSceneDef::maxInstances
 
     bool isBehind = false;       ///< whether the last update left steps for the next one

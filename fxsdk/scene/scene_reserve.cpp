@@ -21,7 +21,7 @@ uint64_t bytesOf(const sim::EffectDef& effect, sim::QualityLevel level)
 std::optional<Scene::Reservation> Scene::reservation(const sim::EffectDef& effect,
                                                      sim::QualityLevel level) const
 {
-    const auto found = world_.reservation(effect, level);
+    const auto found = world_.reservations().reservation(effect, level);
     if (!found)
         return std::nullopt;
     return Reservation{found->effect, level, found->count, found->idle, bytesOf(effect, level) * found->count,
@@ -45,35 +45,35 @@ base::Status Scene::reserve(const std::shared_ptr<const sim::EffectDef>& effect,
     completeStep();
     reservations_.reserve(reservations_.size() + 1);
     if (count > 0)
-        reserveLists(count);
+        reserveLists(world_.reservations().idleAfter(*effect, level, count));
     const uint32_t before =
-        world_.reservation(*effect, level).value_or(sim::SimulationPool::Reservation{}).count;
+        world_.reservations().reservation(*effect, level).value_or(sim::SimulationPool::Reservation{}).count;
     const uint32_t made = world_.reserve(effect, level, count);
     try {
         if (made > 0)
             world_.rehearse(effect, level);
-        // instances that exist may not have been published to all snapshots yet
-        reserveSnapshots(*effect, level, before == 0 && made > 0 ? count : made);
+        if (count > before) // also of instances that exist, which not all snapshots may have yet
+            ring_.forEachSpare([&](base::FrameSnapshot& snapshot) {
+                addSnapshotRoom(snapshot, *effect, level, count - before);
+            });
     } catch (...) {
-        world_.reserve(effect, level, before);
-        try {
-            reserveSnapshots(*effect, level, 0); // only the room that there was
-        } catch (const std::bad_alloc&) {
-            // snapshots allocate what is missing when they are written
-        }
+        world_.shrinkReservation(*effect, level, before);
+        renewSnapshotRoom();
         throw;
     }
     std::erase_if(reservations_, isIt);
     if (count > 0)
         reservations_.push_back({effect, level, count, 0, bytes, 0});
     reservedBytes_.store(count > 0 ? others + bytes : others, std::memory_order_relaxed);
+    if (count < before)
+        renewSnapshotRoom();
     return {};
 }
 
-/// Room in everything that instances are listed in.
-void Scene::reserveLists(uint32_t count)
+/// Room for `more` instances in everything that instances are listed in.
+void Scene::reserveLists(size_t more)
 {
-    const size_t most = std::min<size_t>(size_t(instances_.count()) + count, options_.maxInstances);
+    const size_t most = std::min<size_t>(instances_.count() + more, options_.maxInstances);
     instances_.reserve(most);
     active_.reserve(most);
     waking_.reserve(most);
@@ -83,24 +83,28 @@ void Scene::reserveLists(uint32_t count)
     moved_.reserve(most);
 }
 
-/// Room for the groups of `count` more instances in all snapshots; for 0, frees what no instance has.
-void Scene::reserveSnapshots(const sim::EffectDef& effect, sim::QualityLevel level, uint32_t count)
+/// Room for the groups of `count` more instances in a snapshot.
+void Scene::addSnapshotRoom(base::FrameSnapshot& snapshot, const sim::EffectDef& effect,
+                            sim::QualityLevel level, uint32_t count) const
 {
-    const auto add = [this](base::FrameSnapshot& snapshot, const sim::EffectDef& of, sim::QualityLevel at,
-                            uint32_t number) {
-        snapshot.addSpares([&](base::FrameSnapshot& spare) {
-            for (uint32_t i = 0; i < number; ++i)
-                world_.publishReserved(of, at, spare);
-        });
-    };
-    ring_.forEachSpare([&](base::FrameSnapshot& snapshot) {
-        if (count > 0)
-            return add(snapshot, effect, level, count);
-        snapshot.dropSpares();
-        for (const Reservation& one : reservations_)
-            if (const auto left = world_.reservation(*one.effect, one.level))
-                add(snapshot, *one.effect, one.level, left->idle);
+    snapshot.addSpares([&](base::FrameSnapshot& spare) {
+        for (uint32_t i = 0; i < count; ++i)
+            world_.reservations().publishReserved(effect, level, spare);
     });
+}
+
+/// Frees the room in snapshots that is beyond the reservations of the scene. Never fails: if memory runs out,
+/// snapshots allocate what is missing when they are written.
+void Scene::renewSnapshotRoom()
+{
+    try {
+        ring_.forEachSpare([this](base::FrameSnapshot& snapshot) {
+            snapshot.dropSpares();
+            for (const Reservation& one : reservations_)
+                addSnapshotRoom(snapshot, *one.effect, one.level, one.count);
+        });
+    } catch (const std::bad_alloc&) {
+    }
 }
 
 } // namespace fx::scene

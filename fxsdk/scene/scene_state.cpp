@@ -123,7 +123,7 @@ struct Scene::Restored
 {
     explicit Restored(const Scene& scene)
         : instances(scene.memory_, scene.options_.maxInstances), rules(scene.memory_), dormant(scene.memory_),
-          active(scene.memory_), moved(scene.memory_), motions(scene.memory_),
+          alarms(scene.memory_), active(scene.memory_), moved(scene.memory_), motions(scene.memory_),
           world(scene.schema_, scene.tasks_, scene.memory_, scene.world_.environment(),
                 scene.options_.shareInstances)
     {
@@ -136,6 +136,7 @@ struct Scene::Restored
     IdTable<Instance> instances;
     std::pmr::vector<InstanceRule> rules; ///< ascending by instance
     activation::TimerQueue dormant;
+    activation::TimerQueue alarms; ///< empty
     activation::ActiveList active;
     std::pmr::vector<LocalId> moved;
     std::pmr::vector<InMotion> motions;
@@ -436,12 +437,30 @@ std::vector<sim::Slot> Scene::slotsBySerial() const
     return slots;
 }
 
+/// Room in a restored state, and in the lists that stay, for the reservations of the scene.
+void Scene::reserveLists(Restored& state)
+{
+    const size_t most = std::min<size_t>(state.instances.count() + world_.reservations().reservedSets(),
+                                         options_.maxInstances);
+    state.instances.reserve(most);
+    state.active.reserve(most);
+    state.dormant.reserve(uint32_t(most), most);
+    state.moved.reserve(most);
+    waking_.reserve(most);
+    state.alarms.reserve(uint32_t(most), most);
+    arrived_.reserve(most);
+    world_.reserveSwap(state.world);
+}
+
 /// Makes a restored state that of the scene, and shows it. Throws only while nothing has changed.
 void Scene::take(Restored& state)
 {
     const base::Ticks simulated = state.clock.steps * options_.stepTicks;
-    if (world_.isPublishing()) // one snapshot at a time
+    // one snapshot at a time; lists that an open step reads get no room
+    if (world_.isPublishing() || (world_.isStepping() && !reservations_.empty()))
         completeStep();
+    if (!reservations_.empty())
+        reserveLists(state);
     state.world.publish(state.active.slots(), ring_.beginWrite(simulated, options_.stepTicks));
     clock_.restore(state.clock);
     counters_ = state.counters;
@@ -453,6 +472,7 @@ void Scene::take(Restored& state)
     world_.swap(state.world);
     world_.setNow(simulated);
     forgetSight();
+    std::swap(alarms_, state.alarms); // for its room
     published_ = stepEnd_ = simulated;
     if (events_)
         events_->clear();

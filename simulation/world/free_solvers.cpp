@@ -51,15 +51,18 @@ SimulationPool::FreeSolvers SimulationPool::makeSet(const std::shared_ptr<const 
     return {effect, quality.level, std::move(solvers), std::move(pristine), 0};
 }
 
-/// Gives a simulation the solvers of a set, in their first state.
+/// Gives a simulation the solvers of a set, in their first state. After an exception the set can be taken
+/// again.
 void SimulationPool::takeSet(FreeSolvers& set, SharedSimulation& simulation)
 {
-    simulation.solvers = std::move(set.solvers);
-    simulation.pristine = std::move(set.pristine);
-    StateReader reader(simulation.pristine->bytes());
-    simulation.restore(reader);
+    StateReader reader(set.pristine->bytes());
+    for (const std::unique_ptr<Solver>& solver : set.solvers)
+        if (reader.ok())
+            solver->restore(reader);
     if (!reader.ok() || reader.left() != 0)
         throw std::logic_error("a solver does not take its first state: " + reader.status().message());
+    simulation.solvers = std::move(set.solvers);
+    simulation.pristine = std::move(set.pristine);
     simulation.updateOnly();
 }
 
@@ -83,58 +86,115 @@ std::optional<SimulationPool::Reservation> SimulationPool::reservation(const Eff
     return std::nullopt;
 }
 
+/// Number of simulations of an effect that have solvers.
+uint32_t SimulationPool::usedSets(const EffectDef& effect, QualityLevel level) const
+{
+    uint32_t used = 0;
+    for (const SharedSimulation& simulation : simulations_)
+        used += simulation.effect.get() == &effect && simulation.conditions.quality.level == level &&
+                        !simulation.solvers.empty()
+                    ? 1
+                    : 0;
+    return used;
+}
+
+size_t SimulationPool::idleAfter(const EffectDef& effect, QualityLevel level, uint32_t count) const
+{
+    const uint32_t used = count > 0 ? usedSets(effect, level) : 0;
+    size_t idle = count > used ? count - used : 0;
+    for (const Reserved& one : reserved_)
+        if (one.is.effect.get() != &effect || one.is.level != level)
+            idle += one.sets.size();
+    return idle;
+}
+
+size_t SimulationPool::reservedSets() const
+{
+    size_t sum = 0;
+    for (const Reserved& one : reserved_)
+        sum += one.is.count;
+    return sum;
+}
+
+void SimulationPool::reserveEntries(size_t more)
+{
+    simulations_.reserve(simulations_.size() + more);
+    free_.reserve(simulations_.size() + more);
+}
+
 uint32_t SimulationPool::reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level,
                                  uint32_t count)
 {
     Reserved* reserved = reservedFor(*effect, level);
-    uint32_t used = 0;
-    for (const SharedSimulation& simulation : simulations_)
-        used += simulation.effect == effect && simulation.conditions.quality.level == level &&
-                        !simulation.solvers.empty()
-                    ? 1
-                    : 0;
+    if (!reserved && count == 0)
+        return 0;
+    const uint32_t used = usedSets(*effect, level);
     const uint32_t wanted = count > used ? count - used : 0; // sets that no simulation uses
     const size_t idle = reserved ? reserved->sets.size() : 0;
     std::vector<FreeSolvers> made; // all before anything changes
     made.reserve(count);
     for (size_t i = idle; i < wanted; ++i)
         made.push_back(makeSet(effect, qualityOf(level)));
-    if (!reserved && count > 0) {
+    if (count > 0)
+        reserveEntries(idleAfter(*effect, level, count));
+    if (!reserved) {
         reserved_.reserve(reserved_.size() + 1);
-        simulations_.reserve(simulations_.size() + count);
-        free_.reserve(simulations_.size() + count);
         reserved = &reserved_.emplace_back(Reserved{{effect, level}, {}});
-    } else if (count > 0) {
-        simulations_.reserve(simulations_.size() + count);
-        free_.reserve(simulations_.size() + count);
     }
-    if (!reserved)
-        return 0;
     const uint32_t more = uint32_t(made.size());
     for (FreeSolvers& set : reserved->sets)
         if (made.size() < wanted)
             made.push_back(std::move(set));
     reserved->sets = std::move(made);
     reserved->is.count = count;
-    for (SharedSimulation& simulation : simulations_)
-        if (simulation.effect == effect && simulation.conditions.quality.level == level)
-            simulation.reserved = count > 0 && !simulation.solvers.empty();
+    settle(*reserved);
     if (count == 0)
         reserved_.erase(reserved_.begin() + (reserved - reserved_.data()));
     return more;
 }
 
+void SimulationPool::shrinkReservation(const EffectDef& effect, QualityLevel level, uint32_t count) noexcept
+{
+    Reserved* const reserved = reservedFor(effect, level);
+    if (!reserved || reserved->is.count <= count)
+        return;
+    reserved->is.count = count;
+    settle(*reserved);
+    if (count == 0)
+        reserved_.erase(reserved_.begin() + (reserved - reserved_.data()));
+}
+
+/// Lets all simulations of the effect return their solvers to the reservation, and frees the sets beyond its
+/// count.
+void SimulationPool::settle(Reserved& reserved) noexcept
+{
+    const EffectDef& effect = *reserved.is.effect;
+    const uint32_t count = reserved.is.count, used = usedSets(effect, reserved.is.level);
+    for (SharedSimulation& simulation : simulations_)
+        if (simulation.effect.get() == &effect && simulation.conditions.quality.level == reserved.is.level)
+            simulation.reserved = count > 0 && !simulation.solvers.empty();
+    const size_t wanted = count > used ? count - used : 0;
+    while (reserved.sets.size() > wanted)
+        reserved.sets.pop_back();
+}
+
 void SimulationPool::publishReserved(const EffectDef& effect, QualityLevel level,
                                      base::FrameSnapshot& snapshot) const
 {
-    for (const Reserved& one : reserved_)
-        if (one.is.effect.get() == &effect && one.is.level == level && !one.sets.empty()) {
-            base::GroupInfo info;
-            for (const std::unique_ptr<Solver>& solver : one.sets.back().solvers) {
-                solver->publish(info, snapshot);
-                ++info.solver;
-            }
+    const auto publish = [&snapshot](const std::vector<std::unique_ptr<Solver>>& solvers) {
+        base::GroupInfo info;
+        for (const std::unique_ptr<Solver>& solver : solvers) {
+            solver->publish(info, snapshot);
+            ++info.solver;
         }
+    };
+    for (const Reserved& one : reserved_)
+        if (one.is.effect.get() == &effect && one.is.level == level && !one.sets.empty())
+            return publish(one.sets.back().solvers);
+    for (const SharedSimulation& simulation : simulations_)
+        if (simulation.reserved && !simulation.inPart && simulation.effect.get() == &effect &&
+            simulation.conditions.quality.level == level)
+            return publish(simulation.solvers);
 }
 
 /// Returns the solvers to their reservation. Never fails. @return false: there is none, or it is complete
@@ -154,6 +214,17 @@ bool SimulationPool::giveBack(SharedSimulation& simulation)
     return true;
 }
 
+/// Restores the state that a released simulation has kept. It may need memory.
+void SimulationPool::restoreKept(const SharedSimulation& released, SharedSimulation& made)
+{
+    if (!released.kept)
+        return;
+    StateReader reader(released.kept->bytes());
+    made.restore(reader);
+    if (!reader.ok() || reader.left() != 0)
+        throw std::logic_error("a solver does not take its own state: " + reader.status().message());
+}
+
 void SimulationPool::materialize(SimulationIndex index)
 {
     SharedSimulation& simulation = simulations_[index];
@@ -162,12 +233,12 @@ void SimulationPool::materialize(SimulationIndex index)
     SharedSimulation made;
     made.effect = simulation.effect;
     made.conditions.quality = simulation.conditions.quality;
-    makeSolvers(made); // may throw; afterwards only a solver that refuses its own state does
-    if (simulation.kept) {
-        StateReader reader(simulation.kept->bytes());
-        made.restore(reader);
-        if (!reader.ok() || reader.left() != 0)
-            throw std::logic_error("a solver does not take its own state: " + reader.status().message());
+    makeSolvers(made);
+    try {
+        restoreKept(simulation, made);
+    } catch (...) {
+        giveBack(made);
+        throw;
     }
     simulation.solvers = std::move(made.solvers);
     simulation.updateOnly();

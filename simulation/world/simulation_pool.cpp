@@ -129,8 +129,13 @@ SimulationIndex SimulationPool::create(const std::shared_ptr<const EffectDef>& e
     simulation.fresh = true;
     simulation.nextFresh = kNoSimulation;
     if (free_.empty()) {
-        free_.reserve(simulations_.size() + 1); // leave() must not fail
-        simulations_.push_back(std::move(simulation));
+        try {
+            free_.reserve(simulations_.size() + 1); // leave() must not fail
+            simulations_.push_back(std::move(simulation));
+        } catch (...) {
+            giveBack(simulation);
+            throw;
+        }
         ++count_;
         return SimulationIndex(simulations_.size() - 1);
     }
@@ -169,12 +174,16 @@ SimulationIndex SimulationPool::copy(SimulationIndex index)
             simulation.kept.emplace(std::move(state));
         return made;
     }
-    StateReader reader(state.bytes());
-    simulation.restore(reader);
-    if (reader.ok() && reader.left() == 0)
-        return made;
-    leave(made);
-    throw std::logic_error("a solver does not take its own state: " + reader.status().message());
+    try {
+        StateReader reader(state.bytes());
+        simulation.restore(reader);
+        if (reader.ok() && reader.left() == 0)
+            return made;
+        throw std::logic_error("a solver does not take its own state: " + reader.status().message());
+    } catch (...) {
+        leave(made);
+        throw;
+    }
 }
 
 void SimulationPool::reset(SimulationIndex index, const SimulationConditions& conditions)
@@ -265,10 +274,14 @@ void SimulationPool::unlink(SimulationIndex index)
 
 void SimulationPool::swap(SimulationPool& other) noexcept
 {
+    for (SharedSimulation& simulation : simulations_)
+        giveBack(simulation);
     std::swap(simulations_, other.simulations_);
     std::swap(free_, other.free_);
     std::swap(chains_, other.chains_);
     std::swap(count_, other.count_);
+    for (Reserved& reserved : reserved_)
+        settle(reserved);
 }
 
 } // namespace fx::sim

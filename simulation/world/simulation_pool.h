@@ -191,6 +191,9 @@ public:
     /// Allows instances to join a fresh simulation.
     void publish(SimulationIndex index);
 
+    /// Exchanges all simulations. The reservations stay: they get back the sets of the simulations that
+    /// leave, and then hold for the simulations that come.
+    /// @param other a pool without reservations
     void swap(SimulationPool& other) noexcept;
 
     /// A number of sets of solvers that are kept for the simulations of one effect at one quality.
@@ -206,8 +209,17 @@ public:
     /// Strong guarantee.
     /// @return number of sets that were created
     uint32_t reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level, uint32_t count);
+    /// Lowers the count of a reservation. Never fails.
+    void shrinkReservation(const EffectDef& effect, QualityLevel level, uint32_t count) noexcept;
+    /// Number of sets that no simulation would use, of all reservations, after reserve() with these
+    /// arguments.
+    size_t idleAfter(const EffectDef& effect, QualityLevel level, uint32_t count) const;
+    size_t reservedSets() const; ///< sum of the counts of all reservations
+    /// Reserves memory for the entries of `more` simulations. Strong guarantee.
+    void reserveEntries(size_t more);
     std::optional<Reservation> reservation(const EffectDef& effect, QualityLevel level) const;
-    /// Publishes the state before the first step of a set that no simulation uses, if there is one.
+    /// Publishes a set of a reservation, for its room: one that no simulation uses, or one in use. Does
+    /// nothing if there is none.
     void publishReserved(const EffectDef& effect, QualityLevel level, base::FrameSnapshot& snapshot) const;
     /// True if the solvers of the simulation return to a reservation.
     bool isReserved(SimulationIndex index) const { return simulations_[index].reserved; }
@@ -228,9 +240,12 @@ private:
         std::vector<FreeSolvers> sets; ///< has room for all sets of the reservation
     };
     Reserved* reservedFor(const EffectDef& effect, QualityLevel level);
+    uint32_t usedSets(const EffectDef& effect, QualityLevel level) const;
+    void settle(Reserved& reserved) noexcept;
     FreeSolvers makeSet(const std::shared_ptr<const EffectDef>& effect, const Quality& quality) const;
     void takeSet(FreeSolvers& set, SharedSimulation& simulation);
     bool giveBack(SharedSimulation& simulation);
+    static void restoreKept(const SharedSimulation& released, SharedSimulation& made);
     static constexpr size_t kChains = 256;
     static constexpr size_t kMaxFreeSolvers = 256;
     void makeSolvers(SharedSimulation& simulation);

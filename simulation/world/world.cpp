@@ -111,7 +111,18 @@ void World::remove(Slot slot)
 
 uint32_t World::reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level, uint32_t count)
 {
-    const size_t slots = instances_.size() + count;
+    if (count > 0)
+        reserveSlots(instances_.size() + simulations_.idleAfter(*effect, level, count));
+    const uint32_t made = simulations_.reserve(effect, level, count);
+    for (SimulationIndex index = 0; index < simulations_.size(); ++index)
+        if (simulations_.isReserved(index))
+            leavePool(index);
+    return made;
+}
+
+/// Reserves memory in all lists of instances.
+void World::reserveSlots(size_t slots)
+{
     instances_.reserve(slots);
     free_.reserve(slots);
     leaving_.reserve(slots);
@@ -123,11 +134,17 @@ uint32_t World::reserve(const std::shared_ptr<const EffectDef>& effect, QualityL
         list->reserve(slots);
     joining_.reserve(slots);
     ends_.reserve(slots);
-    const uint32_t made = simulations_.reserve(effect, level, count);
-    for (SimulationIndex index = 0; index < simulations_.size(); ++index)
-        if (simulations_.isReserved(index))
-            leavePool(index);
-    return made;
+}
+
+void World::reserveSwap(World& other)
+{
+    const size_t more = simulations_.reservedSets();
+    if (more == 0)
+        return;
+    const size_t slots = other.instances_.size() + more;
+    other.reserveSlots(slots);
+    other.simulations_.reserveEntries(more);
+    reserveSlots(slots);
 }
 
 void World::setPlacement(Slot slot, const base::Placement& placement)

@@ -77,17 +77,17 @@ public:
     /// Keeps the memory of `count` simulations of an effect, see SimulationPool::reserve(). Strong guarantee.
     /// @return number of sets of solvers that were created
     uint32_t reserve(const std::shared_ptr<const EffectDef>& effect, QualityLevel level, uint32_t count);
-    std::optional<SimulationPool::Reservation> reservation(const EffectDef& effect, QualityLevel level) const
+    /// Lowers the count of a reservation. Never fails.
+    void shrinkReservation(const EffectDef& effect, QualityLevel level, uint32_t count) noexcept
     {
-        return simulations_.reservation(effect, level);
+        simulations_.shrinkReservation(effect, level, count);
     }
+    /// Reserves memory for all lists, so that swap(other) keeps the room of the reservations of this world.
+    void reserveSwap(World& other);
+    const SimulationPool& reservations() const { return simulations_; } ///< for queries of reservations
     /// Plays a reserved simulation that nobody sees, within a small budget, so that the scratch memory of
     /// steps has the size that the effect needs. Changes no result. Must not be called while a step is open.
     void rehearse(const std::shared_ptr<const EffectDef>& effect, QualityLevel level);
-    void publishReserved(const EffectDef& effect, QualityLevel level, base::FrameSnapshot& snapshot) const
-    {
-        simulations_.publishReserved(effect, level, snapshot);
-    }
 
     // ---- hidden instances; step() and publish() must not get hidden slots ----
     void hide(Slot slot);
@@ -303,7 +303,8 @@ public:
     /// which the reader records, the world may only be destroyed.
     /// @param outSlots receives the slots; has as many elements as `entries`
     void restore(std::span<const Entry> entries, StateReader& reader, std::span<Slot> outSlots);
-    /// Exchanges all instances with a world of the same schema, memory and environment.
+    /// Exchanges all instances with a world of the same schema, memory and environment that has no
+    /// reservations. The reservations of this world stay, see SimulationPool::swap().
     void swap(World& other) noexcept;
 
 private:
@@ -405,6 +406,7 @@ private:
     void selectCues(SharedSimulation& simulation);
     SimulationConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
     Slot takeSlot(const InstanceStart& start, SimulationIndex simulation);
+    void reserveSlots(size_t slots);
     /// Moves an instance to a simulation with the conditions of `start`.
     void change(Slot slot, const InstanceStart& start);
     SimulationIndex changeLater(SimulationIndex index, const SimulationConditions& wanted);

@@ -188,7 +188,7 @@ protected:
             EXPECT_TRUE(isSameScene);
             ++losses_.injected;
             losses_.refused += isNoticed;
-            losses_.scenes += !isSameScene;
+            fx::test::FaultRow::add(losses_.scenes, !isSameScene);
         }
         std::printf("%llu calls, each %llu. of them lost the context\n", static_cast<unsigned long long>(n),
                     static_cast<unsigned long long>(stride));
@@ -198,7 +198,7 @@ protected:
     }
 
     uint32_t composition_ = FX_COMPOSITION_SORTED; ///< of settings()
-    fx::test::FaultRow losses_{.fault = "context lost in a call", .endsWithContext = true};
+    fx::test::FaultRow losses_{.fault = "context lost in a call"};
     fx::test::HostAllocator memory_;
     std::unique_ptr<fx::render::GlContext> gl_;
     std::unique_ptr<GlLoss> loss_;

@@ -264,3 +264,82 @@ TEST_F(MemorySweep, instancesAreReservedOrTheReservationIsAsItWas)
         play(2);
     }
 }
+
+TEST_F(MemorySweep, aReservationIsRaisedOrStaysWhole)
+{
+    FxReservationInfo info{};
+    info.structSize = sizeof info;
+    const FxInstanceDef def = instanceOf("fireworks");
+    ASSERT_EQ(fxScene_ReservePreset(scene_, def.preset, 0, 2), FX_OK);
+    uint64_t failures = 0;
+    for (uint64_t n = 1;; n = fx::test::nextRefused(n)) {
+        memory_.refuse(n, n % 2 == 1);
+        const FxResult result = fxScene_ReservePreset(scene_, def.preset, 0, 4);
+        memory_.refuse(0, false);
+        ASSERT_EQ(fxScene_GetReservation(scene_, def.preset, 0, &info), FX_OK);
+        ASSERT_EQ(info.count, result == FX_OK ? 4u : 2u) << "request " << n;
+        ASSERT_EQ(info.available, info.count) << "request " << n;
+        if (result == FX_OK)
+            break;
+        ASSERT_EQ(result, FX_ERROR_OUT_OF_MEMORY) << fxGetLastErrorMessage();
+        ++failures;
+    }
+    EXPECT_GT(failures, 50u);
+    FxInstanceId id{};
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK) << fxGetLastErrorMessage();
+    play(2);
+}
+
+TEST_F(MemorySweep, aStateIsRestoredOrTheReservationStaysWhole)
+{
+    FxReservationInfo info{};
+    info.structSize = sizeof info;
+    const FxInstanceDef def = instanceOf("fireworks");
+    ASSERT_EQ(fxScene_ReservePreset(scene_, def.preset, 0, 3), FX_OK);
+    FxInstanceId id{};
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+    play(3);
+    const std::vector<std::byte> one = state();
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+    play(3);
+    const std::vector<std::byte> before = state();
+    const auto available = [&] {
+        EXPECT_EQ(fxScene_GetReservation(scene_, def.preset, 0, &info), FX_OK);
+        return info.available;
+    };
+    EXPECT_EQ(available(), 1u);
+    EXPECT_GT(refuseEach(
+                  memory_, [&] { return fxScene_RestoreState(scene_, one.data(), one.size()); },
+                  [&] { return available() == 1 && state() == before; }),
+              0u);
+    EXPECT_EQ(available(), 2u);
+    EXPECT_EQ(fxScene_DestroyInstance(scene_, id), FX_ERROR_STALE_ID);
+    ASSERT_EQ(fxScene_DestroyAllInstances(scene_), FX_OK);
+    EXPECT_EQ(available(), 3u);
+}
+
+TEST_F(MemorySweep, aRedirectedReservationIsMadeByALaterUpdateIfMemoryRunsOut)
+{
+    FxReservationInfo info{};
+    info.structSize = sizeof info;
+    const FxPresetId contents[2] = {instanceOf("sparks").preset, instanceOf("campfire").preset};
+    const FxPresetId preset = instanceOf("fireworks").preset;
+    ASSERT_EQ(fxScene_ReservePreset(scene_, preset, 0, 2), FX_OK);
+    uint64_t failures = 0;
+    for (uint64_t n = 1; n < 10'000; n = fx::test::nextRefused(n)) {
+        ASSERT_EQ(fxRedirectPreset(context_, preset, contents[n % 2]), FX_OK) << fxGetLastErrorMessage();
+        memory_.refuse(n, true);
+        const FxResult result = fxScene_Update(scene_, kFrame);
+        const bool hasRefused = memory_.hasRefused();
+        memory_.refuse(0, false);
+        ASSERT_TRUE(result == FX_OK || result == FX_ERROR_OUT_OF_MEMORY) << fxGetLastErrorMessage();
+        failures += result == FX_OK ? 0 : 1;
+        play(1);
+        ASSERT_EQ(fxScene_GetReservation(scene_, preset, 0, &info), FX_OK);
+        ASSERT_EQ(info.count, 2u) << "request " << n;
+        ASSERT_EQ(info.available, 2u) << "request " << n;
+        if (!hasRefused)
+            break;
+    }
+    EXPECT_GT(failures, 20u);
+}

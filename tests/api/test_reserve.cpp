@@ -98,6 +98,14 @@ protected:
         EXPECT_EQ(fxContext_GetMemoryStats(context_, &stats), FX_OK);
         return stats.bytesReserved;
     }
+    static std::vector<std::byte> stateOf(FxScene* scene)
+    {
+        size_t size = 0;
+        EXPECT_EQ(fxScene_SaveState(scene, nullptr, 0, &size), FX_OK);
+        std::vector<std::byte> state(size);
+        EXPECT_EQ(fxScene_SaveState(scene, state.data(), size, &size), FX_OK);
+        return state;
+    }
     static uint64_t hashOf(FxScene* scene)
     {
         uint64_t hash = 0;
@@ -143,6 +151,85 @@ TEST_F(ReserveApi, instancesAllocateNothing)
     }
 }
 
+TEST_F(ReserveApi, instancesOfAllReservationsAllocateNothingTogether)
+{
+    const FxPresetId few = load("campfire"), many = load("sparks");
+    constexpr uint64_t kMany = 32;
+    FxScene* const scene = makeScene();
+    ASSERT_EQ(reserve(scene, few, kCount), FX_OK) << fxGetLastErrorMessage();
+    ASSERT_EQ(reserve(scene, many, kMany), FX_OK) << fxGetLastErrorMessage();
+    FxInstanceId ids[kCount + kMany]{};
+    for (int round = 0; round < 3; ++round) {
+        const uint64_t before = newCalls();
+        for (uint64_t i = 0; i < kCount + kMany; ++i)
+            ids[i] = create(scene, i < kCount ? few : many, i);
+        for (int step = 0; step < 3; ++step)
+            EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK) << fxGetLastErrorMessage();
+        for (const FxInstanceId id : ids)
+            EXPECT_EQ(fxScene_DestroyInstance(scene, id), FX_OK);
+        EXPECT_EQ(newCalls() - before, 0u) << round;
+    }
+    EXPECT_EQ(info(scene, few).misses + info(scene, many).misses, 0u);
+    ASSERT_EQ(fxDestroyScene(scene), FX_OK);
+}
+
+TEST_F(ReserveApi, aRestoredStateLeavesTheReservationWhole)
+{
+    for (const std::string& name : presets()) {
+        SCOPED_TRACE(name);
+        const FxPresetId preset = load(name);
+        FxScene* const scene = makeScene();
+        const std::vector<std::byte> empty = stateOf(scene);
+        ASSERT_EQ(reserve(scene, preset, kCount), FX_OK) << fxGetLastErrorMessage();
+        std::vector<FxInstanceId> ids;
+        for (uint64_t i = 0; i < kCount; ++i)
+            ids.push_back(create(scene, preset, i));
+        ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+        const std::vector<std::byte> full = stateOf(scene);
+        for (int round = 0; round < 3; ++round) {
+            ASSERT_EQ(fxScene_RestoreState(scene, full.data(), full.size()), FX_OK)
+                << fxGetLastErrorMessage();
+            EXPECT_EQ(info(scene, preset).count, kCount);
+            EXPECT_EQ(info(scene, preset).available, 0u); // restored instances count
+            for (int step = 0; step < 2; ++step)
+                ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+            ASSERT_EQ(fxScene_RestoreState(scene, empty.data(), empty.size()), FX_OK)
+                << fxGetLastErrorMessage();
+            EXPECT_EQ(info(scene, preset).available, kCount);
+            EXPECT_EQ(cycle(scene, preset, 40), 0u) << round;
+        }
+        ASSERT_EQ(fxScene_RestoreState(scene, full.data(), full.size()), FX_OK);
+        for (const FxInstanceId id : ids)
+            ASSERT_EQ(fxScene_DestroyInstance(scene, id), FX_OK);
+        EXPECT_EQ(info(scene, preset).available, kCount);
+        EXPECT_EQ(info(scene, preset).misses, 0u);
+        EXPECT_EQ(cycle(scene, preset, 40), 0u);
+        ASSERT_EQ(fxDestroyScene(scene), FX_OK);
+    }
+}
+
+TEST_F(ReserveApi, callsThatAddNoSetKeepTheRoomInSnapshots)
+{
+    const FxPresetId preset = load("campfire"), other = load("sparks");
+    FxScene* const scene = makeScene();
+    ASSERT_EQ(reserve(scene, other, 8), FX_OK);
+    ASSERT_EQ(reserve(scene, preset, kCount), FX_OK);
+    FxInstanceId ids[kCount]{};
+    for (uint64_t i = 0; i < kCount; ++i)
+        ids[i] = create(scene, preset, i);
+    ASSERT_EQ(reserve(scene, preset, kCount), FX_OK); // before snapshots have the instances
+    ASSERT_EQ(reserve(scene, other, 4), FX_OK);
+    const uint64_t before = newCalls();
+    for (int step = 0; step < 6; ++step)
+        EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    for (const FxInstanceId id : ids)
+        EXPECT_EQ(fxScene_DestroyInstance(scene, id), FX_OK);
+    EXPECT_EQ(newCalls() - before, 0u);
+    EXPECT_EQ(cycle(scene, other, 20), 0u);
+    EXPECT_EQ(cycle(scene, preset, 20), 0u);
+    ASSERT_EQ(fxDestroyScene(scene), FX_OK);
+}
+
 TEST_F(ReserveApi, resultsAndStatesAreThoseOfOtherInstances)
 {
     for (const std::string& name : presets()) {
@@ -162,13 +249,10 @@ TEST_F(ReserveApi, resultsAndStatesAreThoseOfOtherInstances)
             ASSERT_EQ(fxScene_Update(other, kFrame), FX_OK);
         }
         EXPECT_EQ(hashOf(scene), hashOf(other));
-        size_t size = 0;
-        ASSERT_EQ(fxScene_SaveState(scene, nullptr, 0, &size), FX_OK);
-        std::vector<std::byte> state(size);
-        ASSERT_EQ(fxScene_SaveState(scene, state.data(), size, &size), FX_OK);
-        ASSERT_EQ(fxScene_RestoreState(other, state.data(), size), FX_OK) << fxGetLastErrorMessage();
+        const std::vector<std::byte> state = stateOf(scene);
+        ASSERT_EQ(fxScene_RestoreState(other, state.data(), state.size()), FX_OK) << fxGetLastErrorMessage();
         EXPECT_EQ(hashOf(other), hashOf(scene));
-        ASSERT_EQ(fxScene_RestoreState(scene, state.data(), size), FX_OK) << fxGetLastErrorMessage();
+        ASSERT_EQ(fxScene_RestoreState(scene, state.data(), state.size()), FX_OK) << fxGetLastErrorMessage();
         EXPECT_EQ(hashOf(other), hashOf(scene));
         EXPECT_EQ(info(scene, preset).count, kCount); // a state has no reservations
         ASSERT_EQ(fxDestroyScene(scene), FX_OK);
@@ -259,6 +343,30 @@ TEST_F(ReserveApi, aRedirectedPresetKeepsItsReservationAndAnUnloadedOneLosesIt)
     EXPECT_GT(bytes, 0u);
     ASSERT_EQ(fxUnloadPreset(context_, preset), FX_OK);
     ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    EXPECT_EQ(reservedBytes(), 0u);
+    ASSERT_EQ(fxDestroyScene(scene), FX_OK);
+}
+
+TEST_F(ReserveApi, aPresetRedirectedToAReservedOneAddsItsNumber)
+{
+    const FxPresetId preset = load("sparks"), other = load(linkedPreset()), last = load("campfire");
+    FxScene* const scene = makeScene();
+    ASSERT_EQ(reserve(scene, preset, 2), FX_OK);
+    ASSERT_EQ(reserve(scene, other, 5), FX_OK);
+    ASSERT_EQ(reserve(scene, last, 1), FX_OK);
+    ASSERT_EQ(fxRedirectPreset(context_, preset, other), FX_OK);
+    ASSERT_EQ(fxRedirectPreset(context_, last, other), FX_OK);
+    ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    EXPECT_EQ(info(scene, preset).count, 8u);
+    EXPECT_EQ(info(scene, other).available, 8u);
+    EXPECT_EQ(reservedBytes(), info(scene, other).bytes);
+    ASSERT_EQ(reserve(scene, preset, 3), FX_OK); // its own number
+    EXPECT_EQ(info(scene, other).count, 9u);
+    ASSERT_EQ(fxUnloadPreset(context_, preset), FX_OK);
+    ASSERT_EQ(fxUnloadPreset(context_, last), FX_OK);
+    ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    EXPECT_EQ(info(scene, other).count, 5u);
+    ASSERT_EQ(reserve(scene, other, 0), FX_OK);
     EXPECT_EQ(reservedBytes(), 0u);
     ASSERT_EQ(fxDestroyScene(scene), FX_OK);
 }

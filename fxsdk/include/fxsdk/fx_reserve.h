@@ -24,7 +24,10 @@ typedef struct FxReservationInfo
     uint32_t count;      ///< number of instances that the reservation is for; 0: there is no reservation
     uint32_t available;  ///< number of sets that no instance uses
     uint32_t reserved;   ///< reserved; 0
-    uint64_t bytes; ///< [byte] estimated memory of its solvers and snapshots, FxPresetInfo::memoryBytes each
+
+    /// [byte] estimated memory of its solvers and snapshots: for each instance FxPresetInfo::memoryBytes,
+    /// times the factor of the quality for numbers of particles where that is above 1.
+    uint64_t bytes;
 
     /// Number of times since the reservation was made that an instance found no set, and allocated its
     /// memory.
@@ -37,8 +40,9 @@ typedef struct FxReservationInfo
 /// with default layer and mask that are not hidden, and whose parameters are not changed while they share a
 /// simulation; see docs/howto/reserve-memory.md. Another call for the same preset and quality changes the
 /// number; 0 frees what no instance uses. After fxRedirectPreset() the next fxScene_Update() of the scene
-/// allocates the memory of its reservations anew, for the new content. After fxUnloadPreset() the next update
-/// ends them. fxScene_ReplacePreset() changes no reservation. [scene thread]
+/// allocates the memory of its reservations anew, for the new content. Presets that have one content share
+/// their sets: their numbers add up. After fxUnloadPreset() the next update ends the reservations.
+/// fxScene_ReplacePreset() changes no reservation. [scene thread]
 /// @param quality FxQuality of the instances, as FxInstanceDef::quality
 /// @param count   0..65,536 and at most FxSceneDef::maxInstances
 /// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT (out of range), FX_ERROR_CAPACITY
@@ -48,7 +52,7 @@ typedef struct FxReservationInfo
 ///         reservation is as before.
 FX_API FxResult fxScene_ReservePreset(FxScene* scene, FxPresetId preset, uint32_t quality, uint32_t count);
 
-/// Reads the state of a reservation. [scene thread]
+/// Reads the state of a reservation: of the sum, if several presets have one content. [scene thread]
 /// @param quality as fxScene_ReservePreset()
 /// @param ioInfo  structSize must be set; other members are overwritten on success, untouched on failure
 /// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize),
