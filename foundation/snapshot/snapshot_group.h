@@ -31,6 +31,9 @@ struct GroupInfo
     bool isCosmetic = false;
     /// True: the rows are computed when they are first read, see FrameSnapshot::addLateGroup().
     bool isLate = false;
+    /// True: the placement does not follow the instance, so a placement shown for the instance does not
+    /// apply.
+    bool staysInWorld = false;
 };
 
 class GpuParticleProgram;

@@ -40,15 +40,19 @@ base::Placement between(const MotionPose& from, const MotionPose& to, base::Tick
 
 void MotionTrack::add(const MotionPose& pose)
 {
-    if (count_ > 0 && newest() == pose.tick) {
-        poses_[count_ - 1] = pose;
-        return;
-    }
+    while (count_ > 0 && newest() >= pose.tick)
+        --count_;
     if (count_ == kMaxPoses) {
         std::move(poses_.begin() + 1, poses_.end(), poses_.begin());
         --count_;
     }
     poses_[count_++] = pose;
+}
+
+void MotionTrack::removeSecond()
+{
+    std::move(poses_.begin() + 2, poses_.begin() + count_, poses_.begin() + 1);
+    --count_;
 }
 
 base::Placement MotionTrack::at(base::Ticks tick) const

@@ -49,10 +49,18 @@ struct MotionPose
 class MotionTrack
 {
 public:
-    static constexpr uint32_t kMaxPoses = 8;
+    /// The pose from which the instance comes, and FX_MOTION_POSES after it.
+    static constexpr uint32_t kMaxPoses = 9;
 
-    /// Adds a pose, not before newest(). A pose at the same time replaces the newest one.
+    /// Adds a pose, which replaces all poses at its time and after it. If kMaxPoses are before it, the oldest
+    /// of them is discarded.
     void add(const MotionPose& pose);
+    /// True if add() of a pose at `tick` would discard one.
+    bool isFull(base::Ticks tick) const { return count_ == kMaxPoses && newest() < tick; }
+    /// Time of the pose that becomes the oldest one if add() discards one. Must be full.
+    base::Ticks second() const { return poses_[1].tick; }
+    /// Removes the second pose: the path from the oldest pose to the third is coarser. Must be full.
+    void removeSecond();
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }
     base::Ticks newest() const { return poses_[count_ - 1].tick; } ///< must not be empty

@@ -59,7 +59,8 @@ public:
     void setPlacement(LocalId id, const base::Placement& placement);
     /// Adds a pose to the path of an instance, which from the next step on stands at each step's end where
     /// the path is at that time. Strong guarantee. setPlacement() ends the motion.
-    /// @return InvalidArgument (earlier than the last pose)
+    /// The pose replaces all poses of the instance at its time and after it.
+    /// @return Capacity (the instance has as many poses after the present as it can keep)
     base::Status setMotion(LocalId id, const MotionPose& pose);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     const sim::InstanceParameters& parameters(LocalId id) { return instances_.find(id)->setup.parameters; }
@@ -295,13 +296,17 @@ private:
         std::unique_ptr<MotionTrack> track;
     };
     std::pmr::vector<InMotion>::iterator inMotion(LocalId id);
+    void beginMotion(LocalId id, const Instance& instance, const MotionPose& pose);
     void endMotion(LocalId id);
     void followMotions(base::Ticks to);
     void placeAt(LocalId id, Instance& instance, const base::Placement& placement);
     void saveMotions(sim::StateWriter& writer) const;
     void restoreMotions(sim::StateReader& reader, Restored& state) const;
-    void reserveLists(uint32_t count);
-    void reserveSnapshots(const sim::EffectDef& effect, sim::QualityLevel level, uint32_t count);
+    void reserveLists(size_t more);
+    void reserveLists(Restored& state);
+    void addSnapshotRoom(base::FrameSnapshot& snapshot, const sim::EffectDef& effect, sim::QualityLevel level,
+                         uint32_t count) const;
+    void renewSnapshotRoom();
     void endMoves(bool isComplete);
     void retireFinished(base::Ticks now);
     void recordEvents();

@@ -43,8 +43,9 @@ const base::ShownPlacement* shownPlacement(const base::SnapshotPair& snapshots, 
 base::Placement placementAt(const base::SnapshotPair& snapshots, const base::SnapshotGroup& newer,
                             const base::SnapshotGroup* older, float t, const glm::dvec3& eye)
 {
+    const bool follows = !snapshots.shown.empty() && !newer.info().staysInWorld;
     const base::ShownPlacement* const shown =
-        snapshots.shown.empty() ? nullptr : shownPlacement(snapshots, newer.info().instance);
+        follows ? shownPlacement(snapshots, newer.info().instance) : nullptr;
     if (!shown)
         return placementAt(newer, older, t, eye);
     base::Placement p = shown->placement;

@@ -25,7 +25,7 @@ base::Placement placementAt(const base::SnapshotGroup& newer, const base::Snapsh
                             const glm::dvec3& eye);
 
 /// Returns the placement at which a frame shows a group: that of SnapshotPair::shown if it lists the
-/// instance, else the placement interpolated between the snapshots.
+/// instance and the group does not stay in the world, else the placement interpolated between the snapshots.
 /// @param snapshots pair of the frame @param newer group of the newer snapshot @param older may be null
 base::Placement placementAt(const base::SnapshotPair& snapshots, const base::SnapshotGroup& newer,
                             const base::SnapshotGroup* older, float t, const glm::dvec3& eye);

@@ -53,6 +53,11 @@ base::GroupInfo infoOf(const MergeSource& from, const base::Bounds& bounds)
             entry.placement,        bounds,         entry.isCosmetic};
 }
 
+bool staysInWorld(const MergeSource& group)
+{
+    return !group.entry && group.rows->info().staysInWorld; // no emitter in a pool does
+}
+
 bool isSame(const base::Placement& a, const base::Placement& b)
 {
     return a.position == b.position && a.rotation == b.rotation && a.scale == b.scale;
@@ -91,10 +96,12 @@ void GroupMerger::collect(const base::SnapshotPair& snapshots)
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         const base::GroupName name = newer.name(g);
         const RowTechnique* const technique = techniques.of(name.kind);
-        if (!technique || !technique->merge || shownPlacement(snapshots, name.instance))
+        if (!technique || !technique->merge)
             continue;
         const bool isStrip = technique->isStrip;
         const MergeSource group = sourceOf(newer, g, isStrip);
+        if (!staysInWorld(group) && shownPlacement(snapshots, name.instance))
+            continue;
         if (group.count == 0 || group.count > kMaxMergedRows || !hasFreeOrder(*group.rows, isStrip))
             continue;
         const size_t before = isStrip ? kNoGroup : findSameGroup(snapshots.older, name, g);

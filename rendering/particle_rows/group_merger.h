@@ -20,12 +20,12 @@ namespace fx::render {
 /// groups and their ranges of rows have not changed. Pooled rows are read directly from the pool. Pooled
 /// groups get space for their full capacity, so that the ranges of other groups do not change.
 ///
-/// Only groups of techniques with a RowMerge are merged, and not those of SnapshotPair::shown. The groups
-/// must be sorted by distance, additive or opaque, so that the order of groups does not matter. The groups
-/// must have equal columns and constants, and at most kMaxMergedRows rows each. Their positions must be
-/// within kFarthestMerged of each other. Sprites aligned to an axis must also have equal rotations. The
-/// origin of a merged group is the position of its first member. The axes of a merged group are the world
-/// axes. A particle has the same row index in both snapshots.
+/// Only groups of techniques with a RowMerge are merged, and not those of SnapshotPair::shown that follow
+/// their instances. The groups must be sorted by distance, additive or opaque, so that the order of groups
+/// does not matter. The groups must have equal columns and constants, and at most kMaxMergedRows rows each.
+/// Their positions must be within kFarthestMerged of each other. Sprites aligned to an axis must also have
+/// equal rotations. The origin of a merged group is the position of its first member. The axes of a merged
+/// group are the world axes. A particle has the same row index in both snapshots.
 class GroupMerger
 {
 public:

@@ -17,8 +17,10 @@ bool EmitterSolver::proceedPublication(const base::GroupInfo& instance, base::Fr
 {
     catchUpWithPool();
     base::GroupInfo base = instance;
-    if (space_ && started_)
+    if (space_ && started_) {
         base.placement = space_->home();
+        base.staysInWorld = true;
+    }
     constexpr uint32_t kGroups = 3;
     for (; place.group < kGroups; place = {place.group + 1})
         if (!publishGroup(base, snapshot, place, work))

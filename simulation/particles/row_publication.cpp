@@ -101,6 +101,7 @@ base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, 
     info.solver = place.base.solver;
     info.count = rows;
     info.placement = place.base.placement;
+    info.staysInWorld = place.base.staysInWorld;
     info.isCosmetic = place.base.isCosmetic || program.def.compute != ComputeOn::Cpu;
     if (!group.keepsConstants(program.number))
         writeConstants(program.def, program.def.appearance, 1.0f, group.editConstants());

@@ -1,8 +1,7 @@
 // Instances that follow the paths of moving objects, whose poses a host states at a rate of its own.
-#include "tests/api/api_fixture.h"
+#include "tests/api/motion_fixture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -12,171 +11,18 @@
 
 namespace {
 
-using fx::test::kFrame;
-using Point = std::array<double, 3>;
+using namespace fx::test;
 
-constexpr double kSecond = double(FX_TICKS_PER_SECOND);
-constexpr double kTurns = 2.0;                            ///< [1/s] of the rotor
-constexpr double kSpin = 2.0 * std::numbers::pi * kTurns; ///< [rad/s]
-constexpr double kStepTurn = kSpin * kFrame;              ///< [rad] in a step
+constexpr double kSecond = kTicksASecond;
 
-/// Particles that stay where they are born, 600 in a second.
-std::string trailPreset(const char* space)
-{
-    return std::string(R"({"version": 1, "name": "trail", "ground": false, "emitters": [{"maxParticles": 4000,
-        "space": ")") +
-           space +
-           R"(", "emission": {"rate": 600}, "lifetime": 100, "forces": {"gravity": 0}, "radius": 0.01}]})";
-}
+/// Particles that fly on with the velocity of the instance.
+constexpr const char* kThrown =
+    R"({"version": 1, "name": "thrown", "ground": false, "emitters": [{"maxParticles": 400,
+    "space": "world", "inheritVelocity": 1, "emission": {"rate": 60}, "lifetime": 3, "forces": {"gravity": 0},
+    "radius": 0.01}]})";
 
-/// A motion in closed form.
-struct Path
-{
-    FxMotion at(double seconds) const
-    {
-        FxMotion motion = fxDefaultMotion();
-        motion.hasVelocity = hasVelocity ? 1 : 0;
-        if (!isRotor) {
-            const double velocity[3] = {30.0, 4.0, -12.0};
-            for (int a = 0; a < 3; ++a) {
-                motion.position[a] = 5.0 + velocity[a] * seconds;
-                motion.linearVelocity[a] = float(velocity[a]);
-            }
-            return motion;
-        }
-        FxMotion hub = motion; // turns about y; the effect is at the end of an arm of 1 m
-        hub.position[1] = 2.0;
-        hub.rotation[1] = float(std::sin(0.5 * kSpin * seconds));
-        hub.rotation[3] = float(std::cos(0.5 * kSpin * seconds));
-        hub.angularVelocity[1] = float(kSpin);
-        const double arm[3] = {1.0, 0.0, 0.0};
-        EXPECT_EQ(fxOffsetMotion(&hub, arm, nullptr, &motion), FX_OK) << fxGetLastErrorMessage();
-        return motion;
-    }
-    Point point(double seconds) const
-    {
-        if (isRotor)
-            return {std::cos(kSpin * seconds), 2.0, -std::sin(kSpin * seconds)};
-        return {5.0 + 30.0 * seconds, 5.0 + 4.0 * seconds, 5.0 - 12.0 * seconds};
-    }
-
-    bool isRotor = false;
-    bool hasVelocity = false;
-};
-
-double distance(const Point& a, const Point& b)
-{
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-class MotionApi : public fx::test::ApiTest
-{
-protected:
-    FxInstanceId follow(const Path& path, const char* space)
-    {
-        FxInstanceDef def = fxDefaultInstanceDef();
-        def.preset = fx::test::loadText(context_, trailPreset(space));
-        const FxMotion start = path.at(0.0);
-        std::copy_n(start.position, 3, def.position);
-        std::copy_n(start.rotation, 4, def.rotation);
-        FxInstanceId id{};
-        EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK) << fxGetLastErrorMessage();
-        return id;
-    }
-    /// States the pose at the end of a frame of `dt`, then adds this time.
-    void frame(FxInstanceId id, const Path& path, double dt, bool byTransform = false)
-    {
-        seconds_ += dt;
-        FxMotion motion = path.at(seconds_);
-        motion.tick = int64_t(std::llround(seconds_ * kSecond));
-        if (byTransform) {
-            ASSERT_EQ(fxScene_SetTransform(scene_, id, motion.position, motion.rotation, 1.0f), FX_OK);
-        } else {
-            ASSERT_EQ(fxScene_SetMotion(scene_, id, &motion), FX_OK) << fxGetLastErrorMessage();
-        }
-        ASSERT_EQ(fxScene_Update(scene_, dt), FX_OK);
-    }
-    /// Largest distance of the instance from a path, at the ends of the last two steps. @param from [s]
-    /// earlier steps do not count
-    double error(const Path& path, double from = 0.0) const
-    {
-        const Held held(scene_);
-        FxSnapshotInfo info{};
-        info.structSize = sizeof info;
-        EXPECT_EQ(fxScene_GetSnapshotInfo(scene_, held.id, &info), FX_OK);
-        double most = 0.0;
-        for (const FxSnapshotStep step : {FX_SNAPSHOT_NEWER, FX_SNAPSHOT_OLDER}) {
-            const bool isNewer = step == FX_SNAPSHOT_NEWER;
-            const double end = double(isNewer ? info.tickNewer : info.tickOlder) / kSecond;
-            if ((isNewer ? info.groupsNewer : info.groupsOlder) == 0 || end < from)
-                continue;
-            const FxSnapshotGroup group = held.group(step);
-            most = std::max(
-                most, distance({group.position[0], group.position[1], group.position[2]}, path.point(end)));
-        }
-        return most;
-    }
-    Point placed() const
-    {
-        const FxSnapshotGroup group = Held(scene_).group();
-        return {group.position[0], group.position[1], group.position[2]};
-    }
-    /// World positions of all particles, in the order of their births.
-    std::vector<Point> births() const
-    {
-        const Held held(scene_);
-        const FxSnapshotGroup group = held.group();
-        std::vector<Point> all(group.count);
-        const char* const names[] = {"x", "y", "z"};
-        for (size_t a = 0; a < 3; ++a) {
-            FxSnapshotColumn column{};
-            column.structSize = sizeof column;
-            EXPECT_EQ(fxScene_FindSnapshotColumn(scene_, held.id, FX_SNAPSHOT_NEWER, 0, names[a], &column),
-                      FX_OK);
-            for (uint32_t i = 0; i < group.count; ++i)
-                all[i][a] = double(column.values[i]);
-        }
-        for (Point& point : all) { // placements of the tests turn about y alone
-            const double c = 1.0 - 2.0 * double(group.rotation[1]) * double(group.rotation[1]);
-            const double s = 2.0 * double(group.rotation[1]) * double(group.rotation[3]);
-            const double x = point[0], z = point[2];
-            point = {group.position[0] + c * x + s * z, group.position[1] + point[1],
-                     group.position[2] - s * x + c * z};
-        }
-        return all;
-    }
-    /// Largest distance between successive births over the smallest one, after the first tenth of a second.
-    double unevenness() const
-    {
-        const std::vector<Point> all = births();
-        double least = 1e9, most = 0.0;
-        for (size_t i = 61; i < all.size(); ++i) {
-            const double way = distance(all[i - 1], all[i]);
-            least = std::min(least, way);
-            most = std::max(most, way);
-        }
-        EXPECT_GT(all.size(), 200u);
-        return most / least;
-    }
-
-    double seconds_ = 0.0;
-
-private:
-    struct Held
-    {
-        explicit Held(FxScene* of) : scene(of) { EXPECT_EQ(fxScene_AcquireSnapshot(scene, &id), FX_OK); }
-        ~Held() { fxScene_ReleaseSnapshot(scene, id); }
-        FxSnapshotGroup group(FxSnapshotStep step = FX_SNAPSHOT_NEWER) const
-        {
-            FxSnapshotGroup group{};
-            group.structSize = sizeof group;
-            EXPECT_EQ(fxScene_GetSnapshotGroup(scene, id, step, 0, &group), FX_OK);
-            return group;
-        }
-        FxScene* scene;
-        FxSnapshotId id{};
-    };
-};
+class MotionApi : public MotionTest
+{};
 
 /// The frames of a host that is neither fast nor even.
 double unevenFrame(int i)
@@ -453,6 +299,132 @@ TEST_F(MotionApi, theMotionOfABoneCarriesAnOffsetWithRotationScaleAndVelocity)
     EXPECT_EQ(bone.position[0], tip.position[0]);
 }
 
+TEST_F(MotionApi, aPoseReplacesThoseAtItsTimeAndLater)
+{
+    const Path line;
+    const FxInstanceId id = follow(line, "local");
+    double host = 0.0; // the clock of the host, which loses nothing in long frames
+    const auto frameOf = [&](double dt) {
+        host += dt;
+        FxMotion motion = line.at(host);
+        motion.aheadSeconds = dt;
+        ASSERT_EQ(fxScene_SetMotion(scene_, id, &motion), FX_OK) << fxGetLastErrorMessage() << ", " << host;
+        ASSERT_EQ(fxScene_Update(scene_, dt), FX_OK);
+    };
+    for (int i = 0; i < 10; ++i)
+        frameOf(kFrame);
+    frameOf(2.0); // the scene adds 1/15 s
+    for (int i = 0; i < 30; ++i)
+        frameOf(1.0 / 144.0);
+    const double lost = host - double(statistics().nowTick) / kSecond;
+    EXPECT_GT(lost, 1.9);
+    const double shown = double(statistics().simulatedTick) / kSecond;
+    EXPECT_LT(distance(placed(), line.point(shown + lost)), 1e-5);
+    for (const double dt : {0.0, 0.0, 1e-9, 0.0, 1.0 / 77.0, 0.0})
+        frameOf(dt);
+    FxMotion early = line.at(0.0);
+    early.tick = 1; // before all poses
+    ASSERT_EQ(fxScene_SetMotion(scene_, id, &early), FX_OK) << fxGetLastErrorMessage();
+    play(2);
+    EXPECT_LT(distance(placed(), line.point(0.0)), 1e-6);
+}
+
+TEST_F(MotionApi, posesInTheFutureAreKeptAndTheNinthIsRefused)
+{
+    constexpr double kLeg = 0.1; // [s] from x = 0 to x = 1 and back
+    const auto zigzag = [](double t) {
+        const double leg = std::floor(t / kLeg), way = t / kLeg - leg;
+        return int(leg) % 2 == 0 ? way : 1.0 - way;
+    };
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = fx::test::loadText(context_, trailPreset("local"));
+    FxInstanceId id{};
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK) << fxGetLastErrorMessage();
+    const auto add = [&](int leg) {
+        FxMotion pose = fxDefaultMotion();
+        pose.position[0] = double(leg % 2);
+        pose.tick = int64_t(leg) * FX_TICKS_PER_SECOND / 10;
+        return fxScene_SetMotion(scene_, id, &pose);
+    };
+    for (int leg = 1; leg <= FX_MOTION_POSES; ++leg)
+        ASSERT_EQ(add(leg), FX_OK) << fxGetLastErrorMessage();
+    const uint64_t before = simulationHash();
+    EXPECT_EQ(add(FX_MOTION_POSES + 1), FX_ERROR_CAPACITY);
+    EXPECT_EQ(simulationHash(), before);
+    for (int i = 1; i < 54; ++i) {
+        if (i == 10) { // the first pose is past
+            EXPECT_EQ(add(FX_MOTION_POSES + 1), FX_OK) << fxGetLastErrorMessage();
+            EXPECT_EQ(add(FX_MOTION_POSES + 2), FX_ERROR_CAPACITY);
+        }
+        play(1);
+        EXPECT_NEAR(placed()[0], zigzag(double(statistics().simulatedTick) / kSecond), 1e-6) << i;
+    }
+}
+
+TEST_F(MotionApi, aSceneThatFallsBehindStaysOnThePath)
+{
+    FxScene* const before = scene_;
+    FxSceneDef def = fxDefaultSceneDef();
+    def.workBudget = 1; // one step in an update, of the two that are due
+    ASSERT_EQ(fxCreateScene(context_, &def, &scene_), FX_OK);
+    const Path line;
+    const FxInstanceId id = follow(line, "local");
+    for (int i = 0; i < 60; ++i) {
+        frame(id, line, 1.0 / 30.0);
+        ASSERT_LT(error(line), 1e-5) << i;
+    }
+    EXPECT_GT(statistics().nowTick - statistics().simulatedTick, FX_TICKS_PER_SECOND / 2);
+    ASSERT_EQ(fxDestroyScene(scene_), FX_OK);
+    scene_ = before;
+}
+
+TEST_F(MotionApi, theReachHasTheParticlesThatFlyOn)
+{
+    const Path line;
+    const FxInstanceId id = followWith(kThrown, line);
+    double most = 0.0;
+    for (int i = 0; i < 120; ++i) {
+        if (i < 30) {
+            frame(id, line, kFrame);
+        } else { // it has stopped
+            play(1);
+        }
+        double farthest = 0.0;
+        const Point stands = line.point(std::min(i + 1, 30) * kFrame);
+        for (const Point& point : births())
+            farthest = std::max(farthest, distance(point, stands));
+        FxInstanceActivity activity{};
+        activity.structSize = sizeof activity;
+        ASSERT_EQ(fxScene_GetInstanceActivity(scene_, id, &activity), FX_OK);
+        EXPECT_GE(double(activity.reach), farthest) << i;
+        EXPECT_LT(activity.reach, 1000.0f) << i;
+        most = std::max(most, farthest);
+    }
+    EXPECT_GT(most, 40.0);
+}
+
+TEST_F(MotionApi, anInstanceThatStartsWithinAStepIsOnThePath)
+{
+    const Path line;
+    const double start = 3.5 * kFrame;
+    for (const char* const space : {"local", "world"}) {
+        FxScene* const before = scene_;
+        const FxSceneDef def = fxDefaultSceneDef();
+        ASSERT_EQ(fxCreateScene(context_, &def, &scene_), FX_OK);
+        const FxInstanceId id = follow(line, space, int64_t(start * kSecond));
+        FxMotion pose = line.at(0.5);
+        pose.aheadSeconds = 0.5;
+        ASSERT_EQ(fxScene_SetMotion(scene_, id, &pose), FX_OK) << fxGetLastErrorMessage();
+        play(4);
+        EXPECT_LT(distance(placed(), line.point(4.0 * kFrame)), 1e-5) << space; // home, of the world
+        play(1);
+        const std::vector<Point> all = births();
+        EXPECT_LT(distance(all.back(), all[all.size() - 2]), 1.01 * line.speed() / 600.0) << space;
+        ASSERT_EQ(fxDestroyScene(scene_), FX_OK);
+        scene_ = before;
+    }
+}
+
 TEST_F(MotionApi, wrongPosesAreRefusedAndChangeNothing)
 {
     const Path line;
@@ -477,7 +449,6 @@ TEST_F(MotionApi, wrongPosesAreRefusedAndChangeNothing)
     refuse([](FxMotion& m) { m.aheadSeconds = -1.0; });
     refuse([](FxMotion& m) { m.aheadSeconds = 3601.0; });
     refuse([](FxMotion& m) { m.tick = -1; });
-    refuse([](FxMotion& m) { m.tick = 1; }); // before the last pose
     refuse([](FxMotion& m) { m.tick = 4000 * FX_TICKS_PER_SECOND; });
     refuse([](FxMotion& m) { m.hasVelocity = 2; });
     refuse([](FxMotion& m) { m.reserved = 1; });

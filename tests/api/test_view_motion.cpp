@@ -19,6 +19,18 @@ constexpr const char* kStill = R"({"version": 1, "name": "still", "ground": fals
      "lifetime": 100, "radius": 0.05, "forces": {"gravity": 0},
      "appearance": {"kind": "sprite", "blend": "additive", "luminance": 20000}}]})";
 
+/// Flames, sprites and trails that stay where they are born.
+constexpr const char* kLeft = R"({"version": 1, "name": "left behind", "ground": false, "emitters": [
+    {"name": "fire", "layer": "fire", "space": "world", "emission": {"rate": 30}, "lifetime": 100, "radius": 0.2,
+     "temperature": 1700, "forces": {"gravity": 0}},
+    {"name": "chips", "space": "world", "position": [0, 0.6, 0], "emission": {"rate": 60}, "lifetime": 100,
+     "radius": 0.05, "forces": {"gravity": 0},
+     "appearance": {"kind": "sprite", "blend": "additive", "luminance": 20000}},
+    {"name": "tails", "space": "world", "position": [0, -0.6, 0], "emission": {"rate": 30}, "lifetime": 100,
+     "shape": "cone", "speed": 2, "forces": {"gravity": 0},
+     "trail": {"lifetime": 1, "width": 0.1, "blend": "additive", "luminance": 20000},
+     "appearance": {"kind": "none"}}]})";
+
 class ViewMotion : public fx::test::ViewApiTest
 {
 protected:
@@ -149,4 +161,38 @@ TEST_F(ViewMotion, aViewFollowsAMotionWhileNoStepIsTaken)
     }
     ASSERT_EQ(fxDestroyView(view), FX_OK);
     ASSERT_EQ(fxDestroyScene(scene), FX_OK);
+}
+
+TEST_F(ViewMotion, drawsWhatStaysInTheWorldWhereItIs)
+{
+    preset_ = fx::test::loadText(context_, kLeft);
+    for (const uint32_t composition : {FX_COMPOSITION_SORTED, FX_COMPOSITION_SLABS}) {
+        FxInstanceId moving{}, carried{};
+        FxScene* const inMotion = makeScene(moving, -1.5);
+        FxScene* const byTransform = makeScene(carried, -1.5);
+        double x = -1.5;
+        std::vector<float> first;
+        for (int i = 0; i < 30; ++i) { // each frame has one step, in which both go the same way
+            FxMotion pose = fxDefaultMotion();
+            pose.aheadSeconds = kFrame;
+            if (i > 0) // from the first step on
+                x += kSpeed * kFrame;
+            pose.position[0] = x;
+            if (i > 0) {
+                ASSERT_EQ(fxScene_SetMotion(inMotion, moving, &pose), FX_OK) << fxGetLastErrorMessage();
+                ASSERT_EQ(fxScene_SetTransform(byTransform, carried, pose.position, pose.rotation, 1.0f),
+                          FX_OK);
+            }
+            ASSERT_EQ(fxScene_Update(inMotion, kFrame), FX_OK);
+            ASSERT_EQ(fxScene_Update(byTransform, kFrame), FX_OK);
+            if (i == 10)
+                first = drawn(inMotion, composition);
+        }
+        const std::vector<float> now = drawn(inMotion, composition);
+        EXPECT_GT(fx::test::largestShownDifference(now, first), 0.1f) << composition;
+        EXPECT_LE(fx::test::largestShownDifference(now, drawn(byTransform, composition)), 2.0f / 255.0f)
+            << composition;
+        ASSERT_EQ(fxDestroyScene(inMotion), FX_OK);
+        ASSERT_EQ(fxDestroyScene(byTransform), FX_OK);
+    }
 }

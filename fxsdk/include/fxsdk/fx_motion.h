@@ -17,7 +17,8 @@
 extern "C" {
 #endif
 
-/// Number of poses of an instance that are kept. Older ones are discarded.
+/// Number of poses of an instance that may lie in the future, and number of poses that are kept when they do
+/// not. Older ones are discarded.
 #define FX_MOTION_POSES 8
 
 /// A pose of an object at a time. Fill with fxDefaultMotion(), then change members.
@@ -73,13 +74,17 @@ static inline FxMotion fxDefaultMotion(void)
 /// Adds a pose to the motion of an instance. At the end of each step the instance then stands at the place
 /// that the motion has at that time, on the path between the pose before and the pose after. The first pose
 /// is reached on a straight path from the placement of the instance at the last step. After the last pose the
-/// instance stands there. A pose at the time of the last pose replaces it. Births of emitters with "space":
-/// "world" lie on the path, with straight lines within a step. fxScene_SetTransform() ends the motion. Saved
-/// states and fxScene_GetSimulationHash() contain the poses. The first pose of an instance allocates about 1
-/// KiB, later ones allocate nothing. An instance that has ended does not change. [scene thread]
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite, out of range, a time before that of the last
-///         pose), FX_ERROR_VERSION (structSize), FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD,
-///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure leaves the motion as it was.
+/// instance stands there. A pose replaces all poses at its time and after it: after a long frame, of which
+/// the scene adds only a part, the next pose takes the place of that at the end of the frame. Births of
+/// emitters with "space": "world" lie on the path, with straight lines within a step. An instance
+/// that starts within a step starts where the path is at the end of the step. fxScene_SetTransform() ends the
+/// motion. Saved states and fxScene_GetSimulationHash() contain the poses. The first pose of an instance
+/// allocates about 1 KiB, later ones allocate nothing. An instance that has ended does not change.
+/// [scene thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite, out of range), FX_ERROR_CAPACITY
+///         (FX_MOTION_POSES poses after the scene time and before this pose), FX_ERROR_VERSION (structSize),
+///         FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure
+///         leaves the motion as it was.
 FX_API FxResult fxScene_SetMotion(FxScene* scene, FxInstanceId instance, const FxMotion* motion);
 
 /// Computes the pose of a point that is fixed to an object: of an effect that is attached to a bone.
