@@ -69,8 +69,8 @@ TEST(PreferredComposition, ofTheLibraryIsVolumeWhereMediaHaveDetailAndSlabsForBl
         const bool hasBlocks = entry.text.find("\"blocks\":") != std::string_view::npos;
         const auto loaded = fx::preset::loadPresetText(entry.text, std::string(entry.name));
         ASSERT_TRUE(loaded.ok()) << loaded.status().message();
-        const auto expected = hasDetail   ? PreferredComposition::Volume
-                              : hasBlocks ? PreferredComposition::Slabs
+        const auto expected = hasBlocks   ? PreferredComposition::Slabs
+                              : hasDetail ? PreferredComposition::Volume
                                           : PreferredComposition::None;
         EXPECT_EQ(loaded->effect->hints.composition, expected) << entry.name;
         detailed += hasDetail ? 1 : 0;
