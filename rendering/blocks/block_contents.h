@@ -32,8 +32,9 @@ struct BlockContent
     glm::vec3 brightest{0.0f};                  ///< [cd/m2] largest BlockBall::light, by channel
     float fireShare = 0.0f;                     ///< mean
     float heat = 0.0f;                          ///< [K] mean
-    float peak =
-        0.0f; ///< [1/m] mean of cross section over radius cubed, which follows the extinction in the middle
+    /// [1/m] mean of the cross section of a ball over its radius cubed: the extinction in its middle follows
+    /// it
+    float peak = 0.0f;
     float speed = 0.0f;      ///< [m/s] largest speed of a ball relative to the block
     bool isAnimated = false; ///< false: the content never changes
     uint32_t balls = 0;      ///< number of balls, at most UINT32_MAX

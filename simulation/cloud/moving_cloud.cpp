@@ -1,5 +1,7 @@
 #include "simulation/cloud/moving_cloud.h"
 
+#include "simulation/solver/sequence_player.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -143,32 +145,24 @@ uint32_t MovingCloudDef::countAt(double frame) const
     return float(frame - double(first)) > 0.0f ? counts_[first] : uint32_t(frames[first]->size());
 }
 
-class MovingCloudSolver final : public Solver, public SeekableSolver
+class MovingCloudSolver final : public SequencePlayer
 {
 public:
-    MovingCloudSolver(const MovingCloudDef& def, base::KindId kind) : def_(def), kind_(kind) {}
-
-    void step(const StepContext& context) override { tick_ = context.tick + context.stepTicks; }
-    void seek(const StepContext&, base::Ticks tick) override { tick_ = tick; }
-    bool canSeek(const StepContext&, base::Ticks) const override { return true; }
-    bool finished(base::Ticks) const override { return false; }
-    base::Ticks restsUntil(base::Ticks tick) const override { return def_.time().restsUntil(tick); }
-    void save(StateWriter& writer) const override { writer.value(tick_); }
-    void restore(StateReader& reader) override { tick_ = reader.value<base::Ticks>(); }
-    SeekableSolver* seekable() override { return this; }
+    MovingCloudSolver(const MovingCloudDef& def, base::KindId kind)
+        : SequencePlayer(def.time()), def_(def), kind_(kind)
+    {}
 
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
         if (kind_ == base::kNoKind)
             return;
-        const double frame = def_.time().frameAt(tick_);
-        const uint32_t count = def_.countAt(frame);
+        const uint32_t count = def_.countAt(frame());
         BlobWriter writer(snapshot, base, kind_, count, std::max(def_.capacity(), count));
         StillMediumSolver::writeShared(def_, writer);
         writer.constant(base::blob_constant::Shutter) = def_.shutter;
         writer.fill(blob::Age, kBorn);
         uint32_t i = 0;
-        def_.forEachAt(frame, [&](const MovingBall& moving, uint32_t id) {
+        def_.forEachAt(frame(), [&](const MovingBall& moving, uint32_t id) {
             const ListedBall& ball = moving.ball;
             const glm::vec3 velocity = def_.shutter > 0.0f ? moving.streak / def_.shutter : moving.velocity;
             for (int k = 0; k < 3; ++k) {
@@ -187,13 +181,12 @@ public:
         writer.closeBounds();
     }
 
-    uint32_t elementCount() const override { return def_.countAt(def_.time().frameAt(tick_)); }
+    uint32_t elementCount() const override { return def_.countAt(frame()); }
     bool hasElements() const override { return true; } // of another frame
 
 private:
     const MovingCloudDef& def_;
     base::KindId kind_;
-    base::Ticks tick_ = 0;
 };
 
 std::unique_ptr<Solver> MovingCloudDef::create(const base::SnapshotSchema& schema, const Quality&,

@@ -1,6 +1,7 @@
 #include "simulation/volume/sequence_solver.h"
 
 #include "foundation/snapshot/volume_kind.h"
+#include "simulation/solver/sequence_player.h"
 #include "simulation/volume/brick_balls.h"
 
 #include <algorithm>
@@ -81,49 +82,36 @@ std::vector<Part> partsOf(double before, double frame, uint32_t count)
     return parts;
 }
 
-class SequenceSolver final : public Solver, public SeekableSolver
+class SequenceSolver final : public SequencePlayer
 {
 public:
     SequenceSolver(const SequenceDef& def, base::KindId blobs, base::KindId volumes)
-        : def_(def), blobs_(blobs), volumes_(volumes)
+        : SequencePlayer(def.time()), def_(def), blobs_(blobs), volumes_(volumes)
     {}
-
-    void step(const StepContext& context) override { tick_ = context.tick + context.stepTicks; }
-    void seek(const StepContext&, base::Ticks tick) override { tick_ = tick; }
-    bool canSeek(const StepContext&, base::Ticks) const override { return true; }
-    bool finished(base::Ticks) const override { return false; }
-
-    base::Ticks restsUntil(base::Ticks tick) const override { return def_.time().restsUntil(tick); }
-
-    void save(StateWriter& writer) const override { writer.value(tick_); }
-    void restore(StateReader& reader) override { tick_ = reader.value<base::Ticks>(); }
-    SeekableSolver* seekable() override { return this; }
 
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
         if (blobs_ == base::kNoKind)
             return;
         const uint32_t count = def_.sequence->count();
-        const double frame = def_.frameAt(tick_);
-        double before = def_.frameAt(tick_ - snapshot.step());
-        if (before > frame)
+        double before = def_.frameAt(now() - snapshot.step());
+        if (before > frame())
             before -= double(count);
-        const std::vector<base::VolumeCells> cells = blend(*def_.sequence, partsOf(before, frame, count));
+        const std::vector<base::VolumeCells> cells = blend(*def_.sequence, partsOf(before, frame(), count));
         BrickBalls{
-            def_,       placeOf(def_), cells,         std::max(def_.capacity(), uint32_t(cells.size())),
-            def_.asset, float(frame),  float(before), 1.0f / def_.framesPerSecond}
+            def_,       placeOf(def_),  cells,         std::max(def_.capacity(), uint32_t(cells.size())),
+            def_.asset, float(frame()), float(before), 1.0f / def_.framesPerSecond}
             .publish(base, blobs_, volumes_, snapshot);
     }
 
     uint32_t elementCount() const override
     {
-        return uint32_t(def_.sequence->cells(uint32_t(def_.frameAt(tick_))).size());
+        return uint32_t(def_.sequence->cells(uint32_t(frame())).size());
     }
 
 private:
     const SequenceDef& def_;
     base::KindId blobs_, volumes_;
-    base::Ticks tick_ = 0;
 };
 
 } // namespace

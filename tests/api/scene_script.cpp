@@ -89,6 +89,11 @@ void SceneScript::change(FxInstanceId instance)
     FxResult result = FX_OK;
     if (frame_ % 3 == 0)
         result = fxScene_SetTransform(scene_, instance, position, upright, 1.0f);
+    FxMotion motion = fxDefaultMotion(); // while views show the path
+    motion.position[0] = position[0];
+    motion.aheadSeconds = 1.0 / 60.0;
+    if (frame_ % 6 == 1)
+        result = fxScene_SetMotion(scene_, instance, &motion);
     if (frame_ % 4 == 0 && result == FX_OK)
         result = fxScene_SetParameters(scene_, instance, &parameters);
     if (frame_ % 5 == 0 && result == FX_OK)
