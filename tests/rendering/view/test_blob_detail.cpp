@@ -79,6 +79,16 @@ TEST_F(BlobDetails, aGenerationThatIsBornOrDiesHasNoWeight)
     EXPECT_NEAR(at(0.4001f).groupDetail({}).numbers.fade, 0.0f, 1e-3f);
 }
 
+TEST_F(BlobDetails, ofBallsThatMoveWithinABlockChangeEvenlyWithinAGeneration)
+{
+    fill(older_, 6.0f, 0.2f, {1.0f, 9.0f});
+    fill(newer_, 6.0f, 0.6f, {2.0f, 9.0f}); // the ball has moved by 1
+    for (const float t : {0.0f, 0.3f, 1.0f}) {
+        const auto carried = at(t).carried(0, 0, true, {3.0f + t, 0.0f, 0.0f}); // and so has its position
+        EXPECT_NEAR(carried[0].x, (1.0f - 3.0f) / 2.0f, 1e-6f) << t;
+    }
+}
+
 TEST_F(BlobDetails, cellsFollowThePlacementOfTheGroup)
 {
     fill(newer_, 7.0f, 0.3f, {1.0f, 5.0f});
