@@ -9,6 +9,7 @@
 // besides is one more image and one more sum here. FX_LAYERS 1 also keeps what the light is sorted by. One invocation has all
 // samples along z, so that a ball is read once for all of them.
 layout(local_size_x = 81) in;
+const float kMostCosine = 0.95; // mean cosine of any ball; quotients at rims, where extinctions nearly cancel, may be anything
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(std430, binding = 3) readonly buffer BrickBalls { uint brickBalls[]; };
 layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted light [exposed/m]; a extinction [1/m]
@@ -100,7 +101,7 @@ void main()
         float extinction = mediumSums[z].a; // below 0 at rims, see voxel-kernel
         vec4 mean = scatterSums[z] / (extinction < 0.0 ? min(extinction, -1e-20) : max(extinction, 1e-20));
         imageStore(medium, texel + ivec3(0, 0, z), mediumSums[z]);
-        imageStore(scatter, texel + ivec3(0, 0, z), clamp(mean, vec4(vec3(0.0), -1.0), vec4(1.0)));
+        imageStore(scatter, texel + ivec3(0, 0, z), clamp(mean, vec4(vec3(0.0), -kMostCosine), vec4(vec3(1.0), kMostCosine)));
 #if FX_LAYERS
         imageStore(shares, texel + ivec3(0, 0, z), shareSums[z] / field.limits.y);
 #endif
