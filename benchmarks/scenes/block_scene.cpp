@@ -53,11 +53,13 @@ nlohmann::json ballsOf(uint32_t type, uint32_t count)
 
 nlohmann::json emitterOf(uint32_t count)
 {
+    constexpr double kShareOfLoop =
+        0.9; // a frame of the loop has up to an eighth more than rate times lifetime
     const double radius = 0.8 / std::cbrt(double(count));
     return {{"maxParticles", 2 * count},
             {"shape", "sphere"},
             {"size", 0.6},
-            {"emission", {{"rate", double(count) / 2.0}}},
+            {"emission", {{"rate", kShareOfLoop * double(count) / 2.0}}},
             {"lifetime", 2.0},
             {"speed", 0.1},
             {"radius", radius},
