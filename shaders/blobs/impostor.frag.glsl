@@ -30,8 +30,12 @@ void main()
     vec3 rayBegin, along;
     float lengthPerDepth;
     viewRay(gl_FragCoord.xy, rayBegin, along, lengthPerDepth);
-    vec2 room = vec2(clipOffset.z * lengthPerDepth, min(surface, clipOffset.w * lengthPerDepth)) - length(impostorCenter.xyz);
-    vec2 passed = clamp(0.5 + 0.5 * room / impostorAppearance.z, 0.0, 1.0);
+#if FX_CARDS
+    vec2 ends = vec2(-1e30, surface); // rays take shares of what is gathered
+#else
+    vec2 ends = vec2(clipOffset.z * lengthPerDepth, min(surface, clipOffset.w * lengthPerDepth));
+#endif
+    vec2 passed = clamp(0.5 + 0.5 * (ends - length(impostorCenter.xyz)) / impostorAppearance.z, 0.0, 1.0);
     float share = impostorAppearance.y * max(passed.y - passed.x, 0.0); // of the optical depth
     float alpha = min(picture.a, 0.9999);
     float shown = 1.0 - pow(1.0 - alpha, share);

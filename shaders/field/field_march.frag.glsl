@@ -81,11 +81,43 @@ uvec2 fieldsOfTexel()
 }
 #endif
 
+#if FX_LOOSE
+// Shares of the loose between two samples up to where a range of depth begins and ends: xy of them, z [1] whole optical depth.
+vec3 looseShares(SlabRay ray, vec2 cuts, float from, float to)
+{
+    float places[6] = float[6](from, cuts.x, cuts.y, to, to, to);
+    float passed[6];
+    passedUpTo(ray, places, passed);
+    return vec3(shareBetween(passed[0], passed[1], passed[3]), shareBetween(passed[0], passed[2], passed[3]), passed[3] - passed[0]);
+}
+#endif
+
+// Shares of the optical depth between two samples between which it is drawn. Extinction is linear between them.
+vec2 drawnShares(SlabRay ray, FieldSample near, FieldSample far, float from, float to)
+{
+    vec2 cuts = clamp(ray.drawn, vec2(from), vec2(to));
+    vec2 shares = (cuts - from) / max(to - from, 1e-20);
+    bool isInside = (cuts.x > from || cuts.y < to) && cuts.x < to && cuts.y > from;
+    for (int once = 0; once < (isInside ? 1 : 0); ++once) { // software renderers skip a loop without turns
+        float begin = max(near.medium.a, 0.0), end = max(far.medium.a, 0.0);
+        float ofField = 0.5 * (to - from) * (begin + end);
+        vec2 passed = (to - from) * shares * (begin + 0.5 * (end - begin) * shares);
+        float whole = ofField;
+#if FX_LOOSE
+        vec3 loose = looseShares(ray, cuts, from, to);
+        passed += loose.xy * loose.z;
+        whole += loose.z;
+#endif
+        shares = whole > 1e-12 ? clamp(passed / whole, 0.0, 1.0) : shares;
+    }
+    return vec2(cuts.x > from ? shares.x : 0.0, cuts.y < to ? shares.y : 1.0);
+}
+
 // Puts what lies between two samples of a ray behind the picture.
 #if FX_LOOSE
 void putBetween(inout SlabPicture picture, SlabRay ray, LooseSlabs loose, FieldSample near, FieldSample far, float from, float to)
 #else
-void putBetween(inout SlabPicture picture, FieldSample near, FieldSample far, float from, float to)
+void putBetween(inout SlabPicture picture, SlabRay ray, FieldSample near, FieldSample far, float from, float to)
 #endif
 {
     SlabSums sums[1] = SlabSums[1](slabBetween(near, far, to - from));
@@ -95,7 +127,7 @@ void putBetween(inout SlabPicture picture, FieldSample near, FieldSample far, fl
     if (to > loose.range.x && from < loose.range.y)
         addLoose(ray, edges, vec2(from, to), loose.range.y, sums, behind);
 #endif
-    putBehind(picture, sums[0], from, to);
+    putBehind(picture, sums[0], from, to, drawnShares(ray, near, far, from, to));
 }
 
 // Neighboring rays look for medium, each at its own pace, and then all of them evaluate it together: what is done together costs as
@@ -138,14 +170,14 @@ void main()
 #if FX_LOOSE
                 putBetween(picture, ray, loose, before, now, t, next);
 #else
-                putBetween(picture, before, now, t, next);
+                putBetween(picture, ray, before, now, t, next);
 #endif
                 before = now;
                 t = next;
                 rests = fields.rests;
                 isShort = false;
-                isOver = !(t < ray.t1 && (before.room < kNever || t < last) && picture.through > kMinTransmittance);
-                float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMaxStretch); // less is seen of what follows
+                isOver = !(t < min(ray.t1, ray.drawn.y) && (before.room < kNever || t < last) && picture.passed < kSeenDepth);
+                float stretch = min(exp(0.25 * picture.passed), kMaxStretch); // less is seen of what follows
                 next = t + (before.isEmpty ? before.room : min(stretch * before.room, before.most));
 #if FX_LOOSE
                 next = min(next, nextFace(loose, t));

@@ -42,9 +42,12 @@ float leftOver(vec3 place)
     return room > 0.0 ? 1.0 : 0.0;
 }
 
-// Share of the particle that lies between the depths that are drawn; what is solid is cut.
+// Share of the particle that lies between the depths that are drawn; what is solid is cut. Of what is gathered, rays take shares.
 float shareDrawn(vec3 place)
 {
+#if FX_CARDS
+    return 1.0;
+#else
     float distanceAlong = distanceOf(place);
     float reach = appearance.z;
 #if FX_SOLID
@@ -52,6 +55,7 @@ float shareDrawn(vec3 place)
 #endif
     float lengthPerDepth = rayOrigin.w > 0.5 ? 1.0 : distanceAlong / dot(place, forward.xyz);
     return shareInRange(distanceAlong, reach, lengthPerDepth);
+#endif
 }
 
 // alpha: of the particle alone, without the scene
@@ -61,7 +65,7 @@ void writeParticle(vec3 light, float alpha, vec3 place)
     float share = shareDrawn(place);
     bool addsOnly = appearance.w > 0.5 && appearance.w < 1.5; // it hides nothing
 #if FX_SOLID
-    alpha = left > 0.0 && share > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
+    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
 #else
     alpha *= left;
     if (share < 1.0) // of its optical depth, so that ranges put over each other have the opacity of all of it
@@ -75,6 +79,9 @@ void writeParticle(vec3 light, float alpha, vec3 place)
     solidDistance = vec4(d, 0.0, 0.0, 1.0);
 #endif
     gl_FragDepth = 1.0 / (1.0 + max(d, 0.0)); // nearer is more, as precise far away as a float is
+#endif
+#if FX_SOLID
+    alpha = share > 0.0 ? alpha : 0.0; // rays end there in all ranges of depth, and it is seen in one
 #endif
     float cover = addsOnly ? 0.0 : alpha;
     vec3 seen = alpha * light;

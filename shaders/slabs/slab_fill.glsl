@@ -161,8 +161,8 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
 {
     vec2 detail = texelFetch(balls, ballTexel(ball, kDetail), 0).xy;
     float power = texelFetch(balls, ballTexel(ball, kEmitted), 0).w;
-    float front = max(chord.tc - chord.w, ray.open.x); // the same for all ranges of depth
-    float back = max(min(chord.tc + chord.w, ray.open.y), front);
+    float front = max(chord.tc - chord.w, ray.t0);
+    float back = max(min(chord.tc + chord.w, ray.t1), front);
     float share = passedAt(chord, back) - passedAt(chord, front);
     float seen = mix(front, back, 0.5 / (1.0 + 0.5 * chord.depth * share));
     vec3 relative = (chord.across + (seen - chord.tc) * ray.direction) / medium.y;

@@ -5,8 +5,8 @@ struct SlabRay
 {
     vec3 origin;          // [m] relative to the eye
     vec3 direction;       // unit
-    float t0, t1;         // [m] where the part of the ray that is drawn begins and ends
-    vec2 open;            // [m] where the visible ray begins and ends, of all depths
+    float t0, t1;         // [m] where the visible ray begins and ends, of all depths
+    vec2 drawn;           // [m] what lies between these is drawn, see drawnShares
     float lengthPerDepth; // [1] length along the ray over depth along the axis of the view
     uint cards;           // number of the first node of shared/card_nodes.glsl, counted from 1; 0: none
 };
@@ -15,10 +15,16 @@ SlabRay slabRay()
 {
     SlabRay ray;
     viewRay(gl_FragCoord.xy, ray.origin, ray.direction, ray.lengthPerDepth);
-    ray.open = vec2(rayOriginX.w * ray.lengthPerDepth, texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r);
-    vec2 part = drawnPart(ray.open, ray.lengthPerDepth);
-    ray.t0 = part.x;
-    ray.t1 = part.y;
+    ray.t0 = rayOriginX.w * ray.lengthPerDepth;
+    ray.t1 = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
+    ray.drawn = clipOffset.zw * ray.lengthPerDepth;
     ray.cards = 0u;
     return ray;
+}
+
+// A frame that is drawn range by range of depth has the slabs of the whole ray in each range, and draws shares of them. So ranges
+// put over each other are the whole picture.
+bool isCut(SlabRay ray)
+{
+    return ray.drawn.x > ray.t0 || ray.drawn.y < ray.t1;
 }

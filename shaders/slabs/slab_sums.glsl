@@ -3,11 +3,11 @@
 #if FX_LAYERS
 #include "shared/layer_outputs.glsl"
 const int kLayers = 3; // fire, smoke, dust
-const float kMinTransmittance = -1.0; // the optical depth is that of the whole ray
+const float kSeenDepth = 1e30; // the optical depth is that of the whole ray
 #else
 layout(location = 0) out vec4 light;
 const int kLayers = 1;
-const float kMinTransmittance = 1e-4; // [1] transmittance behind which nothing is seen
+const float kSeenDepth = 9.2103; // [1] optical depth behind which nothing is seen: a transmittance of 1e-4
 #endif
 
 const float kThinSlab = 0.02; // [1] optical depth below which light is a polynomial: nothing is divided by it
@@ -26,7 +26,8 @@ struct SlabSums
 // What is seen of the slabs so far.
 struct SlabPicture
 {
-    float through; // [1] transmittance
+    float passed;  // [1] optical depth of the whole ray
+    float through; // [1] transmittance of what is drawn
     vec3 light[kLayers];
 #if FX_LAYERS
     vec3 covered;    // [1] opacity of fire, smoke and dust
@@ -50,6 +51,7 @@ SlabSums emptySlab()
 SlabPicture emptyPicture()
 {
     SlabPicture picture;
+    picture.passed = 0.0;
     picture.through = 1.0;
     for (int l = 0; l < kLayers; ++l)
         picture.light[l] = vec3(0.0);
@@ -75,18 +77,44 @@ float slopeScale(float depth, float light, float moment, float slope)
     return free != 0.0 ? fxSlabSlope(depth, light, moment, slope) / free : 1.0;
 }
 #else
-float thickLight(float depth, float light, float moment, float slope)
+vec3 slopesOf(float depth, vec3 light, float moment, vec3 slope)
 {
-    float emitted = max(light, 0.0);
-    return fxSlabLight(depth, emitted, fxSlabSlope(depth, emitted, moment, slope));
+    return vec3(fxSlabSlope(depth, light.r, moment, slope.r), fxSlabSlope(depth, light.g, moment, slope.g),
+                fxSlabSlope(depth, light.b, moment, slope.b));
 }
 #endif
 
+// Share of what is passed between two faces that lies before a place.
+float shareBetween(float near, float place, float far)
+{
+    return clamp((place - near) / max(far - near, 1e-20), 0.0, 1.0);
+}
+
+// Light of a part of a slab, which is a slab of a linear source too. slope: change of the source from face to face
+vec3 thickPart(vec2 part, float depth, vec3 emitted, vec3 slope)
+{
+    float share = part.y - part.x;
+    float ofPart = share * depth;
+    vec3 light = share * (emitted + (0.5 * (part.x + part.y) - 0.5) * depth * slope);
+    return vec3(fxSlabLight(ofPart, light.r, share * slope.r), fxSlabLight(ofPart, light.g, share * slope.g),
+                fxSlabLight(ofPart, light.b, share * slope.b));
+}
+
+// The same of a thin slab with the light `whole`: the light of its parts is exactly the whole, whatever its first moment is.
+vec3 thinPart(vec2 part, float depth, vec3 whole, vec3 moment)
+{
+    float before = part.x * depth;
+    vec3 turned = 6.0 * (part.y * (1.0 - part.y) - part.x * (1.0 - part.x)) * clamp(moment, -abs(whole) / 6.0, abs(whole) / 6.0);
+    return ((part.y - part.x) * whole - turned) * (1.0 + before * (1.0 + 0.5 * before));
+}
+
 // @param near, far [m] faces of the slab
-void putBehind(inout SlabPicture picture, SlabSums sums, float near, float far)
+// @param part shares of its optical depth between which it is drawn, 0 to 1
+void putBehind(inout SlabPicture picture, SlabSums sums, float near, float far, vec2 part)
 {
     float depth = sums.depth;
-    float opacity = fxSlabOpacity(depth);
+    float share = part.y - part.x;
+    float opacity = fxSlabOpacity(share * depth);
 #if FX_LAYERS
     vec3 lights = max(sums.light[0] + sums.light[1] + sums.light[2], vec3(0.0));
     vec3 slopes = sums.slope[0] + sums.slope[1] + sums.slope[2];
@@ -98,21 +126,23 @@ void putBehind(inout SlabPicture picture, SlabSums sums, float near, float far)
         vec3 own = sums.light[l];
         vec3 thin = thinLight(depth, own, sums.moment, sums.slope[l]);
         vec3 slope = scale * 12.0 * (sums.slope[l] - own * (perDepth * sums.moment)) * perDepth;
-        vec3 thick = vec3(fxSlabLight(depth, own.r, slope.r), fxSlabLight(depth, own.g, slope.g),
-                          fxSlabLight(depth, own.b, slope.b));
-        picture.light[l] += picture.through * (isThin ? thin : thick);
+        picture.light[l] += picture.through * (isThin ? thinPart(part, depth, thin, sums.slope[l]) : thickPart(part, depth, own, slope));
     }
-    float opacityPerDepth = isThin ? 1.0 - depth * (0.5 - depth * 0.166666667) : opacity * perDepth;
+    float ofPart = share * depth;
+    float opacityPerDepth = isThin ? share * (1.0 - ofPart * (0.5 - ofPart * 0.166666667)) : opacity * perDepth;
     picture.covered += picture.through * opacityPerDepth * sums.share;
     float middle = 0.5 * (near + far) + (far - near) * clamp(sums.moment * perDepth, -0.5, 0.5);
-    picture.distances += picture.through * (opacity * middle + (far - near) * fxSlabSlopeWeight(depth));
-    picture.depths += depth;
+    middle += (0.5 * (part.x + part.y) - 0.5) * (far - near);
+    picture.distances += picture.through * (opacity * middle + share * (far - near) * fxSlabSlopeWeight(ofPart));
+    picture.depths += ofPart;
 #else
     vec3 own = sums.light[0], slope = sums.slope[0];
-    vec3 thick = vec3(thickLight(depth, own.r, sums.moment, slope.r), thickLight(depth, own.g, sums.moment, slope.g),
-                      thickLight(depth, own.b, sums.moment, slope.b));
-    picture.light[0] += picture.through * (depth < kThinSlab ? thinLight(depth, own, sums.moment, slope) : thick);
+    vec3 emitted = max(own, vec3(0.0));
+    vec3 thin = thinPart(part, depth, thinLight(depth, own, sums.moment, slope), slope);
+    vec3 thick = thickPart(part, depth, emitted, slopesOf(depth, emitted, sums.moment, slope));
+    picture.light[0] += picture.through * (depth < kThinSlab ? thin : thick);
 #endif
+    picture.passed += depth;
     picture.through *= 1.0 - opacity;
 }
 

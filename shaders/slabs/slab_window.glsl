@@ -99,12 +99,11 @@ float passedAt(Chord chord, float t)
     return passed;
 }
 
-// Interval of a card along the ray, of a length > 0; none of it is behind what hides, nor beyond the depths that are drawn.
+// Interval of a card along the ray, of a length > 0; none of it is behind what hides.
 vec2 intervalOf(SlabRay ray, vec4 body)
 {
-    vec2 drawn = clipOffset.zw * ray.lengthPerDepth;
-    float back = min(min(body.x + 0.5 * body.z, max(ray.t1, body.x)), drawn.y);
-    float front = max(min(max(body.x - 0.5 * body.z, ray.t0), body.x), drawn.x);
+    float back = min(body.x + 0.5 * body.z, max(ray.t1, body.x));
+    float front = min(max(body.x - 0.5 * body.z, ray.t0), body.x);
     return vec2(front, max(back, front + 1e-6 * max(abs(front), 1e-6)));
 }
 
@@ -135,6 +134,27 @@ vec2 rangeOf(SlabRay ray)
         range = vec2(min(range.x, interval.x), max(range.y, interval.y));
     }
     return range;
+}
+
+// Optical depth up to places on the ray. Light that hides nothing counts a little, so that it can be divided too.
+void passedUpTo(SlabRay ray, float places[6], out float passed[6])
+{
+    const float kOfLight = 1e-3; // [1] for light of 1
+    for (int k = 0; k < 6; ++k)
+        passed[k] = 0.0;
+    int turns = isCut(ray) ? tileList.y : 0;
+    for (int i = 0; i < turns; ++i) {
+        Chord chord = chordOfTile(ray, i);
+#define FX_ADD_PASSED(k) passed[k] += chord.depth * passedAt(chord, places[k]);
+        FX_EACH_6(FX_ADD_PASSED)
+    }
+    for (uint card = isCut(ray) ? ray.cards : 0u; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
+        vec4 body = cardNodes[card - 1u].body;
+        vec2 interval = intervalOf(ray, body);
+        float weight = body.y + kOfLight * dot(cardNodes[card - 1u].light.rgb, vec3(1.0));
+#define FX_ADD_CARD_PASSED(k) passed[k] += weight * clamp((places[k] - interval.x) / (interval.y - interval.x), 0.0, 1.0);
+        FX_EACH_6(FX_ADD_CARD_PASSED)
+    }
 }
 
 // Optical depth from `start` to the ends of kBins bins of a range.
@@ -235,4 +255,14 @@ float placeAt(SlabWindow window, float share)
         place += clamp((share - window.seen[k]) / max(window.seen[k + 1] - window.seen[k], 1e-6), 0.0, 1.0) *
                  (window.places[k + 1] - window.places[k]);
     return place;
+}
+
+// Number of the slab in which a place of the window lies. slabs: how many there are
+float slabAt(SlabWindow window, float place, float slabs)
+{
+    float share = 0.0;
+    for (int k = 0; k < kBins; ++k)
+        share += clamp((place - window.places[k]) / max(window.places[k + 1] - window.places[k], 1e-20), 0.0, 1.0) *
+                 (window.seen[k + 1] - window.seen[k]);
+    return min(floor(share * slabs), slabs - 1.0);
 }

@@ -37,6 +37,38 @@
 #endif
 #include "slabs/slab_fill.glsl"
 
+const float kSlabs = float(FX_SLABS);
+
+// The face before a slab. end: of the last; what is behind the window counts as one more
+float faceOf(SlabWindow window, vec2 range, float end, float slab)
+{
+    if (slab > kSlabs)
+        return range.y;
+    return slab == 0.0 ? range.x : slab == kSlabs ? end : placeAt(window, slab / kSlabs);
+}
+
+// Slabs between which the ray is drawn, counted from the first; a fraction is a share of the optical depth of one.
+vec2 drawnSlabs(SlabRay ray, SlabWindow window, vec2 range, float end)
+{
+    vec2 slabs = vec2(0.0, kSlabs + 1.0);
+    for (int once = 0; once < (isCut(ray) ? 1 : 0); ++once) { // software renderers skip a loop without turns
+        float places[6], passed[6];
+        for (int k = 0; k < 2; ++k) {
+            float place = clamp(ray.drawn[k], range.x, range.y);
+            slabs[k] = place > end ? kSlabs : slabAt(window, place, kSlabs);
+            places[3 * k] = faceOf(window, range, end, slabs[k]);
+            places[3 * k + 1] = place;
+            places[3 * k + 2] = faceOf(window, range, end, slabs[k] + 1.0);
+        }
+        passedUpTo(ray, places, passed);
+        for (int k = 0; k < 2; ++k)
+            slabs[k] += shareBetween(passed[3 * k], passed[3 * k + 1], passed[3 * k + 2]);
+        slabs.x = ray.drawn.x > range.x ? slabs.x : 0.0;
+        slabs.y = ray.drawn.y < range.y ? slabs.y : kSlabs + 1.0;
+    }
+    return slabs;
+}
+
 void main()
 {
     SlabRay ray = slabRay();
@@ -47,6 +79,7 @@ void main()
     SlabWindow window = windowOf(ray, range);
     float end = window.depth < kMaxDepth ? range.y : window.ends.y; // the little before and behind the window is of the outer slabs
 
+    vec2 drawn = drawnSlabs(ray, window, range, end);
     SlabPicture picture = emptyPicture();
     float behind = 0.0; // [1] optical depth behind the window: it hides, and its light is not seen
 #if FX_FIELD_DETAIL
@@ -54,19 +87,18 @@ void main()
 #else
     const int slabs = FX_SLABS;
 #endif
-    for (int first = 0; first < slabs && picture.through > kMinTransmittance; first += kGroup) {
+    for (int first = 0; first < slabs && float(first) < drawn.y && picture.passed < kSeenDepth; first += kGroup) {
         float edges[kGroup + 1];
-        for (int k = 0; k <= kGroup; ++k) {
-            int edge = first + k;
-            edges[k] = edge == 0 ? range.x : edge == FX_SLABS ? end : placeAt(window, float(edge) / float(FX_SLABS));
-        }
+        for (int k = 0; k <= kGroup; ++k)
+            edges[k] = faceOf(window, range, end, float(first + k));
         SlabSums sums[kGroup];
         for (int k = 0; k < kGroup; ++k)
             sums[k] = emptySlab();
         addLoose(ray, edges, window.ends, range.y, sums, behind);
         for (int k = 0; k < kGroup; ++k)
-            putBehind(picture, sums[k], edges[k], edges[k + 1]);
+            putBehind(picture, sums[k], edges[k], edges[k + 1], clamp(drawn - float(first + k), 0.0, 1.0));
     }
-    hide(picture, behind);
+    drawn = clamp(drawn - kSlabs, 0.0, 1.0);
+    hide(picture, (drawn.y - drawn.x) * behind);
     writePicture(picture);
 }

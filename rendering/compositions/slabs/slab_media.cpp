@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace fx::render {
 
@@ -77,9 +78,11 @@ SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in,
                  : balls.detail                 ? SlabDetail::OfBalls
                                                 : SlabDetail::None;
     out.blocks = use.slabs > 0 ? balls.tiles : BlockTileBindings();
-    const uint32_t most = use.slabs > 0 ? SlabPass::maxOfTile(use.slabs, out.detail, in.layers,
-                                                              use.details.details.size(), out.blocks.valid())
-                                        : use.maxOfTile;
+    const bool isCut = in.view.clipOffset.z > 0.0f || std::isfinite(in.view.clipOffset.w);
+    const uint32_t most = use.slabs > 0
+                              ? SlabPass::maxOfTile(use.slabs, out.detail, in.layers,
+                                                    use.details.details.size(), out.blocks.valid(), isCut)
+                              : use.maxOfTile;
     out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_, use.marks});
     out.tiles = SlabTilePass::addTo(
         graph, {rects_, entries, in.width, in.height, most, in.view.rayOriginY.w, out.cards, use.fieldTiles});

@@ -239,9 +239,11 @@ SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
     return out;
 }
 
-uint32_t SlabPass::maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields, bool blocks)
+uint32_t SlabPass::maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields, bool blocks,
+                             bool isCut)
 {
-    constexpr uint32_t kReadsOfWindow = 3;  // rangeOf() once and passedIn() twice, in slab_window.glsl
+    const uint32_t readsOfWindow =
+        isCut ? 4 : 3;                      // rangeOf(), passedIn() twice, passedUpTo(), in slab_window.glsl
     constexpr uint32_t kTurnsOfField = 100; // of addEroded() in slab_detail.glsl, run between fields too
     constexpr uint32_t kGroups[] = {2, 4};  // of slabs that are filled at a time, see slabs.frag.glsl
     const bool isGrouped = detail == SlabDetail::OfFields || (layers && detail == SlabDetail::None);
@@ -249,7 +251,7 @@ uint32_t SlabPass::maxOfTile(int slabs, SlabDetail detail, bool layers, size_t f
     const uint64_t ofFields =
         detail == SlabDetail::OfFields ? uint64_t(kTurnsOfField) * groups * (2 * fields + 1) : 0;
     const uint32_t left = kMaxLoopTurns - uint32_t(std::min<uint64_t>(ofFields, kMaxLoopTurns / 8));
-    return left / (blocks ? 3 : 1) / (kReadsOfWindow + groups); // of a block, two loops of one turn
+    return left / (blocks ? 3 : 1) / (readsOfWindow + groups); // of a block, two loops of one turn
 }
 
 MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const MediaPass::Outputs& under)

@@ -165,7 +165,9 @@ public:
     /// over their fields take at most kMaxLoopTurns iterations.
     /// @param fields number of fields with detail; counted up to an eighth of the iterations
     /// @param blocks true: some balls have tiles
-    static uint32_t maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields, bool blocks = false);
+    /// @param isCut true: the call draws a range of depth
+    static uint32_t maxOfTile(int slabs, SlabDetail detail, bool layers, size_t fields, bool blocks = false,
+                              bool isCut = false);
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);
 };
