@@ -54,7 +54,7 @@ void detailOfSlabs(SlabRay ray, float edges[kGroup + 1], FieldDetail numbers, De
     int turns = tileList.y > 0 ? kGroup : 0;
     for (int k = 0; k < turns; ++k) {
         vec4 body = chosen(k, bodies);
-        if (body.x > 0.0) {
+        if (body.x > 1e-12) { // its inverse and that times a moment are finite
             float perDepth = 1.0 / body.x;
             float t = body.z + perDepth * body.y * body.w; // where most of the medium is
             vec4 first = chosen(k, carried0), second = perDepth * chosen(k, carried1);

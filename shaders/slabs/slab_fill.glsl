@@ -203,7 +203,7 @@ BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, i
     float perWidth = 1.0 / max(far - near, 1e-20); // some have no thickness
     vec2 next = passedWithMoment(chord, far);
     BallPart part;
-    part.depth = chord.depth * (next.x - passed.x);
+    part.depth = chord.depth * max(next.x - passed.x, 0.0); // rounding may make it less, and then quotients of sums have no bounds
     part.moment = ((chord.tc - middle) * part.depth + chord.w * chord.depth * (next.y - passed.y)) * perWidth;
     float along = clamp(middle - chord.tc, -chord.w, chord.w);
     part.scattered = light.smoothly * max(light.base + light.slope * along, 0.0);

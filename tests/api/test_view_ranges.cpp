@@ -39,6 +39,7 @@ struct Cut
 constexpr Cut kCampfire{"campfire", 3.0, 0.8, 60, {2.8f, 3.1f}};
 constexpr Cut kExplosion{fx::test::kLargeEffect, 14.0, 2.0, 40, {12.0f, 14.5f}};
 constexpr Cut kDebris{"debris", 6.0, 0.8, 25, {5.4f, 6.3f}}; // opaque meshes in dust
+constexpr Cut kNearExplosion{fx::test::kLargeEffect, 9.0, 2.0, 40, {}};
 constexpr Cut kSparks{"sparks", 3.0, 0.8, 60, {2.8f, 3.1f}};
 constexpr Cut kCloud{"cumulus", 2'500.0, 900.0, 2, {2'300.0f, 2'600.0f}};
 
@@ -249,6 +250,35 @@ TEST_F(ViewRanges, areCutByOpticalDepthInSlabsToo)
                     double(end), double(fx::test::largestShownDifference(through[0], through[1]) / kStep),
                     255.0 * sum / double(through[0].size()));
         EXPECT_LE(fx::test::largestShownDifference(through[0], through[1]), kStep);
+    }
+}
+
+TEST_F(ViewRanges, haveLightWhereverTheyHide)
+{
+    // In daylight nothing has no light. A pixel whose sums are no numbers would have none.
+    for (const auto& [cut, composition] :
+         {std::pair(kNearExplosion, FX_COMPOSITION_SLABS), std::pair(kExplosion, FX_COMPOSITION_VOLUME),
+          std::pair(kCampfire, FX_COMPOSITION_VOLUME), std::pair(kCampfire, FX_COMPOSITION_SLABS)})
+    {
+        SCOPED_TRACE(std::string(cut.preset) + ", composition " + std::to_string(composition));
+        FxView* const view = show(cut, composition);
+        FxViewSettings settings = sunny(composition);
+        settings.shimmerStrength = 0.0f;
+        ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+        size_t hidden = 0, black = 0;
+        for (int moved = 0; moved < 4; ++moved) { // rays at other places
+            FxFrameDef def = eye(cut);
+            def.origin[0] += 0.0013 * double(moved) * cut.distance;
+            const std::vector<float> dark = whole(view, def, 0.0f), bright = whole(view, def, 1.0f);
+            for (size_t i = 0; i < dark.size(); i += 4) {
+                const bool hides = bright[i] - dark[i] < 0.6f;
+                hidden += hides;
+                black += hides && !(dark[i] > 1e-5f);
+            }
+        }
+        EXPECT_GT(hidden, 100u);
+        EXPECT_EQ(black, 0u) << "of " << hidden;
+        hide(view);
     }
 }
 
