@@ -44,9 +44,12 @@ public:
             view->sunDirection = {settings_.lighting.sunDirection, view->sunDirection.w};
         }
         solidView_ = frame_.view;
-        for (ViewBlock* view : {&solidView_, &frame_.layerView})
+        const bool isAlone = request_.range.isLast && !request_.range.isContinued;
+        for (ViewBlock* view : {&solidView_, &frame_.layerView}) {
             view->clipOffset = {view->clipOffset.x, view->clipOffset.y, request_.range.from,
                                 request_.range.to};
+            view->rayDirection.w = isAlone ? 1.0f : 0.0f;
+        }
         isComposed_ = in.composition && in.composition->hasMedia();
         frame_.hasMedia = isComposed_ || !in.batches.empty() || !in.solids.empty();
     }

@@ -30,10 +30,9 @@ void main()
     vec3 rayBegin, along;
     float lengthPerDepth;
     viewRay(gl_FragCoord.xy, rayBegin, along, lengthPerDepth);
-#if FX_CARDS
-    vec2 ends = vec2(-1e30, surface); // rays take shares of what is gathered
-#else
     vec2 ends = vec2(clipOffset.z * lengthPerDepth, min(surface, clipOffset.w * lengthPerDepth));
+#if FX_CARDS
+    ends = rayDirection.w > 0.5 ? ends : vec2(-1e30, surface); // rays take shares of what is gathered
 #endif
     vec2 passed = clamp(0.5 + 0.5 * (ends - length(impostorCenter.xyz)) / impostorAppearance.z, 0.0, 1.0);
     float share = impostorAppearance.y * max(passed.y - passed.x, 0.0); // of the optical depth

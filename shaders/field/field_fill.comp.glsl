@@ -9,7 +9,7 @@
 // besides is one more image and one more sum here. FX_LAYERS 1 also keeps what the light is sorted by. One invocation has all
 // samples along z, so that a ball is read once for all of them.
 layout(local_size_x = 81) in;
-const float kMostCosine = 0.95; // mean cosine of any ball; quotients at rims, where extinctions nearly cancel, may be anything
+const float kMostCosine = 0.95; // mean cosine of balls of any preset; quotients at rims, where extinctions nearly cancel, may be anything
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(std430, binding = 3) readonly buffer BrickBalls { uint brickBalls[]; };
 layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted light [exposed/m]; a extinction [1/m]

@@ -99,7 +99,7 @@ vec2 drawnShares(SlabRay ray, FieldSample near, FieldSample far, float from, flo
     vec2 shares = (cuts - from) / max(to - from, 1e-20);
     bool isInside = (cuts.x > from || cuts.y < to) && cuts.x < to && cuts.y > from;
     for (int once = 0; once < (isInside ? 1 : 0); ++once) { // software renderers skip a loop without turns
-        float begin = max(near.medium.a, 0.0), end = max(far.medium.a, 0.0);
+        float begin = near.isEmpty ? 0.0 : max(near.medium.a, 0.0), end = near.isEmpty ? 0.0 : max(far.medium.a, 0.0); // as slabBetween
         float ofField = 0.5 * (to - from) * (begin + end);
         vec2 passed = (to - from) * shares * (begin + 0.5 * (end - begin) * shares);
         float whole = ofField;
@@ -176,7 +176,7 @@ void main()
                 t = next;
                 rests = fields.rests;
                 isShort = false;
-                isOver = !(t < min(ray.t1, ray.drawn.y) && (before.room < kNever || t < last) && picture.passed < kSeenDepth);
+                isOver = !(t < min(ray.t1, ray.drawn.y) && (before.room < kNever || t < last) && picture.passed < kLastDepth);
                 float stretch = min(exp(0.25 * picture.passed), kMaxStretch); // less is seen of what follows
                 next = t + (before.isEmpty ? before.room : min(stretch * before.room, before.most));
 #if FX_LOOSE

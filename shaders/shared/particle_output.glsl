@@ -42,20 +42,20 @@ float leftOver(vec3 place)
     return room > 0.0 ? 1.0 : 0.0;
 }
 
-// Share of the particle that lies between the depths that are drawn; what is solid is cut. Of what is gathered, rays take shares.
+// Share of the particle that lies between the depths that are drawn; what is solid is cut.
 float shareDrawn(vec3 place)
 {
-#if FX_CARDS
-    return 1.0;
-#else
     float distanceAlong = distanceOf(place);
     float reach = appearance.z;
 #if FX_SOLID
     reach = 0.0;
 #endif
     float lengthPerDepth = rayOrigin.w > 0.5 ? 1.0 : distanceAlong / dot(place, forward.xyz);
-    return shareInRange(distanceAlong, reach, lengthPerDepth);
+    float share = shareInRange(distanceAlong, reach, lengthPerDepth);
+#if FX_CARDS
+    share = rayDirection.w > 0.5 ? share : 1.0; // rays take shares of what is gathered
 #endif
+    return share;
 }
 
 // alpha: of the particle alone, without the scene
@@ -65,7 +65,7 @@ void writeParticle(vec3 light, float alpha, vec3 place)
     float share = shareDrawn(place);
     bool addsOnly = appearance.w > 0.5 && appearance.w < 1.5; // it hides nothing
 #if FX_SOLID
-    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
+    alpha = left > 0.0 && alpha >= 0.5 && (share > 0.0 || rayDirection.w < 0.5) ? 1.0 : 0.0;
 #else
     alpha *= left;
     if (share < 1.0) // of its optical depth, so that ranges put over each other have the opacity of all of it

@@ -4,7 +4,7 @@ layout(std140, binding = 0) uniform ViewBlock
     vec4 rayOrigin;      // [m] relative to the eye, of the ray through the window's center; w: 1 orthographic, 0 perspective
     vec4 rayOriginX;     // change of it for one unit of window x in [-1, 1]; w: near distance along the axis [m]
     vec4 rayOriginY;     // w: flip of window y against clip y, 1 or -1
-    vec4 rayDirection;   // direction through the center, its component along the view axis is 1; w unused
+    vec4 rayDirection;   // direction through the center, its component along the view axis is 1; w 1: no other range of depth is drawn
     vec4 rayDirectionX;  // w: width [pixel]
     vec4 rayDirectionY;  // w: height [pixel]
     vec4 right;          // [1] camera axes in world; w: clip x per unit of slope

@@ -161,8 +161,8 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
 {
     vec2 detail = texelFetch(balls, ballTexel(ball, kDetail), 0).xy;
     float power = texelFetch(balls, ballTexel(ball, kEmitted), 0).w;
-    float front = max(chord.tc - chord.w, ray.t0);
-    float back = max(min(chord.tc + chord.w, ray.t1), front);
+    float front = max(chord.tc - chord.w, ray.open.x); // the same for all ranges of depth
+    float back = max(min(chord.tc + chord.w, ray.open.y), front);
     float share = passedAt(chord, back) - passedAt(chord, front);
     float seen = mix(front, back, 0.5 / (1.0 + 0.5 * chord.depth * share));
     vec3 relative = (chord.across + (seen - chord.tc) * ray.direction) / medium.y;
@@ -205,6 +205,7 @@ BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, i
     BallPart part;
     part.depth = chord.depth * max(next.x - passed.x, 0.0); // rounding may make it less, and then quotients of sums have no bounds
     part.moment = ((chord.tc - middle) * part.depth + chord.w * chord.depth * (next.y - passed.y)) * perWidth;
+    part.moment = clamp(part.moment, -0.5 * part.depth, 0.5 * part.depth); // rounding in narrow slabs
     float along = clamp(middle - chord.tc, -chord.w, chord.w);
     part.scattered = light.smoothly * max(light.base + light.slope * along, 0.0);
 #if FX_BLOCKS

@@ -3,11 +3,11 @@
 #if FX_LAYERS
 #include "shared/layer_outputs.glsl"
 const int kLayers = 3; // fire, smoke, dust
-const float kSeenDepth = 1e30; // the optical depth is that of the whole ray
+const float kLastDepth = 1e30; // the optical depth is that of the whole ray
 #else
 layout(location = 0) out vec4 light;
 const int kLayers = 1;
-const float kSeenDepth = 9.2103; // [1] optical depth behind which nothing is seen: a transmittance of 1e-4
+const float kLastDepth = 9.2103; // [1] optical depth behind which nothing is seen: a transmittance of 1e-4
 #endif
 
 const float kThinSlab = 0.02; // [1] optical depth below which light is a polynomial: nothing is divided by it

@@ -99,11 +99,12 @@ float passedAt(Chord chord, float t)
     return passed;
 }
 
-// Interval of a card along the ray, of a length > 0; none of it is behind what hides.
+// Interval of a card along the ray, of a length > 0; none of it is behind what hides, nor outside of a range that is drawn alone.
 vec2 intervalOf(SlabRay ray, vec4 body)
 {
-    float back = min(body.x + 0.5 * body.z, max(ray.t1, body.x));
-    float front = min(max(body.x - 0.5 * body.z, ray.t0), body.x);
+    vec2 drawn = rayDirection.w > 0.5 ? ray.drawn : vec2(-1e30, 1e30);
+    float back = min(min(body.x + 0.5 * body.z, max(ray.t1, body.x)), drawn.y);
+    float front = max(min(max(body.x - 0.5 * body.z, ray.t0), body.x), drawn.x);
     return vec2(front, max(back, front + 1e-6 * max(abs(front), 1e-6)));
 }
 
@@ -136,10 +137,10 @@ vec2 rangeOf(SlabRay ray)
     return range;
 }
 
-// Optical depth up to places on the ray. Light that hides nothing counts a little, so that it can be divided too.
+// Optical depth up to places on the ray. Cards that hide nothing count a little, so that their light can be divided too.
 void passedUpTo(SlabRay ray, float places[6], out float passed[6])
 {
-    const float kOfLight = 1e-3; // [1] for light of 1
+    const float kOfLight = 1e-3; // [1] at most
     for (int k = 0; k < 6; ++k)
         passed[k] = 0.0;
     int turns = isCut(ray) ? tileList.y : 0;
@@ -151,7 +152,7 @@ void passedUpTo(SlabRay ray, float places[6], out float passed[6])
     for (uint card = isCut(ray) ? ray.cards : 0u; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec4 body = cardNodes[card - 1u].body;
         vec2 interval = intervalOf(ray, body);
-        float weight = body.y + kOfLight * dot(cardNodes[card - 1u].light.rgb, vec3(1.0));
+        float weight = body.y > 0.0 ? body.y : kOfLight * min(dot(cardNodes[card - 1u].light.rgb, vec3(1.0)), 1.0);
 #define FX_ADD_CARD_PASSED(k) passed[k] += weight * clamp((places[k] - interval.x) / (interval.y - interval.x), 0.0, 1.0);
         FX_EACH_6(FX_ADD_CARD_PASSED)
     }

@@ -63,8 +63,9 @@ vec2 drawnSlabs(SlabRay ray, SlabWindow window, vec2 range, float end)
         passedUpTo(ray, places, passed);
         for (int k = 0; k < 2; ++k)
             slabs[k] += shareBetween(passed[3 * k], passed[3 * k + 1], passed[3 * k + 2]);
-        slabs.x = ray.drawn.x > range.x ? slabs.x : 0.0;
-        slabs.y = ray.drawn.y < range.y ? slabs.y : kSlabs + 1.0;
+        const float kAll = kSlabs + 1.0;
+        slabs.x = ray.drawn.x > range.x ? (ray.drawn.x < range.y ? slabs.x : kAll) : 0.0;
+        slabs.y = ray.drawn.y < range.y ? (ray.drawn.y > range.x ? slabs.y : 0.0) : kAll;
     }
     return slabs;
 }
@@ -87,7 +88,7 @@ void main()
 #else
     const int slabs = FX_SLABS;
 #endif
-    for (int first = 0; first < slabs && float(first) < drawn.y && picture.passed < kSeenDepth; first += kGroup) {
+    for (int first = 0; first < slabs && float(first) < drawn.y && picture.passed < kLastDepth; first += kGroup) {
         float edges[kGroup + 1];
         for (int k = 0; k <= kGroup; ++k)
             edges[k] = faceOf(window, range, end, float(first + k));

@@ -171,6 +171,16 @@ class FxAccuracyOfFlights(FxTest):
             self.assertGreater(names["slices-not-snapped"]["work"]["pairs_beyond"], 10, scene) # the control
             self.assertEqual(code, 0, scene)
 
+    def test_impostors_of_blocks_change_no_more_than_their_balls_and_drawn_in_turn_they_do(self):
+        for scene in ("cumulus-orbit", "cumulus-through"):
+            outcome = fx("accuracy", "block-flights", "--scene", scene, "--frames", "3", *QUICK)
+            names = by_setting([json.loads(line) for line in outcome.out.strip().split("\n")])
+            self.assertEqual(names["impostors"]["work"]["pairs_beyond"], 0, scene)
+            self.assertLess(names["impostors"]["work"]["jump"], 0.02, scene)
+            self.assertGreater(names["impostors"]["work"]["impostors_per_frame"], 50, scene)
+            self.assertGreater(names["in-turn"]["work"]["pairs_beyond"], 0, scene) # the control
+            self.assertEqual(outcome.code, 0, scene)
+
     def test_a_control_that_keeps_a_generous_bound_is_a_failure(self):
         code, names = self.flight("light-sweep", "--frames", "10", "--size", "32x18", "--bound", "50")
         self.assertEqual(code, 1)

@@ -57,6 +57,7 @@ TESTED_ELSEWHERE = {
     ("fx", "accuracy", "fit"): "takes a minute; test_accuracy.py",
     ("fx", "accuracy", "light"): "takes minutes; test_accuracy.py at a small size",
     ("fx", "accuracy", "flights"): "takes minutes; test_accuracy.py at a small size",
+    ("fx", "accuracy", "block-flights"): "takes minutes; test_accuracy.py at a small size",
     ("fx", "accuracy", "sph"): "takes half a minute; test_fx_verify.py",
 }
 
