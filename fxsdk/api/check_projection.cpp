@@ -31,6 +31,14 @@ bool areZero(const float* m, std::initializer_list<size_t> elements, float of)
     return of != 0.0f;
 }
 
+bool isIdentity(const float* m)
+{
+    for (size_t i = 0; i < 16; ++i)
+        if (m[i] != (i % 5 == 0 ? 1.0f : 0.0f))
+            return false;
+    return true;
+}
+
 /// The last row makes w: -z of a perspective, 1 of an orthographic projection. Of a transposed matrix that
 /// row is the last column, where the translation belongs.
 const char* rowFault(const float* m)
@@ -76,6 +84,9 @@ const char* projectionFault(const float* m)
 
 const char* frameProjectionFault(const float* m, bool isReversed)
 {
+    if (isIdentity(m))
+        return "is identity, the default: set it to the matrix of your camera "
+               "(docs/howto/effect-in-your-game.md)";
     const bool perspective = isPerspective(m);
     if (!areZero(m, {1, 4}, 1.0f))
         return "rolls or shears the picture (its elements 1 and 4 are not 0): put that into frame.view";

@@ -149,6 +149,14 @@ TEST_F(ProjectionApi, framesAndFociNameTheMember)
     EXPECT_EQ(fxScene_SetFocus(scene_, &focus, 1), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_TRUE(has(fxGetLastErrorMessage(), "foci.projection looks row-major: transpose it"));
 
+    def = frame();
+    std::memcpy(def.projection, glm::value_ptr(glm::mat4(1.0f)), sizeof def.projection);
+    for (const uint32_t convention : {FX_DEPTH_STANDARD, FX_DEPTH_REVERSED}) {
+        def.depthConvention = convention;
+        EXPECT_EQ(fxView_Render(view_, &def), FX_ERROR_INVALID_ARGUMENT);
+        EXPECT_TRUE(has(fxGetLastErrorMessage(), "frame.projection is identity, the default"));
+    }
+
     const glm::mat4 view = glm::lookAt(glm::vec3(1, 2, 3), glm::vec3(0), glm::vec3(0, 1, 0));
     def = frame();
     std::memcpy(def.view, glm::value_ptr(glm::transpose(view)), sizeof def.view);

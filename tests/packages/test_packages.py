@@ -68,6 +68,14 @@ class Unpacked(unittest.TestCase):
         self.assertIn(str(self.libraries), shared)
         self.assertNotIn("libfxsdk", run("ldd", self.folder / "build/c11_static"))
 
+    def test_the_first_example_as_a_project_of_its_own(self):
+        shutil.copytree(self.prefix / "share/doc/fxsdk/examples", self.folder / "examples")
+        build, picture = self.folder / "build", self.folder / "hello.png"
+        run("cmake", "-S", self.folder / "examples/00_hello", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", env=self.environment)
+        run("cmake", "--build", build, env=self.environment)
+        run(build / "00_hello", "--headless", "--frames", "10", "--output", picture, env=self.environment)
+        self.assertTrue(drawn(picture))
+
     def test_hosts_by_pkg_config(self):
         for module in ("fxsdk", "fxsdk-static"):
             flags = run("pkg-config", "--cflags", "--libs", module, env=self.environment).split()
