@@ -172,7 +172,7 @@ class FxAccuracyOfFlights(FxTest):
             self.assertEqual(code, 0, scene)
 
     def test_impostors_of_blocks_change_no_more_than_their_balls_and_drawn_in_turn_they_do(self):
-        for scene, size in (("cumulus-orbit", "160x90"), ("cumulus-through", "96x54")):
+        for scene, size in (("cumulus-orbit", "160x90"), ("cumulus-into", "96x54")):
             outcome = fx("accuracy", "block-flights", "--scene", scene, "--frames", "3", "--size", size, *QUICK)
             names = by_setting([json.loads(line) for line in outcome.out.strip().split("\n")])
             self.assertEqual(names["impostors"]["work"]["pairs_beyond"], 0, scene)

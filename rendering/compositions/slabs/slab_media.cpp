@@ -78,7 +78,8 @@ SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in,
                  : balls.detail                 ? SlabDetail::OfBalls
                                                 : SlabDetail::None;
     out.blocks = use.slabs > 0 ? balls.tiles : BlockTileBindings();
-    const bool isCut = in.view.clipOffset.z > 0.0f || std::isfinite(in.view.clipOffset.w);
+    const bool isAlone = in.view.rayDirection.w > 0.5f; // see ViewBlock
+    const bool isCut = !isAlone && (in.view.clipOffset.z > 0.0f || std::isfinite(in.view.clipOffset.w));
     const uint32_t most = use.slabs > 0
                               ? SlabPass::maxOfTile(use.slabs, out.detail, in.layers,
                                                     use.details.details.size(), out.blocks.valid(), isCut)
