@@ -5,6 +5,7 @@ FX_COMMAND(Export)     // fxsdk/cli/export
 FX_COMMAND(Import)     // fxsdk/cli/import
 FX_COMMAND(Edit)       // fxsdk/editor/program
 FX_COMMAND(Link)       // fxsdk/cli/link
+FX_COMMAND(List)       // fxsdk/cli/inspect
 FX_COMMAND(Validate)   // fxsdk/cli/inspect
 FX_COMMAND(Doctor)     // fxsdk/cli/inspect
 FX_COMMAND(Parameters) // fxsdk/cli/inspect

@@ -42,6 +42,19 @@ class FxCommand(FxTest):
         self.assertIn("there is no folder", outcome.err)
         self.assertEqual(self.names(), [])
 
+    def test_list_names_the_presets_of_the_library(self):
+        names = {path.name.removesuffix(".fx.json") for path in LIBRARY.glob("*.fx.json")}
+        listed = [json.loads(line) for line in fx("list", "--json").out.splitlines()]
+        self.assertEqual({preset["name"] for preset in listed}, names)
+        for preset in listed:
+            self.assertEqual(preset["description"], json.loads((LIBRARY / f"{preset['name']}.fx.json").read_text())["description"])
+        self.assertEqual(len(fx("list").out.splitlines()), len(names))
+        found = fx("list", "CAMPfire").out
+        self.assertTrue(found.startswith("campfire  Wood fire"), found)
+        outcome = fx("list", "teapot")
+        self.assertEqual((outcome.code, outcome.out), (1, ""))
+        self.assertIn("teapot", outcome.err)
+
     def test_doctor_reports_the_machine_as_text_and_as_one_object(self):
         text = fx("doctor")
         self.assertIn("OpenGL 4.5", text.out)

@@ -3,13 +3,13 @@
 
 #include "foundation/result/nearest_name.h"
 #include "fxsdk/cli/commands.h"
+#include "fxsdk/cli/inspect/search_text.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/named_choice.h"
 #include "fxsdk/presets/parameter_reference.h"
 
 #include <CLI/CLI.hpp>
 
-#include <cctype>
 #include <cstdio>
 #include <memory>
 #include <sstream>
@@ -20,19 +20,6 @@
 namespace fx::cli {
 
 namespace {
-
-std::string lowerCase(std::string_view text)
-{
-    std::string lower(text);
-    for (char& c : lower)
-        c = char(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
-}
-
-bool contains(std::string_view text, const std::string& lowerWord)
-{
-    return lowerCase(text).find(lowerWord) != std::string::npos;
-}
 
 /// What the lines of a section are, in this order: its heading, its description, and a table.
 struct Section
@@ -79,16 +66,16 @@ std::vector<Section> sectionsOf(const std::string& reference)
 /// their description; letter case does not matter.
 std::string matches(const std::vector<Section>& sections, const std::string& word)
 {
-    const std::string lowerWord = lowerCase(word);
     std::string text;
     for (const Section& section : sections) {
-        if (contains(section.heading, lowerWord)) {
+        if (containsIgnoringCase(section.heading, word)) {
             text += "\n" + section.text;
             continue;
         }
         std::string rows;
         for (size_t i = 0; i < section.rows.size(); ++i)
-            if (contains(section.members[i], lowerWord) || contains(section.meanings[i], lowerWord))
+            if (containsIgnoringCase(section.members[i], word) ||
+                containsIgnoringCase(section.meanings[i], word))
                 rows += section.rows[i];
         if (!rows.empty())
             text += "\n" + section.heading + "\n" + section.tableHead + rows;
