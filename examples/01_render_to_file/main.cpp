@@ -44,20 +44,15 @@ FxViewSettings daylight()
     return settings;
 }
 
-/// From 12 m away and 2 m up, about 53 degrees of height, nothing in the far distance.
-FxFrameDef camera(const example::Picture& picture)
+/// From 12 m away and 2 m up, about 53 degrees of height.
+FxFrameDef camera(FxContext* context, const example::Picture& picture)
 {
     FxFrameDef frame = fxDefaultFrameDef();
-    frame.origin[1] = 2.0;
-    frame.origin[2] = 12.0;
-    frame.projection[0] = 2.0f * float(kHeight) / float(kWidth);
-    frame.projection[5] = 2.0f;
-    frame.projection[10] = frame.projection[11] = -1.0f; // infinite far plane, near plane at 0.1 m
-    frame.projection[14] = -0.2f;
-    frame.projection[15] = 0.0f;
     frame.colorTexture = picture.color();
     frame.width = kWidth;
     frame.height = kHeight;
+    const double eye[3] = {0.0, 2.0, 12.0}, target[3] = {0.0, 2.0, 0.0};
+    check(fxSetFrameCamera(context, eye, target, 0.93f, 0.1f, &frame));
     return frame;
 }
 
@@ -85,7 +80,7 @@ void run(const std::string& preset, double seconds, const std::string& output)
     const FxViewSettings settings = daylight();
     FxView* view = nullptr;
     check(fxCreateView(context, scene, &settings, &view));
-    const FxFrameDef frame = camera(picture);
+    const FxFrameDef frame = camera(context, picture);
     check(fxView_Render(view, &frame));
     picture.writePng(output);
     check(fxDestroyContext(context));

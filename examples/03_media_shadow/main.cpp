@@ -124,20 +124,15 @@ FxViewSettings afternoon()
 }
 
 /// From 12 m away and 2 m up; the frame's origin is the eye.
-FxFrameDef camera(const example::Picture& picture)
+FxFrameDef camera(FxContext* context, const example::Picture& picture)
 {
     FxFrameDef frame = fxDefaultFrameDef();
-    frame.origin[1] = 2.0;
-    frame.origin[2] = 12.0;
-    frame.projection[0] = 2.0f * float(kHeight) / float(kWidth);
-    frame.projection[5] = 2.0f;
-    frame.projection[10] = frame.projection[11] = -1.0f; // infinite far plane, near plane at 0.1 m
-    frame.projection[14] = -0.2f;
-    frame.projection[15] = 0.0f;
     frame.colorTexture = picture.color();
     frame.depthTexture = picture.depth();
     frame.width = kWidth;
     frame.height = kHeight;
+    const double eye[3] = {0.0, 2.0, 12.0}, target[3] = {0.0, 2.0, 0.0};
+    check(fxSetFrameCamera(context, eye, target, 0.93f, 0.1f, &frame));
     return frame;
 }
 
@@ -164,7 +159,7 @@ void run(const std::string& preset, double seconds, const std::string& output)
     for (double time = 0.0; time < seconds; time += kStep)
         check(fxScene_Update(scene, kStep));
 
-    const FxFrameDef frame = camera(picture);
+    const FxFrameDef frame = camera(context, picture);
     check(fxView_PrepareLights(view, &frame));
     FxMediaShadow shadow = {};
     shadow.structSize = sizeof shadow;

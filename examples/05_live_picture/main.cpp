@@ -80,19 +80,14 @@ FxViewSettings dusk()
 }
 
 /// From 6 m away and 1.5 m up, about 53 degrees of height.
-FxFrameDef camera(const example::Picture& picture)
+FxFrameDef camera(FxContext* context, const example::Picture& picture)
 {
     FxFrameDef frame = fxDefaultFrameDef();
-    frame.origin[1] = 1.5;
-    frame.origin[2] = 6.0;
-    frame.projection[0] = 2.0f * float(kHeight) / float(kWidth);
-    frame.projection[5] = 2.0f;
-    frame.projection[10] = frame.projection[11] = -1.0f; // infinite far plane, near plane at 0.1 m
-    frame.projection[14] = -0.2f;
-    frame.projection[15] = 0.0f;
     frame.colorTexture = picture.color();
     frame.width = kWidth;
     frame.height = kHeight;
+    const double eye[3] = {0.0, 1.5, 6.0}, target[3] = {0.0, 1.5, 0.0};
+    check(fxSetFrameCamera(context, eye, target, 0.93f, 0.1f, &frame));
     return frame;
 }
 
@@ -126,7 +121,7 @@ void run(const Options& options)
     linkDef.name = options.link.c_str();                       // link
     if (!options.link.empty())                                 // link
         checkLink(fxCreateLiveLink(context, &linkDef, &link)); // link
-    const FxFrameDef frame = camera(picture);
+    const FxFrameDef frame = camera(context, picture);
     auto next = std::chrono::steady_clock::now();
     for (long i = 0; options.frames == 0 || i < options.frames; ++i) {
         if (link)                                          // link

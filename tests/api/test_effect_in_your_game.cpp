@@ -18,7 +18,8 @@ int drawEffects(const Effects* effects, double seconds, const float view[16], co
 FxFrameDef windowTarget(int32_t width, int32_t height);
 FxFrameDef hdrTarget(uint32_t color, uint32_t depth, int32_t width, int32_t height);
 FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3]);
-FxViewSettings authorsLight(FxContext* context, FxPresetId preset);
+int useAuthorsLight(FxContext* context, FxPresetId preset, FxViewSettings* settings);
+int lookAtTheEffect(FxContext* context, FxFrameDef* frame);
 int drawEffectsAroundGlass(const Effects* effects, FxFrameDef target, float glassDepth,
                            void (*drawGlass)(void));
 int showInMainViewOnly(const Effects* effects, FxInstanceId instance);
@@ -93,10 +94,30 @@ TEST_F(EffectInYourGame, theCodeOfThePageTakesTheAuthorsLight)
     FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky);
     Effects effects{};
     ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
-    settings = authorsLight(effects.context, effects.explosion);
+    ASSERT_EQ(useAuthorsLight(effects.context, effects.explosion, &settings), 0) << fxGetLastErrorMessage();
     EXPECT_EQ(settings.exposureEv100, 11.3f); // of library:explosion
     EXPECT_GT(settings.sunIlluminance[0], 0.0f);
     EXPECT_EQ(fxView_SetSettings(effects.view, &settings), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
+}
+
+TEST_F(EffectInYourGame, theCodeOfThePageSeesTheEffectByItsOwnCamera)
+{
+    Effects effects{};
+    const FxViewSettings settings = fxDefaultViewSettings();
+    ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
+    const fx::test::EncodedTarget target = targetsOf(GL_RGBA16F).front();
+    FxFrameDef def = hdrTarget(target.texture, 0, kSize, kSize);
+    ASSERT_EQ(lookAtTheEffect(effects.context, &def), 0) << fxGetLastErrorMessage();
+    EXPECT_EQ(def.origin[2], 5.0);
+    ASSERT_EQ(explode(&effects, 0.0, 0.0, 0.0), 0) << fxGetLastErrorMessage();
+    for (int i = 0; i < 12; ++i)
+        ASSERT_EQ(fxScene_Update(effects.scene, 1.0 / 60.0), FX_OK);
+    store(target, std::vector<float>(size_t(kSize * kSize * 4), 0.25f));
+    const std::vector<float> before = stored(target);
+    ASSERT_EQ(fxView_Render(effects.view, &def), FX_OK) << fxGetLastErrorMessage();
+    const size_t middle = (size_t(kSize) * kSize / 2 + kSize / 2) * 4; // where the camera looks
+    EXPECT_NE(stored(target)[middle], before[middle]);
     EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
 }
 

@@ -12,6 +12,13 @@ int main()
         FxInstanceDef def = fxsdk::instanceOf(context.loadLibrary("campfire"));
         def.position[1] = 2.0;
         const FxInstanceId fire = scene.create(def);
+        if (context.previewLight(def.preset).exposureEv100 != context.preview(def.preset).exposureEv100)
+            return 1;
+        FxFrameDef frame = fxDefaultFrameDef();
+        frame.width = frame.height = 64;
+        frame = context.withCamera(frame, {0.0, 1.0, 5.0}, {0.0, 1.0, 0.0}, 0.9f, 0.1f);
+        if (frame.origin[2] != 5.0 || frame.projection[11] != -1.0f)
+            return 1;
         for (int frame = 0; frame < 60; ++frame)
             scene.update(1.0 / 60.0);
         const fxsdk::Snapshot snapshot(scene);

@@ -95,7 +95,7 @@ class Unpacked(unittest.TestCase):
         blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/howto/install.md").read_text(), re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 3)
         program = "".join(blocks).replace("range(60)", "range(40)").replace("320", "64").replace("180", "36")
-        self.assertIn("look_at", program)
+        self.assertIn("context.camera", program)
         run(PYTHON, "-c", program, env=environment, cwd=self.folder)
         self.assertTrue(drawn(self.folder / "campfire.png"))
 

@@ -145,6 +145,24 @@ class Simulation(unittest.TestCase):
         self.assertEqual((preview.time, preview.hasCamera), (3.0, 1))
         self.assertAlmostEqual(math.hypot(*preview.sunDirection), 1.0, places=6)
 
+    def test_light_and_camera_are_those_of_the_c_api(self):
+        preview, light = self.context.preview("campfire"), self.context.preview_light("campfire")
+        self.assertEqual(light["exposureEv100"], preview.exposureEv100)
+        self.assertEqual(list(light["skyLuminance"]), list(preview.skyLuminance))
+        camera = self.context.camera((0, 0, 5), (0, 0, 0), 64, 32, math.pi / 2, 0.5)
+        self.assertEqual((list(camera["origin"]), camera["width"]), ([0, 0, 5], 64))
+        self.assertEqual(list(camera["view"]), [float(i % 5 == 0) for i in range(16)])
+        for element, value in ((0, 0.5), (5, 1.0), (10, -1.0), (11, -1.0), (14, -1.0)):
+            self.assertAlmostEqual(camera["projection"][element], value, places=6)
+        reversed_depth = self.context.camera((0, 9, 0), (0, 0, 0), 64, 32, near=0.5, depthConvention=1, zeroToOne=1)
+        self.assertAlmostEqual(reversed_depth["projection"][14], 0.5, places=6)
+        with self.assertRaisesRegex(fxsdk.Error, "place of the eye"):
+            self.context.camera((0, 0, 5), (0, 0, 5), 64, 32)
+
+    def test_a_member_that_is_mistyped_gets_a_suggestion(self):
+        with self.assertRaisesRegex(TypeError, "no member depthTextur; did you mean depthTexture"):
+            self.context.camera((0, 0, 5), (0, 0, 0), 64, 32, depthTextur=3)
+
     def test_pictures_of_no_size_are_refused(self):
         for size in ((0, 5), (5, -1), (5,), (2.5, 5), (5, 20000)):
             with self.assertRaisesRegex(ValueError, "size is"):

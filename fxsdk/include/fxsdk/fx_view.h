@@ -130,8 +130,9 @@ typedef struct FxViewSettings
     /// 1 (default): procedural detail on particles; 0: bare kernels.
     uint32_t detail;
 
-    /// 1: write display-referred values of the whole picture; 0 (default): scene-linear. Must be 0 with a
-    /// display encoding of FxFrameDef::targetEncoding.
+    /// 1: tone-map the whole picture and write it as a display shows it, encoded by the curve of sRGB, into a
+    /// target that holds plain numbers; 0 (default): scene-linear. Must be 0 with a display encoding of
+    /// FxFrameDef::targetEncoding.
     uint32_t toneMap;
 
     /// 1: provide fire, smoke, dust, depth and optical depth as textures; default 0.

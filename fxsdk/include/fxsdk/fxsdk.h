@@ -27,6 +27,7 @@
 #include "fxsdk/fx_view_frame.h"
 #include "fxsdk/fx_view_lights.h"
 #include "fxsdk/fx_view_quality.h"
+#include "fxsdk/fx_view_setup.h"
 #include "fxsdk/fx_visibility.h"
 
 #endif

@@ -160,6 +160,21 @@ public:
             [&](auto* out) { return fxGetPresetPreview(get(), preset, out); });
     }
 
+    /// `settings` with the exposure and light in which the author of the preset shows it.
+    FxViewSettings previewLight(FxPresetId preset, FxViewSettings settings = fxDefaultViewSettings())
+    {
+        check(fxSetPreviewLight(get(), preset, &settings));
+        return settings;
+    }
+
+    /// `frame`, whose size is set, with a camera that looks from `eye` to `target`, see fxSetFrameCamera().
+    FxFrameDef withCamera(FxFrameDef frame, const double (&eye)[3], const double (&target)[3], float fovY,
+                          float nearDistance)
+    {
+        check(fxSetFrameCamera(get(), eye, target, fovY, nearDistance, &frame));
+        return frame;
+    }
+
     /// Handle of a parameter for Scene::set(), such as "tint".
     FxParameterId findParameter(FxPresetId preset, const std::string& name)
     {

@@ -121,6 +121,31 @@ class Context(_Object):
         """How the author of a preset shows it: FxPresetPreview. @param name as for load()"""
         return filled("FxPresetPreview", fx.fxGetPresetPreview, self._open(), self.load(name))
 
+    def preview_light(self, name):
+        """Members of FxViewSettings for view(): exposure and light in which the author of a preset shows it. @param name as for
+        load()"""
+        settings = default("FxViewSettings")
+        fx.fxSetPreviewLight(self._open(), self.load(name), ctypes.byref(settings))
+        return {member: getattr(settings, member) for member in
+                ("exposureEv100", "sunDirection", "sunIlluminance", "skyLuminance", "groundAlbedo")}
+
+    def camera(self, eye, target, width, height, fov_y=math.radians(50.0), near=_NEAR, **members):
+        """Members of FxFrameDef for View.render(), with a camera of fxSetFrameCamera().
+
+        @param eye     [m] where the camera is, in units and axes of the context
+        @param target  [m] where it looks
+        @param width   [pixel] of the picture
+        @param height  [pixel] of the picture
+        @param fov_y   [rad] vertical field of view
+        @param near    [m] distance of the near plane
+        @param members other members of FxFrameDef, such as colorTexture
+        """
+        members = dict(members, width=width, height=height)
+        frame = assign(default("FxFrameDef"), members)
+        fx.fxSetFrameCamera(self._open(), (ctypes.c_double * 3)(*eye), (ctypes.c_double * 3)(*target), fov_y, near,
+                            ctypes.byref(frame))
+        return dict(members, origin=frame.origin, view=frame.view, projection=frame.projection)
+
     def _open(self):
         if not self.pointer:
             raise ValueError("the context is closed")
@@ -286,26 +311,6 @@ def _copied(pointer, count):
     return numpy.ctypeslib.as_array(pointer, (count,)).copy()
 
 
-def perspective(width, height, fov_y=math.radians(50.0), near=_NEAR):
-    """A projection with the far plane at infinity, for FxFrameDef: 16 values, columns first."""
-    focal = 1.0 / math.tan(0.5 * fov_y)
-    matrix = [0.0] * 16
-    matrix[0], matrix[5], matrix[10], matrix[11], matrix[14] = focal * height / width, focal, -1.0, -1.0, -2.0 * near
-    return matrix
-
-
-def look_at(eye, target):
-    """Members origin and view of FxFrameDef for an eye that looks at a target, +Y up, in a context with the default axes."""
-    eye, target = numpy.asarray(eye, float), numpy.asarray(target, float)
-    back = eye - target
-    back /= numpy.linalg.norm(back)
-    right = numpy.cross((0.0, 1.0, 0.0), back)
-    right /= numpy.linalg.norm(right)
-    view = numpy.identity(4)
-    view[0, :3], view[1, :3], view[2, :3] = right, numpy.cross(back, right), back
-    return {"origin": eye, "view": view.T.reshape(16)}
-
-
 def _extent(groups):
     """Center and radius of the middle 90 % of the gas, or of all particles where there is none; the unit ball where there is
     nothing."""
@@ -321,11 +326,11 @@ def _extent(groups):
 
 
 def _open_country(width, height, fov_y, camera, light):
-    """Level ground under a sky, for a camera of look_at(): exposed colors as a display shows them, and depths of perspective()."""
+    """Level ground under a sky, for a camera of Context.camera(): exposed colors as a display shows them, and depths."""
     slope = math.tan(0.5 * fov_y)
     x = slope * width / height * ((numpy.arange(width) + 0.5) / width * 2.0 - 1.0)
     y = slope * (1.0 - (numpy.arange(height) + 0.5) / height * 2.0)
-    axes = camera["view"].reshape(4, 4)[:3, :3]  # columns of the view are axes of the eye along the world's
+    axes = numpy.array(camera["view"]).reshape(4, 4)[:3, :3]  # columns of the view are axes of the eye along the world's
     rays = x[None, :, None] * axes[:, 0] + y[:, None, None] * axes[:, 1] - axes[:, 2]
     falls = -rays[:, :, 1]
     with numpy.errstate(divide="ignore"):
@@ -365,17 +370,16 @@ def render(preset, time=None, size=(640, 360), eye=None, target=None, exposure=N
         center, radius = _extent(scene.groups()) if eye is None or target is None else (None, None)
         target = numpy.asarray(center if target is None else target, float)
         eye = target + (0.0, 0.15 * radius, 2.6 * radius) if eye is None else eye
-        shown = {name: tuple(getattr(preview, name)) for name in ("sunDirection", "sunIlluminance", "skyLuminance")}
-        shown |= {"groundAlbedo": preview.groundAlbedo, "exposureEv100": preview.exposureEv100 if exposure is None else exposure,
-                  "toneMap": 1, "composition": constants.FX_COMPOSITION_AUTOMATIC}
+        shown = dict(context.preview_light(preset), toneMap=1, composition=constants.FX_COMPOSITION_AUTOMATIC)
+        if exposure is not None:
+            shown["exposureEv100"] = exposure
         view = context.view(scene, **{**shown, **settings})
         picture = gl.picture(*size)
-        camera = look_at(eye, target)
+        camera = context.camera(eye, target, *size, fov_y)
         colors, depths = _open_country(*size, fov_y, camera, {**shown, **settings})
         picture.fill(colors)
         picture.fill_depth(depths)
-        view.render(colorTexture=picture.name, depthTexture=picture.depth, width=size[0], height=size[1],
-                    projection=perspective(*size, fov_y), **camera)
+        view.render(colorTexture=picture.name, depthTexture=picture.depth, **camera)
         pixels = picture.read()
         picture.close()
     return (255.0 * numpy.clip(numpy.nan_to_num(pixels), 0.0, 1.0) + 0.5).astype(numpy.uint8)

@@ -4,6 +4,7 @@ api.json lies beside this file and is made from the headers by scripts/api_descr
 FxResult raises Error unless the result is FX_OK. Structs with a member structSize get it when they are created.
 """
 import ctypes
+import difflib
 import json
 import os
 import pathlib
@@ -150,7 +151,9 @@ def assign(struct, members):
     known = {name for name, _ in struct._fields_}
     for name, value in members.items():
         if name not in known:
-            raise TypeError(f"{type(struct).__name__} has no member {name}; it has {', '.join(sorted(known))}")
+            near = difflib.get_close_matches(name, known, 1)
+            meant = f"did you mean {near[0]}?" if near else f"it has {', '.join(sorted(known))}"
+            raise TypeError(f"{type(struct).__name__} has no member {name}; {meant}")
         member = getattr(struct, name)
         if isinstance(member, ctypes.Array) and not isinstance(value, bytes):
             if len(value) != len(member):
