@@ -18,7 +18,7 @@ int main(int argumentCount, char** arguments)
     FxView* view;
     if (!window || fxCreateContext(&contextDef, &context) || fxContext_WarmUp(context) ||
         fxLoadPresetLibrary(context, "explosion", &instanceDef.preset) ||
-        fxSetPreviewLight(context, instanceDef.preset, &settings) ||
+        fxSetPreviewSettings(context, instanceDef.preset, &settings) ||
         fxCreateScene(context, &sceneDef, &scene) || fxScene_CreateInstance(scene, &instanceDef, &instance) ||
         fxCreateView(context, scene, &settings, &view))
         return helloFail(fxGetLastErrorMessage());

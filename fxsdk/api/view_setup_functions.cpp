@@ -1,13 +1,18 @@
 // The functions of fx_view_setup.h.
+#include "fxsdk/api/acquired_snapshots.h"
 #include "fxsdk/api/check.h"
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/guarded.h"
+#include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/fx_view_setup.h"
+#include "fxsdk/scene/effect_framing.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,21 +20,23 @@
 namespace {
 
 using fx::api::HostWorld;
+using fx::base::Code;
+using fx::base::Result;
 using fx::base::Status;
 
 constexpr double kFarthest = 1e9; // [m]
 constexpr double kNearest = 1e-6; // [m]
 
-Status checkCamera(const HostWorld& world, const double* eye, const double* target, float fovY,
-                   float nearDistance, const FxFrameDef& frame)
+/// A camera in meters, in the axes of the library.
+struct Camera
 {
-    const double farthest = world.fromMeters(kFarthest);
+    glm::dvec3 eye, target; ///< [m]
+    float fovY;             ///< [rad]
+};
+
+Status checkFrame(const HostWorld& world, float nearDistance, const FxFrameDef& frame)
+{
     fx::api::Checks check;
-    check.range3(eye, -farthest, farthest, "eye");
-    check.range3(target, -farthest, farthest, "target");
-    check.that(glm::distance(world.position(eye), world.position(target)) >= kNearest,
-               "target is the place of the eye: give a place at least 1e-6 m away");
-    check.range(fovY, 0.01f, 3.1f, "fovY");
     check.range(nearDistance, world.fromMeters(1e-4f), world.fromMeters(1e6f), "nearDistance");
     check.range(frame.width, 1, 16384, "ioFrame.width");
     check.range(frame.height, 1, 16384, "ioFrame.height");
@@ -40,9 +47,9 @@ Status checkCamera(const HostWorld& world, const double* eye, const double* targ
 }
 
 /// Writes the rows right, up and back of an eye that looks from one place to another.
-void writeView(const HostWorld& world, const double* eye, const double* target, float* out)
+void writeView(const HostWorld& world, const Camera& camera, float* out)
 {
-    const glm::dvec3 back = glm::normalize(world.position(eye) - world.position(target));
+    const glm::dvec3 back = glm::normalize(camera.eye - camera.target);
     glm::dvec3 right = glm::cross(glm::dvec3(0.0, 1.0, 0.0), back);
     if (glm::length(right) < 1e-6)
         right = {1.0, 0.0, 0.0};
@@ -75,31 +82,95 @@ void writeProjection(float fovY, float nearDistance, const FxFrameDef& frame, fl
     out[14] = (atNear - atInfinity) * nearDistance;
 }
 
+/// @param find returns the camera, given the aspect of the frame
+template <class Find>
+Status setCamera(const HostWorld& world, float nearDistance, FxFrameDef* ioFrame, Find&& find)
+{
+    FxFrameDef frame;
+    if (Status status = fx::api::readStruct(ioFrame, "ioFrame", fxDefaultFrameDef(), frame); !status)
+        return status;
+    if (Status status = checkFrame(world, nearDistance, frame); !status)
+        return status;
+    const Result<Camera> camera = find(double(frame.width) / double(frame.height));
+    if (!camera)
+        return camera.status();
+    world.writePosition(camera->eye, frame.origin);
+    writeView(world, *camera, frame.view);
+    writeProjection(camera->fovY, nearDistance, frame, frame.projection);
+    return fx::api::writeStruct(frame, ioFrame, "ioFrame");
+}
+
+Result<Camera> givenCamera(const HostWorld& world, const double* eye, const double* target, float fovY)
+{
+    const double farthest = world.fromMeters(kFarthest);
+    fx::api::Checks check;
+    check.notNull(eye, "eye");
+    check.notNull(target, "target");
+    if (!check.status())
+        return check.status();
+    check.range3(eye, -farthest, farthest, "eye");
+    check.range3(target, -farthest, farthest, "target");
+    check.range(fovY, 0.01f, 3.1f, "fovY (in radians)");
+    const Camera camera{world.position(eye), world.position(target), fovY};
+    check.that(glm::distance(camera.eye, camera.target) >= kNearest,
+               "target is the place of the eye: give a place at least 1e-6 m away");
+    return check.status().ok() ? Result<Camera>(camera) : check.status();
+}
+
+/// The camera of the author, where the instance is.
+Camera authorsCamera(const fx::sim::PreviewDef& preview, const fx::base::Placement& placement)
+{
+    const auto placed = [&](const glm::dvec3& place) {
+        return placement.position + glm::dquat(placement.rotation) * (double(placement.scale) * place);
+    };
+    return {placed(preview.cameraPosition), placed(preview.cameraTarget), glm::radians(preview.fovYDegrees)};
+}
+
+/// A camera that sees what the last update has shown of the instance.
+Result<Camera> framingCamera(FxScene& scene, fx::scene::LocalId id, double aspect)
+{
+    fx::scene::EffectFraming framing(&scene.context->memory);
+    framing.nextMoment();
+    {
+        const fx::api::AcquiredSnapshots shown(scene.scene);
+        if (shown.newer())
+            framing.add(*shown.newer(), id);
+    }
+    if (framing.isEmpty())
+        return Status(Code::NotFound,
+                      "the instance shows nothing yet, and its preset has no camera: call fxScene_Update "
+                      "first, or fxSetFrameCamera");
+    const float fovY = glm::radians(fx::sim::PreviewDef().fovYDegrees);
+    const auto camera = framing.place(double(fovY), aspect, scene.scene.placementOf(id).position.y);
+    return Camera{camera.position, camera.target, fovY};
+}
+
 } // namespace
 
 FxResult fxSetFrameCamera(FxContext* context, const double eye[3], const double target[3], float fovY,
                           float nearDistance, FxFrameDef* ioFrame)
 {
     return fx::api::guarded(__func__, fx::api::logOf(context), [&]() -> Status {
-        fx::api::Checks check;
-        check.notNull(context, "context");
-        check.notNull(eye, "eye");
-        check.notNull(target, "target");
-        if (!check.status())
-            return check.status();
-        FxFrameDef frame;
-        if (Status status = fx::api::readStruct(ioFrame, "ioFrame", fxDefaultFrameDef(), frame); !status)
-            return status;
-        if (Status status = checkCamera(context->world, eye, target, fovY, nearDistance, frame); !status)
-            return status;
-        std::copy_n(eye, 3, frame.origin);
-        writeView(context->world, eye, target, frame.view);
-        writeProjection(fovY, nearDistance, frame, frame.projection);
-        return fx::api::writeStruct(frame, ioFrame, "ioFrame");
+        if (!context)
+            return fx::api::invalid("context is null");
+        return setCamera(context->world, nearDistance, ioFrame,
+                         [&](double) { return givenCamera(context->world, eye, target, fovY); });
     });
 }
 
-FxResult fxSetPreviewLight(FxContext* context, FxPresetId preset, FxViewSettings* ioSettings)
+FxResult fxScene_SetFrameCamera(FxScene* scene, FxInstanceId instance, float nearDistance,
+                                FxFrameDef* ioFrame)
+{
+    return fx::api::withInstance(__func__, scene, instance, [&](fx::scene::LocalId id) -> Status {
+        return setCamera(scene->context->world, nearDistance, ioFrame, [&](double aspect) -> Result<Camera> {
+            const fx::sim::PreviewDef& preview = scene->scene.effectOf(id)->preview;
+            return preview.hasCamera ? authorsCamera(preview, scene->scene.placementOf(id))
+                                     : framingCamera(*scene, id, aspect);
+        });
+    });
+}
+
+FxResult fxSetPreviewSettings(FxContext* context, FxPresetId preset, FxViewSettings* ioSettings)
 {
     return fx::api::guarded(__func__, fx::api::logOf(context), [&]() -> Status {
         if (!context)
@@ -112,6 +183,8 @@ FxResult fxSetPreviewLight(FxContext* context, FxPresetId preset, FxViewSettings
         if (!effect)
             return effect.status();
         const fx::sim::PreviewDef& preview = (*effect)->preview;
+        settings.composition = FX_COMPOSITION_AUTOMATIC;
+        settings.multipleScattering = 3; // as presets request
         settings.exposureEv100 = preview.exposureEv100;
         settings.groundAlbedo = preview.groundAlbedo;
         context->world.writeDirection(preview.sunDirection, settings.sunDirection);

@@ -1,4 +1,5 @@
 // The functions of fx_visibility.h.
+#include "fxsdk/api/acquired_snapshots.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/api/view_object.h"
@@ -27,21 +28,6 @@ struct Watcher
     CameraGeometry camera;
     float height;  ///< [pixel]
     uint32_t mask; ///< FxFrameDef::visibilityMask
-};
-
-/// Releases the snapshots of a scene.
-class Shown
-{
-public:
-    explicit Shown(fx::scene::Scene& scene) : scene_(scene), shown_(scene.acquire()) {}
-    ~Shown() { scene_.release(shown_.snapshots); }
-    Shown(const Shown&) = delete;
-    Shown& operator=(const Shown&) = delete;
-    const fx::base::FrameSnapshot* newer() const { return shown_.snapshots.newer; }
-
-private:
-    fx::scene::Scene& scene_;
-    fx::scene::Presentation shown_;
 };
 
 Status readCamera(const FxScene& scene, const FxFrameDef* given, std::optional<Watcher>& out)
@@ -169,7 +155,7 @@ FxResult fxScene_ExplainVisibility(FxScene* scene, FxInstanceId instance, const 
             return status;
         const fx::scene::Scene::Activity activity = scene->scene.activity(id);
         GroupReport groups(watcher);
-        const Shown shown(scene->scene);
+        const fx::api::AcquiredSnapshots shown(scene->scene);
         for (size_t g = 0; shown.newer() && g < shown.newer()->groupCount(); ++g) {
             if (shown.newer()->name(g).instance != id)
                 continue;

@@ -99,21 +99,22 @@ base::Result<std::string> AssetResolver::readLibrary(std::string_view name, uint
     std::string file(name.substr(kLibraryPrefix.size()));
     if (file.find('.') == std::string::npos)
         file += kPresetSuffix;
-    std::vector<std::string> known;
+    const bool isPreset = file.ends_with(kPresetSuffix);
+    const auto shown = [&](std::string_view found) {
+        return std::string(found.substr(0, found.size() - (isPreset ? kPresetSuffix.size() : 0)));
+    };
+    std::vector<std::string> known; // of the same kind
     for (const base::EmbeddedText& entry : library_) {
         if (entry.name == file)
             return entry.text.size() <= maxBytes ? base::Result<std::string>(std::string(entry.text))
                                                  : tooLarge(name, maxBytes);
-        std::string_view shown = entry.name;
-        if (shown.ends_with(kPresetSuffix))
-            shown.remove_suffix(kPresetSuffix.size());
-        known.emplace_back(shown);
+        if (entry.name.ends_with(kPresetSuffix) == isPreset)
+            known.push_back(shown(entry.name));
     }
-    std::string message = "asset \"" + std::string(name) + "\" is not in the library" +
-                          base::didYouMean(name.substr(kLibraryPrefix.size()), known) + "; it holds:";
+    std::string message = "asset \"" + std::string(name) + "\" is not in the library; it holds:";
     for (const std::string& candidate : known)
         message += " " + candidate;
-    return base::Status(base::Code::NotFound, std::move(message));
+    return base::Status(base::Code::NotFound, message + base::didYouMean(shown(file), known));
 }
 
 base::Result<std::string> AssetResolver::readHook(const std::string& name, uint64_t maxBytes) const

@@ -18,8 +18,8 @@ int drawEffects(const Effects* effects, double seconds, const float view[16], co
 FxFrameDef windowTarget(int32_t width, int32_t height);
 FxFrameDef hdrTarget(uint32_t color, uint32_t depth, int32_t width, int32_t height);
 FxViewSettings gameLight(float ev100, float unit, float paper, const float sky[3]);
-int useAuthorsLight(FxContext* context, FxPresetId preset, FxViewSettings* settings);
-int lookAtTheEffect(FxContext* context, FxFrameDef* frame);
+int useAuthorsSettings(FxContext* context, FxPresetId preset, FxViewSettings* settings);
+int lookAtTheEffect(const Effects* effects, FxInstanceId instance, FxFrameDef* frame);
 int drawEffectsAroundGlass(const Effects* effects, FxFrameDef target, float glassDepth,
                            void (*drawGlass)(void));
 int showInMainViewOnly(const Effects* effects, FxInstanceId instance);
@@ -88,13 +88,13 @@ TEST_F(EffectInYourGame, theCodeOfThePageHearsImpactsAndPlacesDecals)
     EXPECT_EQ(fxDestroyContext(effects.context), FX_OK);
 }
 
-TEST_F(EffectInYourGame, theCodeOfThePageTakesTheAuthorsLight)
+TEST_F(EffectInYourGame, theCodeOfThePageTakesTheAuthorsSettings)
 {
     const float sky[3] = {0.3f, 0.4f, 0.6f};
     FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky);
     Effects effects{};
     ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
-    ASSERT_EQ(useAuthorsLight(effects.context, effects.explosion, &settings), 0) << fxGetLastErrorMessage();
+    ASSERT_EQ(useAuthorsSettings(effects.context, effects.explosion, &settings), 0) << fxGetLastErrorMessage();
     EXPECT_EQ(settings.exposureEv100, 11.3f); // of library:explosion
     EXPECT_GT(settings.sunIlluminance[0], 0.0f);
     EXPECT_EQ(fxView_SetSettings(effects.view, &settings), FX_OK) << fxGetLastErrorMessage();
@@ -107,12 +107,15 @@ TEST_F(EffectInYourGame, theCodeOfThePageSeesTheEffectByItsOwnCamera)
     const FxViewSettings settings = fxDefaultViewSettings();
     ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
     const fx::test::EncodedTarget target = targetsOf(GL_RGBA16F).front();
-    FxFrameDef def = hdrTarget(target.texture, 0, kSize, kSize);
-    ASSERT_EQ(lookAtTheEffect(effects.context, &def), 0) << fxGetLastErrorMessage();
-    EXPECT_EQ(def.origin[2], 5.0);
     ASSERT_EQ(explode(&effects, 0.0, 0.0, 0.0), 0) << fxGetLastErrorMessage();
     for (int i = 0; i < 12; ++i)
         ASSERT_EQ(fxScene_Update(effects.scene, 1.0 / 60.0), FX_OK);
+    FxInstanceId instance{};
+    uint32_t count = 0;
+    ASSERT_EQ(fxScene_GetInstances(effects.scene, &instance, 1, &count), FX_OK);
+    FxFrameDef def = hdrTarget(target.texture, 0, kSize, kSize);
+    ASSERT_EQ(lookAtTheEffect(&effects, instance, &def), 0) << fxGetLastErrorMessage();
+    EXPECT_GT(def.origin[2], 1.0);
     store(target, std::vector<float>(size_t(kSize * kSize * 4), 0.25f));
     const std::vector<float> before = stored(target);
     ASSERT_EQ(fxView_Render(effects.view, &def), FX_OK) << fxGetLastErrorMessage();

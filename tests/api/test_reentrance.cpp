@@ -207,7 +207,7 @@ protected:
         preview.structSize = sizeof preview;
         host.note("fxGetPresetPreview", fxGetPresetPreview(context_, hail_, &preview));
         FxViewSettings settings = fxDefaultViewSettings();
-        host.note("fxSetPreviewLight", fxSetPreviewLight(context_, hail_, &settings));
+        host.note("fxSetPreviewSettings", fxSetPreviewSettings(context_, hail_, &settings));
         host.note("fxLoadPresetText", fxLoadPresetText(context_, text.data(), text.size(), nullptr, &preset));
         host.note("fxCreateScene", fxCreateScene(context_, &def, &scene));
     }

@@ -70,6 +70,27 @@ private:
     FxContext* context_ = nullptr;
 };
 
+/// A scene with instances of one preset.
+struct HostView
+{
+    HostView(FxContext* context, const std::string& preset) : preset_(fx::test::loadText(context, preset))
+    {
+        const FxSceneDef def = fxDefaultSceneDef();
+        EXPECT_EQ(fxCreateScene(context, &def, &scene), FX_OK) << fxGetLastErrorMessage();
+    }
+    FxInstanceId add(FxInstanceDef def)
+    {
+        def.preset = preset_;
+        FxInstanceId instance{};
+        EXPECT_EQ(fxScene_CreateInstance(scene, &def, &instance), FX_OK) << fxGetLastErrorMessage();
+        return instance;
+    }
+    FxScene* scene = nullptr;
+
+private:
+    FxPresetId preset_;
+};
+
 } // namespace
 
 TEST_F(ViewSetup, aCameraIsThatOfOtherLibraries)
@@ -172,7 +193,7 @@ TEST_F(ViewSetup, placesThatDifferByRoundingAloneAreRefused)
     EXPECT_EQ(fxSetFrameCamera(context_, eye, target, 1.0f, 0.1f, &frame), FX_ERROR_INVALID_ARGUMENT);
 }
 
-TEST_F(ViewSetup, theLightIsThatOfThePreview)
+TEST_F(ViewSetup, settingsAreThoseOfThePreview)
 {
     const std::string text = R"({"version": 1, "emitters": [], "preview": {"exposureEv100": 9.5,
         "lighting": {"sunDirection": [0, 3, 4], "sunIlluminance": [5, 6, 7], "skyLuminance": [1, 2, 3],
@@ -182,6 +203,8 @@ TEST_F(ViewSetup, theLightIsThatOfThePreview)
         const FxPresetId preset = fx::test::loadText(world.context(), text.c_str());
         FxViewSettings settings = fxDefaultViewSettings(), wanted = settings;
         settings.slabs = wanted.slabs = 6;
+        wanted.composition = FX_COMPOSITION_AUTOMATIC;
+        wanted.multipleScattering = 3;
         wanted.exposureEv100 = 9.5f;
         wanted.groundAlbedo = 0.5f;
         for (int i = 0; i < 3; ++i) {
@@ -189,7 +212,7 @@ TEST_F(ViewSetup, theLightIsThatOfThePreview)
             wanted.skyLuminance[i] = 1.0f + float(i);
         }
         host.set(wanted.sunDirection, host.direction({0.0, 0.6f, 0.8f}));
-        ASSERT_EQ(fxSetPreviewLight(world.context(), preset, &settings), FX_OK) << fxGetLastErrorMessage();
+        ASSERT_EQ(fxSetPreviewSettings(world.context(), preset, &settings), FX_OK) << fxGetLastErrorMessage();
         for (int i = 0; i < 3; ++i)
             EXPECT_NEAR(settings.sunDirection[i], wanted.sunDirection[i], 1e-7f) << host;
         std::copy_n(wanted.sunDirection, 3, settings.sunDirection);
@@ -202,21 +225,105 @@ TEST_F(ViewSetup, anOlderViewHasNoMembersBeyondItsOwn)
     FxViewSettings settings = fxDefaultViewSettings();
     settings.structSize = offsetof(FxViewSettings, sunDirection);
     settings.sunIlluminance[0] = -1.0f;
-    ASSERT_EQ(fxSetPreviewLight(context_, fountain_, &settings), FX_OK) << fxGetLastErrorMessage();
+    ASSERT_EQ(fxSetPreviewSettings(context_, fountain_, &settings), FX_OK) << fxGetLastErrorMessage();
     EXPECT_EQ(settings.structSize, offsetof(FxViewSettings, sunDirection));
     EXPECT_EQ(settings.sunIlluminance[0], -1.0f);
 }
 
-TEST_F(ViewSetup, aRefusedLightChangesNothing)
+TEST_F(ViewSetup, refusedSettingsDoNotChange)
 {
     FxViewSettings settings = fxDefaultViewSettings();
     settings.exposureEv100 = 3.0f;
     const FxViewSettings before = settings;
-    EXPECT_EQ(fxSetPreviewLight(nullptr, fountain_, &settings), FX_ERROR_INVALID_ARGUMENT);
-    EXPECT_EQ(fxSetPreviewLight(context_, fountain_, nullptr), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxSetPreviewSettings(nullptr, fountain_, &settings), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxSetPreviewSettings(context_, fountain_, nullptr), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxUnloadPreset(context_, fountain_), FX_OK);
-    EXPECT_EQ(fxSetPreviewLight(context_, fountain_, &settings), FX_ERROR_STALE_ID);
+    EXPECT_EQ(fxSetPreviewSettings(context_, fountain_, &settings), FX_ERROR_STALE_ID);
     EXPECT_EQ(std::memcmp(&before, &settings, sizeof settings), 0);
     settings.structSize = 5;
-    EXPECT_EQ(fxSetPreviewLight(context_, fountain_, &settings), FX_ERROR_VERSION);
+    EXPECT_EQ(fxSetPreviewSettings(context_, fountain_, &settings), FX_ERROR_VERSION);
+}
+
+TEST_F(ViewSetup, anInstanceIsSeenByTheCameraOfItsAuthorWhereItIs)
+{
+    const std::string text = R"({"version": 1, "emitters": [], "preview": {"camera": {"position": [1, 2, 3],
+        "target": [0, 1, 0], "fovYDegrees": 60}}})";
+    World library(kLibraryWorld);
+    FxFrameDef atOrigin = sizedFrame();
+    const double eye[] = {1.0, 2.0, 3.0}, target[] = {0.0, 1.0, 0.0};
+    ASSERT_EQ(fxSetFrameCamera(library.context(), eye, target, 1.0471976f, 0.1f, &atOrigin), FX_OK);
+    for (const HostConvention& host : fx::test::kExactWorlds) {
+        World world(host);
+        HostView shown(world.context(), text);
+        const glm::dvec3 place(5.0, 1.0, -2.0);
+        const glm::quat turn = glm::angleAxis(0.7f, glm::vec3(0.0f, 1.0f, 0.0f));
+        FxInstanceDef def = fxDefaultInstanceDef();
+        host.set(def.position, host.vector(place));
+        const glm::quat there = host.rotation(turn);
+        const float xyzw[] = {there.x, there.y, there.z, there.w};
+        std::copy_n(xyzw, 4, def.rotation);
+        def.scale = 2.0f;
+        const FxInstanceId instance = shown.add(def);
+        FxFrameDef frame = sizedFrame();
+        ASSERT_EQ(fxScene_SetFrameCamera(shown.scene, instance, float(0.1 * host.unitsPerMeter), &frame),
+                  FX_OK)
+            << fxGetLastErrorMessage();
+        // the same picture as of an instance at the origin
+        for (const glm::dvec3& seen : {glm::dvec3(0.0), glm::dvec3(-0.5, 1.5, 0.5)}) {
+            const glm::dvec3 moved = place + glm::dquat(turn) * (2.0 * seen);
+            EXPECT_LT(
+                glm::distance(glm::dvec2(world.seen(frame, moved)), glm::dvec2(library.seen(atOrigin, seen))),
+                1e-5)
+                << host;
+        }
+    }
+}
+
+TEST_F(ViewSetup, anInstanceWithoutACameraFillsThePictureWhereverItIs)
+{
+    for (const double size : {0.2, 3.0})
+        for (const double away : {0.0, 1e5}) {
+            World world(kLibraryWorld);
+            HostView shown(
+                world.context(),
+                R"({"version": 1, "emitters": [{"shape": "box", "size": )" + std::to_string(size) +
+                    R"(, "position": [0, 4, 0], "emission": {"bursts": [{"time": 0, "count": 500}]},
+                "lifetime": 9, "speed": 0, "radius": 0.05, "opticalDepth": 1, "forces": {"gravity": 0}}]})");
+            FxInstanceDef def = fxDefaultInstanceDef();
+            def.position[0] = away;
+            const FxInstanceId instance = shown.add(def);
+            FxFrameDef frame = sizedFrame();
+            const FxFrameDef before = frame;
+            EXPECT_EQ(fxScene_SetFrameCamera(shown.scene, instance, 0.1f, &frame), FX_ERROR_NOT_FOUND);
+            EXPECT_NE(std::string(fxGetLastErrorMessage()).find("fxScene_Update"), std::string::npos);
+            EXPECT_EQ(std::memcmp(&before, &frame, sizeof frame), 0);
+            ASSERT_EQ(fxScene_Update(shown.scene, fx::test::kFrame), FX_OK);
+            ASSERT_EQ(fxScene_SetFrameCamera(shown.scene, instance, 0.1f, &frame), FX_OK)
+                << fxGetLastErrorMessage();
+            double widest = 0.0;
+            for (int axis = 0; axis < 3; ++axis)
+                for (const double side : {-size, size}) {
+                    glm::dvec3 face(away, 4.0, 0.0); // corners may be cut: a few percent lie there
+                    face[axis] += side;
+                    const glm::dvec3 there = world.seen(frame, face);
+                    EXPECT_LT(std::max(std::abs(there.x), std::abs(there.y)), 1.0);
+                    widest = std::max(widest, std::abs(there.y));
+                }
+            EXPECT_GT(widest, 0.6); // and no farther away than it has to be
+        }
+}
+
+TEST_F(ViewSetup, aCameraOfNoInstanceIsRefused)
+{
+    FxFrameDef frame = sizedFrame();
+    EXPECT_EQ(fxScene_SetFrameCamera(nullptr, {}, 0.1f, &frame), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxScene_SetFrameCamera(scene_, {}, 0.1f, &frame), FX_ERROR_STALE_ID);
+    const FxInstanceId instance = addFountain();
+    play(10);
+    EXPECT_EQ(fxScene_SetFrameCamera(scene_, instance, -1.0f, &frame), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxScene_SetFrameCamera(scene_, instance, 0.1f, nullptr), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxScene_SetFrameCamera(scene_, instance, 0.1f, &frame), FX_OK) << fxGetLastErrorMessage();
+    const uint64_t before = hash();
+    EXPECT_EQ(fxScene_SetFrameCamera(scene_, instance, 0.1f, &frame), FX_OK);
+    EXPECT_EQ(hash(), before);
 }

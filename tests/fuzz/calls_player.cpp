@@ -225,7 +225,7 @@ void CallsPlayer::readContext()
     preview.structSize = sizeof preview;
     checked(fxGetPresetPreview(played.context, anyPreset(played), &preview));
     FxViewSettings settings = fxDefaultViewSettings();
-    checked(fxSetPreviewLight(played.context, anyPreset(played), &settings));
+    checked(fxSetPreviewSettings(played.context, anyPreset(played), &settings));
     FxMemoryStats stats = sized<FxMemoryStats>();
     checked(fxContext_GetMemoryStats(played.context, &stats));
     if (input_.one(4))

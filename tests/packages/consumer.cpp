@@ -12,7 +12,7 @@ int main()
         FxInstanceDef def = fxsdk::instanceOf(context.loadLibrary("campfire"));
         def.position[1] = 2.0;
         const FxInstanceId fire = scene.create(def);
-        if (context.previewLight(def.preset).exposureEv100 != context.preview(def.preset).exposureEv100)
+        if (context.previewSettings(def.preset).exposureEv100 != context.preview(def.preset).exposureEv100)
             return 1;
         FxFrameDef frame = fxDefaultFrameDef();
         frame.width = frame.height = 64;

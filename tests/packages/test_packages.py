@@ -73,7 +73,7 @@ class Unpacked(unittest.TestCase):
         build, picture = self.folder / "build", self.folder / "hello.png"
         run("cmake", "-S", self.folder / "examples/00_hello", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", env=self.environment)
         run("cmake", "--build", build, env=self.environment)
-        run(build / "00_hello", "--headless", "--frames", "10", "--output", picture, env=self.environment)
+        run(build / "00_hello", "--headless", "--frames", "4", "--output", picture, env=self.environment)
         self.assertTrue(drawn(picture))
 
     def test_hosts_by_pkg_config(self):
@@ -95,7 +95,7 @@ class Unpacked(unittest.TestCase):
         blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/howto/install.md").read_text(), re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 3)
         program = "".join(blocks).replace("range(60)", "range(40)").replace("320", "64").replace("180", "36")
-        self.assertIn("context.camera", program)
+        self.assertIn("scene.camera", program)
         run(PYTHON, "-c", program, env=environment, cwd=self.folder)
         self.assertTrue(drawn(self.folder / "campfire.png"))
 

@@ -145,8 +145,9 @@ class Simulation(unittest.TestCase):
         self.assertEqual((preview.time, preview.hasCamera), (3.0, 1))
         self.assertAlmostEqual(math.hypot(*preview.sunDirection), 1.0, places=6)
 
-    def test_light_and_camera_are_those_of_the_c_api(self):
-        preview, light = self.context.preview("campfire"), self.context.preview_light("campfire")
+    def test_settings_and_cameras_are_those_of_the_c_api(self):
+        preview, light = self.context.preview("campfire"), self.context.preview_settings("campfire")
+        self.assertEqual(light["composition"], fxsdk.constants.FX_COMPOSITION_AUTOMATIC)
         self.assertEqual(light["exposureEv100"], preview.exposureEv100)
         self.assertEqual(list(light["skyLuminance"]), list(preview.skyLuminance))
         camera = self.context.camera((0, 0, 5), (0, 0, 0), 64, 32, math.pi / 2, 0.5)
@@ -156,12 +157,29 @@ class Simulation(unittest.TestCase):
             self.assertAlmostEqual(camera["projection"][element], value, places=6)
         reversed_depth = self.context.camera((0, 9, 0), (0, 0, 0), 64, 32, near=0.5, depthConvention=1, zeroToOne=1)
         self.assertAlmostEqual(reversed_depth["projection"][14], 0.5, places=6)
+        scene = self.context.scene()
+        fire = scene.add("campfire", position=(100, 0, 0))
+        camera = scene.camera(fire, 64, 32)
+        self.assertAlmostEqual(camera["origin"][0], 100 + preview.cameraPosition[0], places=5)
+        with self.assertRaisesRegex(fxsdk.Error, "fxScene_Update first"):
+            scene.camera(scene.add("explosion"), 64, 32)
         with self.assertRaisesRegex(fxsdk.Error, "place of the eye"):
             self.context.camera((0, 0, 5), (0, 0, 5), 64, 32)
 
     def test_a_member_that_is_mistyped_gets_a_suggestion(self):
         with self.assertRaisesRegex(TypeError, "no member depthTextur; did you mean depthTexture"):
             self.context.camera((0, 0, 5), (0, 0, 0), 64, 32, depthTextur=3)
+
+    def test_an_eye_without_a_target_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "belong together"):
+            fxsdk.render("sparks", eye=(0, 1, 5))
+
+    def test_the_sky_of_a_picture_has_the_exposure_of_its_light(self):
+        pixels = fxsdk.render("sparks", time=0, size=(32, 16), eye=(0, 1, 5), target=(0, 6, 0),
+                              exposure=math.log2(1000.0 / 1.2), skyLuminance=(36, 36, 36))  # 1000 cd/m2 are stored as 1
+        exposed = 0.036 * (1.2 - 0.7 * math.sqrt(0.8))  # about the middle of the picture
+        curve = 1.055 * exposed ** (1 / 2.4) - 0.055  # of sRGB; the tone curve is straight near 0
+        self.assertLess(abs(float(pixels[8, 16].mean()) / 255 - curve), 0.02)
 
     def test_pictures_of_no_size_are_refused(self):
         for size in ((0, 5), (5, -1), (5,), (2.5, 5), (5, 20000)):

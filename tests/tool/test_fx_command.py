@@ -50,7 +50,7 @@ class FxCommand(FxTest):
             self.assertEqual(preset["description"], json.loads((LIBRARY / f"{preset['name']}.fx.json").read_text())["description"])
         self.assertEqual(len(fx("list").out.splitlines()), len(names))
         found = fx("list", "CAMPfire").out
-        self.assertTrue(found.startswith("campfire  Wood fire"), found)
+        self.assertEqual(found, "campfire  Wood fire of about 1 m\n")
         outcome = fx("list", "teapot")
         self.assertEqual((outcome.code, outcome.out), (1, ""))
         self.assertIn("teapot", outcome.err)

@@ -46,6 +46,12 @@ std::vector<ListEntry> presetsWith(const std::string& word)
     return entries;
 }
 
+/// The first clause of a description.
+std::string beginOf(const std::string& description)
+{
+    return description.substr(0, std::min(description.find(": "), description.find(". ")));
+}
+
 int printList(const ListOptions& options)
 {
     const std::vector<ListEntry> entries = presetsWith(options.word);
@@ -65,7 +71,7 @@ int printList(const ListOptions& options)
     for (const ListEntry& entry : entries)
         width = std::max(width, entry.name.size());
     for (const ListEntry& entry : entries)
-        std::printf("%-*s  %s\n", int(width), entry.name.c_str(), entry.description.c_str());
+        std::printf("%-*s  %s\n", int(width), entry.name.c_str(), beginOf(entry.description).c_str());
     return kSuccess;
 }
 

@@ -2,12 +2,13 @@
 
 #include "fxsdk/assets/asset_resolver.h"
 #include "fxsdk/assets/read_file.h"
-#include "fxsdk/cli/scene/effect_framing.h"
 #include "fxsdk/cli/scene/preview_ground.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "fxsdk/scene/effect_framing.h"
 #include "fxsdk/scene_file/stages.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace fx::cli {
 namespace {
@@ -70,14 +71,14 @@ base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, c
     return scene;
 }
 
-base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const EffectSceneOptions& options,
+base::Status frameEffect(scene_file::SceneFile& shown, base::Ticks until, const EffectSceneOptions& options,
                          double aspect)
 {
-    auto effects = EffectScene::create(scene, options);
+    auto effects = EffectScene::create(shown, options);
     if (!effects.ok())
         return effects.status();
     const base::Ticks end = std::min(until, base::toTicks(kFramingLimit));
-    EffectFraming framing;
+    scene::EffectFraming framing;
     for (int i = 1; i <= kFramingMoments; ++i) {
         if (base::Status status = (*effects)->showMoment(end * i / kFramingMoments); !status)
             return status;
@@ -91,8 +92,13 @@ base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const 
             return places.status();
         framing.add(*places);
     }
-    if (!framing.isEmpty())
-        framing.place(scene.camera, aspect);
+    if (framing.isEmpty())
+        return {};
+    const scene::EffectFraming::Camera camera =
+        framing.place(double(shown.camera.fovYDegrees) * std::numbers::pi / 180.0, aspect, 0.0);
+    shown.camera.position = camera.position;
+    shown.camera.target = camera.target;
+    shown.camera.nearPlane = camera.nearDistance;
     return {};
 }
 

@@ -31,7 +31,7 @@ base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, c
 /// Simulates the effect and places the camera so that the effect is in the picture at all moments between
 /// the start and `until`. Does nothing if there are no elements at these moments.
 /// @param aspect width of the picture over its height
-base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const EffectSceneOptions& options,
+base::Status frameEffect(scene_file::SceneFile& shown, base::Ticks until, const EffectSceneOptions& options,
                          double aspect = 16.0 / 9.0);
 
 } // namespace fx::cli

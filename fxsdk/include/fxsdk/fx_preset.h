@@ -87,8 +87,7 @@ typedef struct FxPresetPreview
     /// [s] age of the effect at which a still is taken.
     double time;
 
-    /// 1: the camera is given; 0: it is not, and a camera should stand 2 to 3 times as far away as the effect
-    /// is large: groups of a snapshot have the bounds of their particles (fx_snapshot.h).
+    /// 1: the camera is given; 0: it is not, see fxScene_SetFrameCamera().
     uint32_t hasCamera;
 
     /// [radian] vertical field of view.

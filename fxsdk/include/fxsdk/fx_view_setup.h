@@ -29,11 +29,24 @@ extern "C" {
 FX_API FxResult fxSetFrameCamera(FxContext* context, const double eye[3], const double target[3], float fovY,
                                  float nearDistance, FxFrameDef* ioFrame);
 
-/// Sets exposure and light of a view to those in which the author of a preset shows it, see FxPresetPreview:
-/// exposureEv100, sunDirection, sunIlluminance, skyLuminance and groundAlbedo. [any]
+/// Points the camera of a frame at an instance. The camera is that of the author of its preset
+/// (FxPresetPreview), moved, turned and scaled with the instance. If the preset has no camera, it stands in
+/// front of the instance, somewhat above, where it sees nearly all media and particles that the last update
+/// has shown, with a field of view of 50 degrees. [scene thread]
+/// @param nearDistance [m] as of fxSetFrameCamera()
+/// @param ioFrame      as of fxSetFrameCamera()
+/// @return the codes of fxSetFrameCamera(), FX_ERROR_STALE_ID, FX_ERROR_NOT_FOUND (the preset has no camera,
+///         and the instance shows nothing), FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
+///         FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxScene_SetFrameCamera(FxScene* scene, FxInstanceId instance, float nearDistance,
+                                       FxFrameDef* ioFrame);
+
+/// Sets what the picture of a preset depends on, so that it looks as its author shows it: exposureEv100,
+/// sunDirection, sunIlluminance, skyLuminance and groundAlbedo are those of FxPresetPreview, composition is
+/// FX_COMPOSITION_AUTOMATIC and multipleScattering is 3, as the preset requests. [any]
 /// @param ioSettings structSize must be set. Other members keep their values, and on failure all do
 /// @return the codes of fxGetPresetPreview()
-FX_API FxResult fxSetPreviewLight(FxContext* context, FxPresetId preset, FxViewSettings* ioSettings);
+FX_API FxResult fxSetPreviewSettings(FxContext* context, FxPresetId preset, FxViewSettings* ioSettings);
 
 #ifdef __cplusplus
 }

@@ -160,10 +160,10 @@ public:
             [&](auto* out) { return fxGetPresetPreview(get(), preset, out); });
     }
 
-    /// `settings` with the exposure and light in which the author of the preset shows it.
-    FxViewSettings previewLight(FxPresetId preset, FxViewSettings settings = fxDefaultViewSettings())
+    /// `settings` with exposure, light and composition with which the author of the preset shows it.
+    FxViewSettings previewSettings(FxPresetId preset, FxViewSettings settings = fxDefaultViewSettings())
     {
-        check(fxSetPreviewLight(get(), preset, &settings));
+        check(fxSetPreviewSettings(get(), preset, &settings));
         return settings;
     }
 
@@ -338,6 +338,13 @@ public:
     void setVisibilityMask(FxInstanceId instance, uint32_t mask)
     {
         check(fxScene_SetVisibilityMask(get(), instance, mask));
+    }
+
+    /// `frame`, whose size is set, with a camera that sees the instance, see fxScene_SetFrameCamera().
+    FxFrameDef withCamera(FxFrameDef frame, FxInstanceId instance, float nearDistance)
+    {
+        check(fxScene_SetFrameCamera(get(), instance, nearDistance, &frame));
+        return frame;
     }
 
     void trigger(FxInstanceId instance, const std::string& event, uint32_t count = 1)

@@ -121,13 +121,13 @@ class Context(_Object):
         """How the author of a preset shows it: FxPresetPreview. @param name as for load()"""
         return filled("FxPresetPreview", fx.fxGetPresetPreview, self._open(), self.load(name))
 
-    def preview_light(self, name):
-        """Members of FxViewSettings for view(): exposure and light in which the author of a preset shows it. @param name as for
-        load()"""
+    def preview_settings(self, name):
+        """Members of FxViewSettings for view(): exposure, light and composition with which the author of a preset shows it.
+        @param name as for load()"""
         settings = default("FxViewSettings")
-        fx.fxSetPreviewLight(self._open(), self.load(name), ctypes.byref(settings))
+        fx.fxSetPreviewSettings(self._open(), self.load(name), ctypes.byref(settings))
         return {member: getattr(settings, member) for member in
-                ("exposureEv100", "sunDirection", "sunIlluminance", "skyLuminance", "groundAlbedo")}
+                ("composition", "multipleScattering", "exposureEv100", "sunDirection", "sunIlluminance", "skyLuminance", "groundAlbedo")}
 
     def camera(self, eye, target, width, height, fov_y=math.radians(50.0), near=_NEAR, **members):
         """Members of FxFrameDef for View.render(), with a camera of fxSetFrameCamera().
@@ -140,11 +140,8 @@ class Context(_Object):
         @param near    [m] distance of the near plane
         @param members other members of FxFrameDef, such as colorTexture
         """
-        members = dict(members, width=width, height=height)
-        frame = assign(default("FxFrameDef"), members)
-        fx.fxSetFrameCamera(self._open(), (ctypes.c_double * 3)(*eye), (ctypes.c_double * 3)(*target), fov_y, near,
-                            ctypes.byref(frame))
-        return dict(members, origin=frame.origin, view=frame.view, projection=frame.projection)
+        return _with_camera(dict(members, width=width, height=height), fx.fxSetFrameCamera, self._open(),
+                            (ctypes.c_double * 3)(*eye), (ctypes.c_double * 3)(*target), fov_y, near)
 
     def _open(self):
         if not self.pointer:
@@ -253,6 +250,11 @@ class Scene(_Owned):
         fx.fxScene_GetStateHash(self.pointer, ctypes.byref(value))
         return value.value
 
+    def camera(self, instance, width, height, near=_NEAR, **members):
+        """Members of FxFrameDef for View.render(), with a camera that sees an instance, of fxScene_SetFrameCamera(). @param
+        members as of Context.camera()"""
+        return _with_camera(dict(members, width=width, height=height), fx.fxScene_SetFrameCamera, self.pointer, instance, near)
+
     def groups(self, kind=None):
         """The particles of the last step as a list of Group. @param kind only groups of this kind, such as "blob" """
         snapshot = structs.FxSnapshotId()
@@ -304,6 +306,13 @@ class View(_Owned):
         return filled("FxViewStatistics", fx.fxView_GetStatistics, self.pointer)
 
 
+def _with_camera(members, set_camera, *arguments):
+    """Members of FxFrameDef, and those that a function of the C API sets."""
+    frame = assign(default("FxFrameDef"), members)
+    set_camera(*arguments, ctypes.byref(frame))
+    return dict(members, origin=frame.origin, view=frame.view, projection=frame.projection)
+
+
 def _copied(pointer, count):
     """A numpy array of `count` values; an empty one where the pointer is null."""
     if not pointer or count == 0:
@@ -311,23 +320,9 @@ def _copied(pointer, count):
     return numpy.ctypeslib.as_array(pointer, (count,)).copy()
 
 
-def _extent(groups):
-    """Center and radius of the middle 90 % of the gas, or of all particles where there is none; the unit ball where there is
-    nothing."""
-    placed = [group for group in groups if "x" in group.columns and len(group.columns["x"])]
-    placed = [group for group in placed if group.kind == "blob"] or placed
-    if not placed:
-        return numpy.zeros(3), 1.0
-    positions = numpy.concatenate([group.positions for group in placed])
-    reach = max(float(numpy.median(group.columns["radius"])) * group.scale if "radius" in group.columns else 0.0
-                for group in placed)
-    low, high = numpy.percentile(positions, 5, axis=0), numpy.percentile(positions, 95, axis=0)
-    return 0.5 * (low + high), max(0.5 * float(numpy.linalg.norm(high - low)) + reach, 0.05)
-
-
-def _open_country(width, height, fov_y, camera, light):
-    """Level ground under a sky, for a camera of Context.camera(): exposed colors as a display shows them, and depths."""
-    slope = math.tan(0.5 * fov_y)
+def _open_country(width, height, camera, light):
+    """Level ground under a sky, for a camera of Context.camera(): exposed colors, linear, and depths."""
+    slope = 1.0 / camera["projection"][5]
     x = slope * width / height * ((numpy.arange(width) + 0.5) / width * 2.0 - 1.0)
     y = slope * (1.0 - (numpy.arange(height) + 0.5) / height * 2.0)
     axes = numpy.array(camera["view"]).reshape(4, 4)[:3, :3]  # columns of the view are axes of the eye along the world's
@@ -340,9 +335,17 @@ def _open_country(width, height, fov_y, camera, light):
     soil = light["groundAlbedo"] * numpy.array((1.1, 1.0, 0.85)) * (sun * max(light["sunDirection"][1], 0.0) / math.pi + sky)
     up = numpy.clip(rays[:, :, 1] / numpy.linalg.norm(rays, axis=2), 0.0, 1.0)[:, :, None]
     luminance = numpy.where(is_ground[:, :, None], soil, sky * (1.2 - 0.7 * numpy.sqrt(up)))
-    exposed = luminance / (1.2 * 2.0 ** light["exposureEv100"])
-    shown = (exposed / (1.0 + exposed)) ** (1.0 / 2.2)
-    return shown, numpy.where(is_ground, 1.0 - _NEAR / numpy.maximum(away, _NEAR), 1.0)
+    return luminance / (1.2 * 2.0 ** light["exposureEv100"]), numpy.where(is_ground, 1.0 - _NEAR / numpy.maximum(away, _NEAR), 1.0)
+
+
+def _camera_of(scene, instance, size):
+    """A camera that sees the instance; where it shows nothing yet, one for an effect of a meter."""
+    try:
+        return scene.camera(instance, *size)
+    except Error as error:
+        if error.name != "not-found":
+            raise
+        return scene._context.camera((0.0, 0.3, 2.6), (0.0, 0.0, 0.0), *size)
 
 
 def render(preset, time=None, size=(640, 360), eye=None, target=None, exposure=None, **settings):
@@ -352,31 +355,26 @@ def render(preset, time=None, size=(640, 360), eye=None, target=None, exposure=N
     @param time     [s] of the effect; None: that of its preview
     @param size     [pixel] width and height
     @param eye      [m] position of the camera; None: that of its preview, or where the effect fills the picture
-    @param target   [m] where the camera looks; None: as for the eye
+    @param target   [m] where the camera looks; None if and only if `eye` is None
     @param exposure [EV100]; None: that of its preview
     @param settings members of FxViewSettings
     @return array of height x width x 3 bytes, rows from the top
     """
     if len(size) != 2 or not all(1 <= side <= 16384 and side == int(side) for side in size):
         raise ValueError(f"size is {size}; allowed are two whole numbers of pixels from 1 to 16384")
+    if (eye is None) != (target is None):
+        raise ValueError("eye and target belong together: give both, or none")
     with Offscreen() as gl, Context(gl.address) as context:
-        preview = context.preview(preset)
         scene = context.scene()
-        scene.add(preset)
-        scene.update(preview.time if time is None else time)
-        fov_y = math.radians(50.0)
-        if eye is None and target is None and preview.hasCamera:
-            eye, target, fov_y = preview.cameraPosition, preview.cameraTarget, preview.fovY
-        center, radius = _extent(scene.groups()) if eye is None or target is None else (None, None)
-        target = numpy.asarray(center if target is None else target, float)
-        eye = target + (0.0, 0.15 * radius, 2.6 * radius) if eye is None else eye
-        shown = dict(context.preview_light(preset), toneMap=1, composition=constants.FX_COMPOSITION_AUTOMATIC)
+        instance = scene.add(preset)
+        scene.update(context.preview(preset).time if time is None else time)
+        camera = context.camera(eye, target, *size) if eye is not None else _camera_of(scene, instance, size)
+        shown = dict(context.preview_settings(preset), toneMap=1)
         if exposure is not None:
             shown["exposureEv100"] = exposure
         view = context.view(scene, **{**shown, **settings})
         picture = gl.picture(*size)
-        camera = context.camera(eye, target, *size, fov_y)
-        colors, depths = _open_country(*size, fov_y, camera, {**shown, **settings})
+        colors, depths = _open_country(*size, camera, {**shown, **settings})
         picture.fill(colors)
         picture.fill_depth(depths)
         view.render(colorTexture=picture.name, depthTexture=picture.depth, **camera)

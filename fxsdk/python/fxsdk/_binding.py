@@ -151,8 +151,8 @@ def assign(struct, members):
     known = {name for name, _ in struct._fields_}
     for name, value in members.items():
         if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
-            meant = f"did you mean {near[0]}?" if near else f"it has {', '.join(sorted(known))}"
+            near = difflib.get_close_matches(name, known, 1, 0.5)
+            meant = f"did you mean {near[0]}?" if near else f"it has {', '.join(sorted(known - {'structSize', 'reserved'}))}"
             raise TypeError(f"{type(struct).__name__} has no member {name}; {meant}")
         member = getattr(struct, name)
         if isinstance(member, ctypes.Array) and not isinstance(value, bytes):

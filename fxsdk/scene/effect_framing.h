@@ -3,31 +3,46 @@
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
-#include "fxsdk/scene_file/camera_path.h"
+#include "fxsdk/scene/id_table.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <memory_resource>
+#include <utility>
 #include <vector>
 
-namespace fx::cli {
+namespace fx::scene {
 
 /// Collects weighted bounding spheres for each moment. At each moment the picture contains all but a few
 /// percent of the weight, so that single sparks do not determine the camera.
 class EffectFraming
 {
 public:
+    explicit EffectFraming(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        : moments_(memory)
+    {}
     /// Begins the next moment. Spheres added after this call belong to the new moment.
     void nextMoment() { moments_.emplace_back(); }
     /// Adds all media of the snapshot.
     void add(const base::FrameSnapshot& snapshot);
+    /// Adds media, sprites and meshes of one instance.
+    void add(const base::FrameSnapshot& snapshot, LocalId instance);
     /// Adds sprites and meshes. @param places center and radius [m] of each sprite or mesh
     void add(const std::vector<glm::vec4>& places);
     bool isEmpty() const;
 
-    /// Places the camera so that all moments are in view. The field of view of the camera is not changed.
+    struct Camera
+    {
+        glm::dvec3 position; ///< [m]
+        glm::dvec3 target;   ///< [m]
+        float nearDistance;  ///< [m] of a near plane that cuts nothing off
+    };
+    /// A camera that has all moments in view and stands above the ground.
+    /// @param fovY   [rad] vertical field of view
     /// @param aspect width of the picture over its height
-    void place(scene_file::CameraPath& camera, double aspect) const;
+    /// @param ground [m] height of the ground
+    Camera place(double fovY, double aspect, double ground) const;
 
 private:
     struct Ball
@@ -41,11 +56,14 @@ private:
         double low, high; ///< [m]
         double middle() const { return 0.5 * (low + high); }
     };
-    void addGroup(const base::SnapshotGroup& group);
+    using Weights = std::pmr::vector<std::pair<double, double>>; ///< values and their weights
+    void addMedia(const base::SnapshotGroup& group);
+    void addParticles(const base::SnapshotGroup& group);
+    static double quantile(Weights& values, double share);
     void addBall(const Ball& ball);
     Span spanAlong(const glm::dvec3& axis) const;
 
-    std::vector<std::vector<Ball>> moments_;
+    std::pmr::vector<std::pmr::vector<Ball>> moments_;
 };
 
-} // namespace fx::cli
+} // namespace fx::scene

@@ -1,6 +1,7 @@
-#include "fxsdk/cli/scene/effect_framing.h"
+#include "fxsdk/scene/effect_framing.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 
 #include <glm/geometric.hpp>
 
@@ -10,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-namespace fx::cli {
+namespace fx::scene {
 
 namespace {
 
@@ -21,8 +22,20 @@ constexpr double kNearest = 0.3;         ///< [m] smallest half height of what i
 constexpr double kFarthest = 200.0;      ///< [m] largest
 const glm::dvec3 kView(0.25, 0.12, 1.0); ///< from the effect to the camera
 
+double discOf(double radius)
+{
+    return std::numbers::pi * radius * radius;
+}
+
+glm::dvec3 inWorld(const base::Placement& placement, const glm::vec3& local)
+{
+    return placement.position + glm::dvec3(placement.rotation * (placement.scale * local));
+}
+
+} // namespace
+
 /// The value below which `share` of the weight lies.
-double quantile(std::vector<std::pair<double, double>>& values, double share)
+double EffectFraming::quantile(Weights& values, double share)
 {
     std::sort(values.begin(), values.end());
     double total = 0;
@@ -37,25 +50,48 @@ double quantile(std::vector<std::pair<double, double>>& values, double share)
     return values.back().first;
 }
 
-} // namespace
-
 void EffectFraming::add(const base::FrameSnapshot& snapshot)
 {
     const base::KindId blobs = snapshot.schema().find(base::kBlobKind.name);
     for (size_t g = 0; g < snapshot.groupCount(); ++g)
         if (snapshot.group(g).info().kind == blobs)
-            addGroup(snapshot.group(g));
+            addMedia(snapshot.group(g));
+}
+
+void EffectFraming::add(const base::FrameSnapshot& snapshot, LocalId instance)
+{
+    const base::KindId blobs = snapshot.schema().find(base::kBlobKind.name);
+    const base::KindId particles = snapshot.schema().find(base::kParticleKind.name);
+    for (size_t g = 0; g < snapshot.groupCount(); ++g) {
+        if (snapshot.name(g).instance != instance)
+            continue;
+        const base::KindId kind = snapshot.group(g).info().kind;
+        if (kind == blobs)
+            addMedia(snapshot.group(g));
+        else if (kind == particles)
+            addParticles(snapshot.group(g));
+    }
 }
 
 void EffectFraming::add(const std::vector<glm::vec4>& places)
 {
-    for (const glm::vec4& place : places) {
-        const double radius = double(place.w);
-        addBall({glm::dvec3(place), radius, std::numbers::pi * radius * radius});
+    for (const glm::vec4& place : places)
+        addBall({glm::dvec3(place), double(place.w), discOf(double(place.w))});
+}
+
+void EffectFraming::addParticles(const base::SnapshotGroup& group)
+{
+    namespace column = base::particle_column;
+    const base::Placement& placement = group.info().placement;
+    for (size_t i = 0; i < group.count(); ++i) {
+        const glm::vec3 local(group.column(column::PositionX)[i], group.column(column::PositionY)[i],
+                              group.column(column::PositionZ)[i]);
+        const double radius = double(group.column(column::Radius)[i] * placement.scale);
+        addBall({inWorld(placement, local), radius, discOf(radius)});
     }
 }
 
-void EffectFraming::addGroup(const base::SnapshotGroup& group)
+void EffectFraming::addMedia(const base::SnapshotGroup& group)
 {
     namespace column = base::blob_column;
     const base::Placement& placement = group.info().placement;
@@ -63,11 +99,10 @@ void EffectFraming::addGroup(const base::SnapshotGroup& group)
         const glm::vec3 local(group.column(column::PositionX)[i], group.column(column::PositionY)[i],
                               group.column(column::PositionZ)[i]);
         const double radius = double(group.column(column::Radius)[i] * placement.scale);
-        const double covered = std::numbers::pi * radius * radius; // what a dense blob hides is its disc
         const double section =
             double(group.column(column::CrossSection)[i]) * double(placement.scale) * double(placement.scale);
-        addBall({placement.position + glm::dvec3(placement.rotation * (placement.scale * local)),
-                 kSeenRadius * radius, std::min(section, covered)});
+        addBall({inWorld(placement, local), kSeenRadius * radius,
+                 std::min(section, discOf(radius))}); // what a dense blob hides is its disc
     }
 }
 
@@ -86,8 +121,8 @@ bool EffectFraming::isEmpty() const
 EffectFraming::Span EffectFraming::spanAlong(const glm::dvec3& axis) const
 {
     Span span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    std::vector<std::pair<double, double>> low, high;
-    for (const std::vector<Ball>& balls : moments_) {
+    Weights low(moments_.get_allocator()), high(moments_.get_allocator());
+    for (const std::pmr::vector<Ball>& balls : moments_) {
         low.clear();
         high.clear();
         for (const Ball& ball : balls) {
@@ -102,18 +137,18 @@ EffectFraming::Span EffectFraming::spanAlong(const glm::dvec3& axis) const
     return span;
 }
 
-void EffectFraming::place(scene_file::CameraPath& camera, double aspect) const
+EffectFraming::Camera EffectFraming::place(double fovY, double aspect, double ground) const
 {
     const glm::dvec3 back = glm::normalize(kView);
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
     const glm::dvec3 up = glm::cross(back, right);
     const Span across = spanAlong(right), along = spanAlong(up), deep = spanAlong(back);
     const glm::dvec3 target = right * across.middle() + up * along.middle() + back * deep.middle();
-    const double tangent = std::tan(double(camera.fovYDegrees) * std::numbers::pi / 360.0);
+    const double tangent = std::tan(0.5 * fovY);
 
-    std::vector<std::pair<double, double>> wanted; // distances from which a ball is inside of the picture
+    Weights wanted(moments_.get_allocator()); // distances from which a ball is inside of the picture
     double distance = kNearest / tangent;
-    for (const std::vector<Ball>& balls : moments_) {
+    for (const std::pmr::vector<Ball>& balls : moments_) {
         wanted.clear();
         for (const Ball& ball : balls) {
             const glm::dvec3 way = ball.center - target;
@@ -125,10 +160,9 @@ void EffectFraming::place(scene_file::CameraPath& camera, double aspect) const
             distance = std::max(distance, quantile(wanted, 1.0 - kLeftOut));
     }
     distance = kMargin * std::min(distance, kFarthest / tangent);
-    camera.target = target;
-    camera.position = target + distance * back;
-    camera.position.y = std::max(camera.position.y, 0.1 * distance * tangent); // above the ground
-    camera.nearPlane = float(std::min(0.1, 0.01 * distance));
+    Camera camera{target + distance * back, target, float(std::min(0.1, 0.01 * distance))};
+    camera.position.y = std::max(camera.position.y, ground + 0.1 * distance * tangent);
+    return camera;
 }
 
-} // namespace fx::cli
+} // namespace fx::scene
