@@ -171,16 +171,37 @@ class FxAccuracyOfFlights(FxTest):
             self.assertGreater(names["slices-not-snapped"]["work"]["pairs_beyond"], 10, scene) # the control
             self.assertEqual(code, 0, scene)
 
-    def test_impostors_of_blocks_change_no_more_than_their_balls_and_drawn_in_turn_they_do(self):
-        for scene, size in (("cumulus-orbit", "160x90"), ("cumulus-into", "96x54")):
-            outcome = fx("accuracy", "block-flights", "--scene", scene, "--frames", "3", "--size", size, *QUICK)
-            names = by_setting([json.loads(line) for line in outcome.out.strip().split("\n")])
-            self.assertEqual(names["impostors"]["work"]["pairs_beyond"], 0, scene)
-            self.assertLess(names["impostors"]["work"]["jump"], 0.02, scene)
-            self.assertGreater(names["impostors"]["work"]["impostors_per_frame"], 50, scene)
-            if scene == "cumulus-orbit":
-                self.assertGreater(names["in-turn"]["work"]["pairs_beyond"], 0) # the control
-            self.assertEqual(outcome.code, 0, scene)
+    def block_flight(self, scene, *arguments):
+        outcome = fx("accuracy", "block-flights", "--scene", scene, *QUICK, *arguments)
+        return outcome.code, by_setting([json.loads(line) for line in outcome.out.strip().split("\n")])
+
+    def test_impostors_around_which_an_eye_flies_change_no_more_than_their_balls_and_drawn_in_turn_they_do(self):
+        code, names = self.block_flight("cumulus-orbit", "--frames", "3", "--size", "96x54")
+        self.assertEqual(names["impostors"]["work"]["pairs_beyond"], 0)
+        self.assertLess(names["impostors"]["work"]["jump"], 0.02)
+        self.assertGreater(names["impostors"]["work"]["impostors_per_frame"], 50)
+        self.assertGreater(names["in-turn"]["work"]["pairs_beyond"], 0) # the control
+        self.assertEqual(code, 0)
+
+    def test_blocks_through_which_an_eye_flies_become_balls_unseen_and_all_at_once_they_do_not(self):
+        code, names = self.block_flight("cumulus-through", "--frames", "8")
+        impostors, control = names["impostors"]["work"], names["at-once"]["work"]
+        self.assertEqual(impostors["pairs_beyond"], 0)
+        self.assertLess(max(impostors["jump"], impostors["switch"]), 0.02)
+        self.assertGreater(impostors["switch"], 0.002) # blocks pass the switch in these frames
+        self.assertLess(impostors["impostors_last"], impostors["impostors_first"])
+        self.assertGreater(control["pairs_beyond"], 0)
+        self.assertGreater(min(control["jump"], control["switch"]), 0.02)
+        self.assertEqual(code, 0)
+
+    def test_blocks_in_each_other_look_the_same_in_both_orders_and_balls_one_over_the_other_do_not(self):
+        code, names = self.block_flight("twins-order")
+        for setting in ("impostors", "any-error", "balls"):
+            self.assertLess(names[setting]["error_max"], 1 / 1023, setting)
+        for setting in ("impostors", "any-error"):
+            self.assertGreater(names[setting]["work"]["impostors_per_view"], 20, setting)
+        self.assertGreater(names["sorted"]["error_max"], 0.1) # the control
+        self.assertEqual(code, 0)
 
     def test_a_control_that_keeps_a_generous_bound_is_a_failure(self):
         code, names = self.flight("light-sweep", "--frames", "10", "--size", "32x18", "--bound", "50")
