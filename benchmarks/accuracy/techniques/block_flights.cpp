@@ -136,6 +136,7 @@ struct FlightPictures
 {
     std::vector<FrameLight> frames;
     std::vector<uint32_t> impostors; ///< in each frame
+    uint64_t deferred = 0;           ///< tiles that were due in a frame and not drawn in it, of all frames
     std::vector<double> switches;    ///< [1] mean change by blocks that become balls in each frame
     double seconds = 0.0;
 };
@@ -246,7 +247,9 @@ base::Status BlockFlightAccuracy::addFrame(uint32_t frame, const BlockFlightSett
         if (!light.ok())
             return light.status();
         io.frames.push_back(std::move(*light));
-        io.impostors.push_back(stage_->view().renderer.statistics().blockImpostors);
+        const render::FrameStatistics& drawn = stage_->view().renderer.statistics();
+        io.impostors.push_back(drawn.blockImpostors);
+        io.deferred += drawn.blockTilesDeferred;
     }
     if (!flight_.isThrough || (isOfBalls && frame != middle)) {
         io.switches.push_back(0.0);
@@ -374,6 +377,7 @@ base::Result<AccuracySample> BlockFlightAccuracy::run(size_t index, const std::f
         {"impostors_first", impostors.front()},
         {"impostors_last", impostors.back()},
         {"impostors_per_frame", std::accumulate(impostors.begin(), impostors.end(), 0.0) / double(frames_)},
+        {"tiles_deferred_per_frame", double(pictures->deferred) / double(frames_)},
         {"seconds_balls", balls_.seconds}};
     char note[200];
     std::snprintf(note, sizeof note,
