@@ -4,6 +4,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/volume_kind.h"
 #include "rendering/reference/render/medium_blobs.h"
+#include "rendering/volumes/volume_levels.h"
 #include "rendering/voxelization/ball_voxelizer.h"
 #include "simulation/volume/volume_solver.h"
 
@@ -51,7 +52,8 @@ base::Result<std::unique_ptr<VolumeScene>> VolumeScene::create(base::VoxelVolume
     sim::VolumeDef def;
     def.voxels = std::make_shared<const base::VoxelVolume>(std::move(volume));
     def.cells = base::volumeCells(*def.voxels);
-    const base::Result<base::AssetId> asset = scene->assets_.addVolume(def.voxels, 1);
+    const base::Result<base::AssetId> asset =
+        scene->assets_.addVolume(def.voxels, 1, render::coarserLevels(*def.voxels));
     if (!asset)
         return asset.status();
     def.asset = *asset;

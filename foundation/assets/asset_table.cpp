@@ -58,6 +58,12 @@ std::shared_ptr<const VoxelVolume> AssetTable::volume(AssetId id) const
     return found ? found->volume : nullptr;
 }
 
+CoarserLevels AssetTable::coarserLevels(AssetId id) const
+{
+    const Entry* found = entry(id);
+    return found ? found->coarser : nullptr;
+}
+
 std::shared_ptr<VolumeSequence> AssetTable::sequence(AssetId id) const
 {
     const Entry* found = entry(id);
@@ -148,15 +154,17 @@ Result<AssetId> AssetTable::addMesh(std::span<const MeshVertex> vertices, std::s
     return publish(std::move(entry), vertices.size_bytes() + indices.size_bytes());
 }
 
-Result<AssetId> AssetTable::addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash)
+Result<AssetId> AssetTable::addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash,
+                                      CoarserLevels coarser)
 {
     const std::scoped_lock lock(adding_);
     if (const AssetId known = find(hash, [&](const Entry& e) { return e.volume && *e.volume == *volume; }))
         return known;
-    const uint64_t bytes = volume->bytes();
+    const uint64_t bytes = volume->bytes() + (coarser ? coarser->bytes() : 0);
     Entry entry;
     entry.hash = hash;
     entry.volume = std::move(volume);
+    entry.coarser = std::move(coarser);
     return publish(std::move(entry), bytes);
 }
 

@@ -7,6 +7,7 @@
 /// add and read. A mutex serializes additions; reading takes no lock.
 #pragma once
 
+#include "foundation/assets/volume_levels.h"
 #include "foundation/assets/voxel_volume.h"
 #include "foundation/result/status.h"
 
@@ -74,7 +75,9 @@ public:
     Result<AssetId> addMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t> indices);
     /// Adds a volume. If the table already has a volume with this hash, its id is returned.
     /// @param hash hash of the content  @return the id; Capacity if the table is full
-    Result<AssetId> addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash);
+    /// @param coarser its coarser levels; null: views draw it from its own voxels at any distance
+    Result<AssetId> addVolume(std::shared_ptr<const VoxelVolume> volume, uint64_t hash,
+                              CoarserLevels coarser = nullptr);
     /// Adds a sequence of volumes, likewise. Its frames come and go, and are not part of bytes().
     Result<AssetId> addSequence(std::shared_ptr<VolumeSequence> sequence, uint64_t hash);
 
@@ -86,12 +89,13 @@ public:
     const ImageAsset* image(AssetId id) const;
     const MeshAsset* mesh(AssetId id) const;
     std::shared_ptr<const VoxelVolume> volume(AssetId id) const;
+    CoarserLevels coarserLevels(AssetId id) const; ///< of a volume, likewise
     /// Null if this table has no sequence with this id.
     std::shared_ptr<VolumeSequence> sequence(AssetId id) const;
 
     /// Number of assets; their ids are 1 to size().
     uint32_t size() const { return size_.load(std::memory_order_acquire); }
-    /// [byte] size of all images, meshes and volumes
+    /// [byte] size of all images, meshes and volumes with their coarser levels
     uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
 private:
@@ -102,6 +106,7 @@ private:
         std::unique_ptr<ImageAsset> image;
         std::unique_ptr<MeshAsset> mesh;
         std::shared_ptr<const VoxelVolume> volume;
+        CoarserLevels coarser;
         std::shared_ptr<VolumeSequence> sequence;
     };
 

@@ -63,19 +63,23 @@ VolumeSequence::Volume VolumeSequence::find(uint32_t frame)
     return slot.volume;
 }
 
-void VolumeSequence::prefetch(uint32_t frame)
+void VolumeSequence::prefetch(uint32_t frame, bool withCoarser)
 {
     {
         const std::scoped_lock lock(mutex_);
         uint64_t bytes = 0;
+        shown_ = frame;
         for (uint32_t k = 0; k < count(); ++k) {
             const uint32_t wanted = (frame + k) % count();
-            bytes += def_.frames[wanted].bytes;
-            if (bytes > def_.memory)
-                break;
             Slot& slot = slots_[wanted];
+            const bool isCoarserWanted = withCoarser && def_.makeCoarser;
+            bytes += def_.frames[wanted].bytes;
+            bytes += isCoarserWanted ? def_.frames[wanted].coarserBytes : slot.coarserBytes;
+            if (k > 1 && bytes > def_.memory)
+                break;
             slot.lastUse = uses_ + count() - k; // the next one is needed most
-            if (slot.volume || slot.isReading || slot.isQueued || slot.hasFailed)
+            slot.wantsCoarser = slot.wantsCoarser || isCoarserWanted;
+            if (slot.isQueued || !slot.isIncomplete())
                 continue;
             slot.isQueued = true;
             if (k < 2)
@@ -86,10 +90,45 @@ void VolumeSequence::prefetch(uint32_t frame)
         uses_ += count();
         if (queue_.empty())
             return;
-        if (!reader_.joinable())
-            reader_ = std::thread([this] { runReader(); });
+        startReader();
     }
     changed_.notify_all();
+}
+
+/// The caller holds the lock.
+void VolumeSequence::startReader()
+{
+    if (!reader_.joinable())
+        reader_ = std::thread([this] { runReader(); });
+}
+
+CoarserLevels VolumeSequence::coarser(uint32_t frame)
+{
+    std::unique_lock lock(mutex_);
+    Slot& slot = slots_[frame];
+    while (waits_ && def_.makeCoarser && !slot.coarser && !slot.hasFailed) {
+        slot.wantsCoarser = true;
+        if (!slot.isQueued && slot.isIncomplete()) {
+            slot.isQueued = true;
+            queue_.push_front(frame);
+            startReader();
+            changed_.notify_all();
+        }
+        changed_.wait(lock);
+    }
+    return slot.coarser;
+}
+
+void VolumeSequence::setWaits(bool waits)
+{
+    const std::scoped_lock lock(mutex_);
+    waits_ = waits;
+}
+
+bool VolumeSequence::waits() const
+{
+    const std::scoped_lock lock(mutex_);
+    return waits_ && def_.makeCoarser;
 }
 
 Result<VolumeSequence::Volume> VolumeSequence::wait(uint32_t frame)
@@ -109,17 +148,24 @@ VolumeSequence::Counts VolumeSequence::counts() const
 }
 
 /// The least recently used frames go. The caller holds the lock.
-void VolumeSequence::makeRoom(uint64_t bytes)
+/// @param keepsShown whether frames that are shown stay
+void VolumeSequence::makeRoom(uint64_t bytes, bool keepsShown)
 {
+    const auto isShown = [&](size_t i) { return i == shown_ || i == (shown_ + 1) % count(); };
     while (counts_.bytes + bytes > def_.memory) {
         size_t oldest = slots_.size();
         for (size_t i = 0; i < slots_.size(); ++i)
-            if (slots_[i].volume && (oldest == slots_.size() || slots_[i].lastUse < slots_[oldest].lastUse))
+            if (slots_[i].volume && !slots_[i].isMakingCoarser && !(keepsShown && isShown(i)) &&
+                (oldest == slots_.size() || slots_[i].lastUse < slots_[oldest].lastUse))
                 oldest = i;
         if (oldest == slots_.size())
             return; // the rest is being read
-        slots_[oldest].volume = nullptr;
-        counts_.bytes -= def_.frames[oldest].bytes;
+        Slot& slot = slots_[oldest];
+        counts_.bytes -= def_.frames[oldest].bytes + slot.coarserBytes;
+        slot.volume = nullptr;
+        slot.coarser = nullptr;
+        slot.coarserBytes = 0;
+        slot.wantsCoarser = false;
     }
 }
 
@@ -128,7 +174,7 @@ Result<VolumeSequence::Volume> VolumeSequence::readInto(uint32_t frame, std::uni
 {
     Slot& slot = slots_[frame];
     const uint64_t bytes = def_.frames[frame].bytes;
-    makeRoom(bytes);
+    makeRoom(bytes, false);
     slot.isReading = true;
     counts_.bytes += bytes;
     counts_.peakBytes = std::max(counts_.peakBytes, counts_.bytes);
@@ -149,6 +195,28 @@ Result<VolumeSequence::Volume> VolumeSequence::readInto(uint32_t frame, std::uni
     return read;
 }
 
+/// Room is made for the upper bound, which the levels do not exceed.
+void VolumeSequence::makeCoarser(uint32_t frame, std::unique_lock<std::mutex>& lock)
+{
+    Slot& slot = slots_[frame];
+    const Volume volume = slot.volume;
+    slot.isMakingCoarser = true;
+    makeRoom(def_.frames[frame].coarserBytes, true);
+    slot.coarserBytes = def_.frames[frame].coarserBytes;
+    counts_.bytes += slot.coarserBytes;
+    counts_.peakBytes = std::max(counts_.peakBytes, counts_.bytes);
+    lock.unlock();
+    CoarserLevels made = def_.makeCoarser(*volume);
+    lock.lock();
+    slot.isMakingCoarser = false;
+    counts_.bytes -= slot.coarserBytes;
+    slot.coarserBytes = made->bytes();
+    counts_.bytes += slot.coarserBytes;
+    slot.coarser = std::move(made);
+    readsOfProcess.fetch_add(1, std::memory_order_release);
+    changed_.notify_all();
+}
+
 void VolumeSequence::runReader()
 {
     std::unique_lock lock(mutex_);
@@ -162,6 +230,8 @@ void VolumeSequence::runReader()
         slot.isQueued = false;
         if (!slot.volume && !slot.isReading && !slot.hasFailed)
             static_cast<void>(readInto(frame, lock));
+        if (slot.volume && slot.isIncomplete())
+            makeCoarser(frame, lock);
     }
 }
 

@@ -2,9 +2,11 @@
 /// Numbered volumes that are shown one after another. Their voxels come and go within a budget of memory.
 ///
 /// The cells of all frames are known from the beginning, so that a simulation never waits for a disk. Voxels
-/// are read by a thread of the sequence, which starts when a frame is first missing. Threads: any.
+/// are read by a thread of the sequence, which starts when a frame is first missing. The same thread makes
+/// the coarser levels of frames that are drawn small. Threads: any.
 #pragma once
 
+#include "foundation/assets/volume_levels.h"
 #include "foundation/assets/voxel_volume.h"
 #include "foundation/result/status.h"
 
@@ -28,11 +30,14 @@ public:
     /// Reads the voxels of a frame. One thread at a time calls it for each call of wait(), and one for all
     /// others. The error names the file.
     using Read = std::function<Result<Volume>(uint32_t frame)>;
+    /// Makes the coarser levels of a frame. The thread of the sequence calls it.
+    using MakeCoarser = std::function<CoarserLevels(const VoxelVolume&)>;
 
     struct Frame
     {
         std::vector<VolumeCells> cells; ///< volumeCells() of the voxels
         uint64_t bytes = 0;             ///< [byte] VoxelVolume::bytes()
+        uint64_t coarserBytes = 0;      ///< [byte] upper bound of its coarser levels
     };
 
     struct Def
@@ -40,10 +45,13 @@ public:
         float side = 1.0f;         ///< [m] of the voxels of all frames
         glm::vec3 origin{0.0f};    ///< [m] center of the voxel (0, 0, 0) of all frames
         bool hasVelocities = true; ///< false: a frame has none
-        uint64_t memory = 0;       ///< [byte] upper bound of the voxels of all frames that are held
+        /// [byte] upper bound of the voxels of all frames that are held, with their coarser levels. Those of
+        /// the two frames that are shown are held even if they do not fit.
+        uint64_t memory = 0;
         std::vector<Frame> frames;
         std::vector<Volume> held; ///< of the first frames; together at most `memory`
         Read read;
+        MakeCoarser makeCoarser; ///< null: there are no coarser levels
     };
 
     struct Counts
@@ -51,7 +59,7 @@ public:
         uint64_t reads = 0;    ///< frames that were read again
         uint64_t late = 0;     ///< calls of find() for a frame that was not there
         uint64_t failures = 0; ///< frames that could not be read again; they are not tried again
-        uint64_t bytes = 0;    ///< [byte] of the frames that are held or being read
+        uint64_t bytes = 0;    ///< [byte] of the frames and levels that are held or being made
         uint64_t peakBytes = 0;
     };
 
@@ -75,7 +83,15 @@ public:
     Volume find(uint32_t frame);
     /// Starts to read `frame` and those that follow it, as many as the memory holds; after the last one
     /// follows the first one. Frames that were not asked for for the longest time make room.
-    void prefetch(uint32_t frame);
+    /// @param withCoarser whether their coarser levels are needed too
+    void prefetch(uint32_t frame, bool withCoarser = false);
+    /// The coarser levels of a frame, or null if they are not there. Never waits, unless waits() is true:
+    /// then they are made by the thread of the sequence meanwhile, and null means that the frame cannot be
+    /// read or that there are no coarser levels.
+    CoarserLevels coarser(uint32_t frame);
+    /// For pictures that must not depend on time. @param waits see coarser(); the default is false
+    void setWaits(bool waits);
+    bool waits() const; ///< false if there are no coarser levels
     /// The voxels of a frame, which are read on this thread if they are not there. @return errors of Read
     Result<Volume> wait(uint32_t frame);
     Counts counts() const;
@@ -89,11 +105,22 @@ private:
         Volume volume;
         uint64_t lastUse = 0;
         bool isReading = false, isQueued = false, hasFailed = false;
+        CoarserLevels coarser;
+        uint64_t coarserBytes = 0; ///< [byte] that are counted for `coarser`
+        bool wantsCoarser = false, isMakingCoarser = false;
+
+        /// Whether there is work for the thread.
+        bool isIncomplete() const
+        {
+            return volume ? wantsCoarser && !coarser && !isMakingCoarser : !isReading && !hasFailed;
+        }
     };
 
+    void startReader();
     void runReader();
+    void makeCoarser(uint32_t frame, std::unique_lock<std::mutex>& lock);
     Result<Volume> readInto(uint32_t frame, std::unique_lock<std::mutex>& lock);
-    void makeRoom(uint64_t bytes);
+    void makeRoom(uint64_t bytes, bool keepsShown);
 
     Def def_;                  ///< constant after construction
     mutable std::mutex mutex_; ///< guards everything below
@@ -102,7 +129,8 @@ private:
     std::deque<uint32_t> queue_; ///< to be read
     Counts counts_;
     uint64_t uses_ = 0;
-    bool isEnding_ = false;
+    uint32_t shown_ = 0; ///< frame of the last prefetch()
+    bool isEnding_ = false, waits_ = false;
     std::thread reader_;
 };
 

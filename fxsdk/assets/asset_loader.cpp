@@ -4,6 +4,7 @@
 #include "fxsdk/assets/obj_reader.h"
 #include "fxsdk/assets/png_reader.h"
 #include "fxsdk/assets/volume_file.h"
+#include "rendering/volumes/volume_levels.h"
 
 #include <glm/geometric.hpp>
 
@@ -134,9 +135,10 @@ base::Result<base::AssetId> AssetLoader::volume(std::string_view name)
     base::Result<base::VoxelVolume> volume = parseVolume(*bytes);
     if (!volume)
         return inAsset(name, volume.status());
+    base::CoarserLevels coarser = render::coarserLevels(*volume);
     base::Result<base::AssetId> id =
         table_.addVolume(std::make_shared<const base::VoxelVolume>(std::move(*volume)),
-                         base::hashBytes(2, bytes->data(), bytes->size()));
+                         base::hashBytes(2, bytes->data(), bytes->size()), std::move(coarser));
     if (id)
         volumes_.emplace(name, *id);
     return id;

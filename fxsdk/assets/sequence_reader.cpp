@@ -3,6 +3,7 @@
 #include "foundation/math/hash.h"
 #include "fxsdk/assets/frame_name.h"
 #include "fxsdk/assets/volume_file.h"
+#include "rendering/volumes/volume_levels.h"
 
 #include <glm/common.hpp>
 
@@ -114,6 +115,7 @@ public:
             glm::vec3(lattice_.origin - lattice_.side * double(base::kVolumeBrickSide) * glm::dvec3(shift));
         def.hasVelocities = hasVelocities_;
         def.memory = files_.memory;
+        def.makeCoarser = render::coarserLevels;
         uint64_t all = 0;
         for (uint32_t i = 0; i < files_.count; ++i) {
             base::VolumeSequence::Frame& frame = frames_[i];
@@ -183,7 +185,7 @@ private:
 
     void take(uint32_t i, base::VoxelVolume& volume)
     {
-        frames_.push_back({base::volumeCells(volume), volume.bytes()});
+        frames_.push_back({base::volumeCells(volume), volume.bytes(), render::mostCoarserBytes(volume)});
         heldBytes_ += frames_.back().bytes;
         if (held_.size() == i && heldBytes_ <= files_.memory)
             held_.push_back(std::move(volume));

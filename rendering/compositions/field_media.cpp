@@ -63,8 +63,22 @@ void FieldMedia::build(const GatherInputs& in, const GatheredFrame& from)
     const bool isFilledEarly = isShown && (!details_.empty() || !groupVolumes_.empty());
     blobs_ = isFilledEarly ? from.blobs : std::span<const BlobInstance>();
     networkCells_ = networkCellsOf(*in.settings);
-    plan_.build({from.blobs, effects_, in.camera, targets.width, targets.height, in.settings->voxels, 0,
-                 in.settings->slices.multiple, networkCells_, in.settings->slices.automatic, fieldVolumes_});
+    const FieldPlanInputs inputs{from.blobs,
+                                 effects_,
+                                 in.camera,
+                                 targets.width,
+                                 targets.height,
+                                 in.settings->voxels,
+                                 0,
+                                 in.settings->slices.multiple,
+                                 networkCells_,
+                                 in.settings->slices.automatic,
+                                 fieldVolumes_};
+    if (!plan_.build(inputs)) {
+        leaveFineVolumes();
+        plan_.build(inputs);
+    }
+    wantLevels(in.assets);
     networkCells_ = plan_.hasNetworks() ? networkCells_ : 0;
     texelList_.build(plan_, details_, {from.blobs, materials_});
 }
@@ -88,8 +102,29 @@ void FieldMedia::gatherVolumes(const GatherInputs& in, const GatheredFrame& from
             continue;
         groupVolumes_.push_back(volume);
         shownVoxels_.push_back(*shown);
-        fieldVolumes_.push_back(
-            {volume.origin(), volume.side, volume.isAligned, float(double(shown->largest) * volume.density)});
+        fieldVolumes_.push_back({volume.origin(), volume.side, volume.isAligned,
+                                 float(double(shown->largest) * volume.density), shown->isFine});
+    }
+}
+
+/// Their finest voxels are too many, and there are no others yet: they are drawn as their balls.
+void FieldMedia::leaveFineVolumes()
+{
+    for (BlobEffect& effect : effects_)
+        if (effect.volume >= 0 && fieldVolumes_[size_t(effect.volume)].isFine)
+            effect.volume = -1;
+}
+
+/// So that the levels are there when the next frames need them.
+void FieldMedia::wantLevels(const base::AssetTable* assets)
+{
+    for (size_t i = 0; assets && i < shownVoxels_.size(); ++i) {
+        const auto placed = std::ranges::find(plan_.volumes(), uint32_t(i), &PlacedVolume::volume);
+        const bool isPlaced = placed != plan_.volumes().end();
+        const bool isLeft = // by leaveFineVolumes()
+            std::ranges::none_of(effects_, [&](const auto& effect) { return effect.volume == int(i); });
+        if (isLeft || (isPlaced && (placed->level > 0 || placed->wantsCoarser)))
+            voxels_.wantCoarser(*assets, shownVoxels_[i]);
     }
 }
 

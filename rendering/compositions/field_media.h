@@ -98,6 +98,8 @@ public:
 
 private:
     void gatherVolumes(const GatherInputs& in, const GatheredFrame& from);
+    void leaveFineVolumes();
+    void wantLevels(const base::AssetTable* assets);
     void fillVolumes(FrameGraph& graph, ResourceId blobs);
     std::array<std::span<const std::byte>, Lists> contents() const;
     bool isUsed(size_t texture) const;

@@ -2,6 +2,7 @@
 
 #include "foundation/assets/asset_table.h"
 #include "foundation/assets/volume_sequence.h"
+#include "rendering/volumes/volume_levels.h"
 
 #include <algorithm>
 #include <span>
@@ -41,19 +42,22 @@ VolumeVoxels::Volume* VolumeVoxels::known(VoxelsName name)
     return found == volumes_.end() ? nullptr : &*found;
 }
 
-const MediumVolume* VolumeVoxels::find(VoxelsName name, const base::AssetTable& assets)
+VolumeVoxels::Volume* VolumeVoxels::find(VoxelsName name, const base::AssetTable& assets)
 {
     if (Volume* const volume = known(name)) {
         volume->unused = 0;
-        return volume->levels.front().medium.get();
+        return volume;
     }
-    const auto sequence = assets.sequence(name.asset);
-    const auto voxels = sequence ? sequence->find(name.frame) : assets.volume(name.asset);
+    auto sequence = assets.sequence(name.asset);
+    auto voxels = sequence ? sequence->find(name.frame) : assets.volume(name.asset);
     if (!voxels || voxelBytes(voxels->bricks.size(), !voxels->velocity.empty()) > mostBytes())
         return nullptr;
-    Volume made{.name = name, .isFrame = sequence != nullptr};
-    made.levels.emplace_back().medium = std::make_unique<MediumVolume>(*voxels);
-    return volumes_.emplace_back(std::move(made)).levels.front().medium.get();
+    Volume made{.name = name, .sequence = std::move(sequence), .source = std::move(voxels)};
+    for (const float extinction : made.source->extinction)
+        made.largest = std::max(made.largest, extinction);
+    if (!made.sequence)
+        made.coarser = assets.coarserLevels(name.asset);
+    return &volumes_.emplace_back(std::move(made));
 }
 
 std::optional<ShownVoxels> VolumeVoxels::find(const base::AssetTable* assets, const GroupVolume& volume)
@@ -67,15 +71,34 @@ std::optional<ShownVoxels> VolumeVoxels::find(const base::AssetTable* assets, co
         shown.first.frame = pair.first;
         shown.second.frame = pair.second;
         shown.moment = {pair.part, sequence->hasVelocities() ? volume.frameSeconds : 0.0};
-        sequence->prefetch(pair.first);
+        sequence->prefetch(pair.first, std::ranges::count(small_, volume.asset, &SmallSequence::asset) > 0);
     }
     for (const VoxelsName name : {shown.first, shown.second}) {
-        const MediumVolume* const medium = find(name, *assets);
-        if (!medium)
+        Volume* const found = find(name, *assets);
+        if (!found)
             return std::nullopt;
-        shown.largest = std::max(shown.largest, medium->largest());
+        shown.largest = std::max(shown.largest, found->largest);
+        const bool waits = found->sequence && found->sequence->waits();
+        if (!found->coarser && found->sequence && !waits)
+            found->coarser = found->sequence->coarser(name.frame);
+        shown.isFine = shown.isFine || (!found->coarser && !waits);
     }
     return shown;
+}
+
+void VolumeVoxels::wantCoarser(const base::AssetTable& assets, const ShownVoxels& voxels)
+{
+    const uint32_t asset = voxels.first.asset;
+    const auto sequence = assets.sequence(asset);
+    if (!sequence)
+        return;
+    const auto known = std::ranges::find(small_, asset, &SmallSequence::asset);
+    if (known != small_.end()) {
+        known->unused = 0;
+        return;
+    }
+    small_.push_back({asset, 0});
+    sequence->prefetch(voxels.first.frame, true);
 }
 
 void VolumeVoxels::beginFrame()
@@ -83,8 +106,11 @@ void VolumeVoxels::beginFrame()
     for (Volume& volume : volumes_)
         ++volume.unused;
     std::erase_if(volumes_, [](const Volume& volume) {
-        return volume.unused > (volume.isFrame ? kUnusedFramesOfSequences : kUnusedFrames);
+        return volume.unused > (volume.sequence ? kUnusedFramesOfSequences : kUnusedFrames);
     });
+    for (SmallSequence& sequence : small_)
+        ++sequence.unused;
+    std::erase_if(small_, [](const SmallSequence& sequence) { return sequence.unused > kUnusedFrames; });
 }
 
 /// As many as the driver can read from one buffer.
@@ -103,22 +129,33 @@ base::Status VolumeVoxels::makeRoom(const ShownVoxels& voxels, int level)
 
 base::Status VolumeVoxels::makeRoom(VoxelsName name, int level)
 {
-    std::vector<Level>& levels = known(name)->levels;
-    while (levels.size() <= size_t(level)) {
-        auto half = std::make_unique<MediumVolume>(levels.back().medium->halved());
-        if (voxelBytes(half->bricks(), half->hasVelocities()) > mostBytes())
-            return {base::Code::TooLarge, "a volume is so scattered that its coarser voxels need more "
-                                          "memory than the driver reads from one buffer"};
-        levels.emplace_back().medium = std::move(half);
-    }
-    Level& wanted = levels[size_t(level)];
+    Volume& volume = *known(name);
+    if (volume.levels.size() <= size_t(level))
+        volume.levels.resize(size_t(level) + 1);
+    Level& wanted = volume.levels[size_t(level)];
     if (wanted.voxels.name() != 0)
         return {};
-    if (base::Status status =
-            fillBuffer(device_, wanted.medium->index().table(), "volume index", wanted.index);
-        !status)
+    if (level == 0)
+        return upload(packedLevel(MediumVolume(*volume.source)), wanted);
+    if (!volume.coarser && volume.sequence)
+        volume.coarser = volume.sequence->coarser(name.frame); // in a picture that waits
+    if (!volume.coarser)
+        return {base::Code::NotFound, "the coarser voxels of a volume could not be made"};
+    return upload(volume.coarser->coarser[size_t(level) - 1], wanted);
+}
+
+base::Status VolumeVoxels::upload(const base::VolumeLevel& level, Level& out)
+{
+    if (level.voxels.size() * sizeof(base::VolumeLevel::Packed) > mostBytes())
+        return {base::Code::TooLarge, "a volume is so scattered that its coarser voxels need more "
+                                      "memory than the driver reads from one buffer"};
+    out.low = level.index.low();
+    out.size = level.index.size();
+    out.bricks = level.bricks;
+    out.brightest = level.brightest;
+    if (base::Status status = fillBuffer(device_, level.index.table(), "volume index", out.index); !status)
         return status;
-    return fillBuffer(device_, wanted.medium->packedWithVelocities(), "volume voxels", wanted.voxels);
+    return fillBuffer(device_, level.voxels, "volume voxels", out.voxels);
 }
 
 const VolumeVoxels::Level& VolumeVoxels::levelOf(VoxelsName name, int level) const
@@ -134,11 +171,10 @@ void VolumeVoxels::import(FrameGraph& graph, const ShownVoxels& voxels, int leve
         const Level& held = levelOf(k == 0 ? voxels.first : voxels.second, level);
         io.index[k] = graph.importBuffer({"volume index", held.index.bytes()}, held.index.name());
         io.voxels[k] = graph.importBuffer({"volume voxels", held.voxels.bytes()}, held.voxels.name());
-        const base::BrickIndex& index = held.medium->index();
         FieldVolumeBlock::Frame& block = io.block.frames[k];
-        block.low = glm::ivec4(index.low(), int(held.medium->bricks()));
-        block.size = glm::ivec4(index.size(), 0);
-        block.light = glm::vec4(held.medium->brightest(), 0.0f, 0.0f, 0.0f);
+        block.low = glm::ivec4(held.low, int(held.bricks));
+        block.size = glm::ivec4(held.size, 0);
+        block.light = glm::vec4(held.brightest, 0.0f, 0.0f, 0.0f);
     }
     const double seconds = voxels.moment.seconds;
     io.block.moment = glm::vec4(float(voxels.moment.part), float(voxels.moment.part * seconds),
@@ -148,6 +184,7 @@ void VolumeVoxels::import(FrameGraph& graph, const ShownVoxels& voxels, int leve
 void VolumeVoxels::release()
 {
     volumes_.clear();
+    small_.clear();
 }
 
 uint64_t VolumeVoxels::bytes() const

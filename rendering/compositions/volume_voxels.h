@@ -16,7 +16,8 @@
 
 namespace fx::base {
 class AssetTable;
-}
+class VolumeSequence;
+} // namespace fx::base
 
 namespace fx::render {
 
@@ -35,16 +36,18 @@ struct ShownVoxels
     VoxelsName first, second;    ///< equal unless the moment is between two frames
     MediumVolume::Moment moment; ///< between both
     float largest = 0.0f;        ///< [1/m] upper bound of the extinction
+    bool isFine = false;         ///< true: there are no coarser levels yet
 };
 
-/// Keeps the volumes that frames show, and their coarser levels, each made when a frame first needs it.
-/// Frames of sequences are forgotten soon after they were shown.
+/// Keeps the volumes that frames show on the GPU, each level from when a frame first needs it. Coarser levels
+/// are made by the threads that read volumes, never here. Frames of sequences are forgotten soon after they
+/// were shown.
 /// Threads: [GL thread].
 class VolumeVoxels
 {
 public:
     explicit VolumeVoxels(GlDevice& device, std::pmr::memory_resource* memory)
-        : device_(device), volumes_(memory)
+        : device_(device), volumes_(memory), small_(memory)
     {}
 
     /// Forgets volumes that no frame has asked for since 300 frames. Called once per frame, before
@@ -54,6 +57,8 @@ public:
     /// its id, if a frame of the sequence has not been read yet, or if the driver cannot read the voxels from
     /// one buffer. Frames that will be shown next are read in advance.
     std::optional<ShownVoxels> find(const base::AssetTable* assets, const GroupVolume& volume);
+    /// Has the coarser levels made of a sequence that find() has returned, also of the frames that follow.
+    void wantCoarser(const base::AssetTable& assets, const ShownVoxels& voxels);
     /// Uploads a level of voxels that find() has returned. @return OutOfMemory, TooLarge
     base::Status makeRoom(const ShownVoxels& voxels, int level);
     /// Sets index, voxels and their numbers of a level for which makeRoom() has been called.
@@ -65,24 +70,37 @@ public:
 private:
     struct Level
     {
-        std::unique_ptr<MediumVolume> medium;
+        glm::ivec3 low{0}, size{0}; ///< [brick] of the index
+        uint32_t bricks = 0;
+        float brightest = 1.0f; ///< [cd/m3]
         GlBuffer index, voxels;
     };
     struct Volume
     {
         VoxelsName name;
-        bool isFrame = false;
-        uint32_t unused = 0; ///< number of frames since the last find()
+        std::shared_ptr<base::VolumeSequence> sequence; ///< null: it is a single volume
+        std::shared_ptr<const base::VoxelVolume> source;
+        base::CoarserLevels coarser = nullptr; ///< null: not known
+        float largest = 0.0f;                  ///< [1/m]
+        uint32_t unused = 0;                   ///< number of frames since the last find()
         std::vector<Level> levels = {};
     };
-    const MediumVolume* find(VoxelsName name, const base::AssetTable& assets);
+    /// A sequence whose coarser levels are wanted.
+    struct SmallSequence
+    {
+        uint32_t asset;
+        uint32_t unused; ///< number of frames since the last wantCoarser()
+    };
+    Volume* find(VoxelsName name, const base::AssetTable& assets);
     Volume* known(VoxelsName name);
     base::Status makeRoom(VoxelsName name, int level);
+    base::Status upload(const base::VolumeLevel& level, Level& out);
     const Level& levelOf(VoxelsName name, int level) const;
     size_t mostBytes() const;
 
     GlDevice& device_;
     std::pmr::vector<Volume> volumes_;
+    std::pmr::vector<SmallSequence> small_;
 };
 
 } // namespace fx::render

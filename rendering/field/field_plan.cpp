@@ -1,8 +1,8 @@
 #include "rendering/field/field_plan.h"
 
-#include "foundation/snapshot/volume_kind.h"
-
+#include "foundation/assets/volume_levels.h"
 #include "foundation/memory/amortized_vector.h"
+#include "foundation/snapshot/volume_kind.h"
 #include "rendering/frame/ball_window.h"
 #include "rendering/frame/view_volume.h"
 #include "shaders/formulas/formula.h"
@@ -115,14 +115,15 @@ void FieldPlan::clear()
     glow_.clear();
     near_.clear();
     hasNetworks_ = false;
+    lacksLevels_ = false;
 }
 
-void FieldPlan::build(const FieldPlanInputs& in)
+bool FieldPlan::build(const FieldPlanInputs& in)
 {
     clear();
     if (in.balls.empty()) {
         glow_.forget();
-        return;
+        return true;
     }
     chooseVoxels(in);
     const auto isDetailed = [](const BlobEffect& effect) { return effect.detail >= 0; };
@@ -130,6 +131,10 @@ void FieldPlan::build(const FieldPlanInputs& in)
         std::ranges::any_of(in.effects, isDetailed) && !std::ranges::all_of(in.effects, isDetailed);
     for (int i = 0; i < kMaxTries && !place(in); ++i)
         enlargeVoxels(in, isMixed && i < kSmoothFirst);
+    if (lacksLevels_) {
+        clear();
+        return false;
+    }
     listBricks();
     listVolumes(in);
     listBalls(in);
@@ -137,6 +142,7 @@ void FieldPlan::build(const FieldPlanInputs& in)
     listTiles(in);
     if (in.glows)
         buildGlow(in);
+    return true;
 }
 
 void FieldPlan::buildGlow(const FieldPlanInputs& in)
@@ -165,6 +171,7 @@ void FieldPlan::enlarge(Lattice& lattice, const BlobEffect& effect, const FieldP
         return;
     }
     lattice.wanted *= kStep;
+    lacksLevels_ = lacksLevels_ || in.volumes[size_t(effect.volume)].isFine;
     chooseLevel(lattice, in.volumes[size_t(effect.volume)]);
 }
 
@@ -172,7 +179,9 @@ void FieldPlan::enlarge(Lattice& lattice, const BlobEffect& effect, const FieldP
 void FieldPlan::chooseLevel(Lattice& lattice, const FieldVolume& volume)
 {
     const float side = float(volume.side);
-    lattice.level = std::max(int(std::floor(std::log2(lattice.wanted / side) + 0.5f)), 0);
+    const int level = int(std::floor(std::log2(lattice.wanted / side) + 0.5f));
+    lattice.wantsCoarser = volume.isFine && level > 0;
+    lattice.level = volume.isFine ? 0 : std::clamp(level, 0, base::kMostVolumeLevel);
     lattice.voxel = std::ldexp(side, lattice.level);
 }
 
@@ -283,7 +292,7 @@ bool FieldPlan::place(const FieldPlanInputs& in)
             bound(lattice, in, in.effects[i]);
         }
     }
-    return countBalls(in);
+    return lacksLevels_ || countBalls(in);
 }
 
 /// Counts the balls of each brick in the table, and leaves out bricks that are not in the view.
@@ -350,8 +359,8 @@ void FieldPlan::listVolumes(const FieldPlanInputs& in)
 {
     for (size_t e = 0; e < in.effects.size(); ++e)
         if (in.effects[e].volume >= 0 && lattices_[e].hasBalls())
-            volumes_.push_back(
-                {lattices_[e].field, uint32_t(in.effects[e].volume), lattices_[e].level, 0, 0});
+            volumes_.push_back({lattices_[e].field, uint32_t(in.effects[e].volume), lattices_[e].level, 0, 0,
+                                lattices_[e].wantsCoarser});
     std::ranges::sort(volumes_, {}, &PlacedVolume::field);
     for (PlacedVolume& placed : volumes_) {
         const auto first = std::ranges::lower_bound(bricks_, placed.field, {}, &FieldBrickBlock::field);

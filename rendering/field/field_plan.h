@@ -32,6 +32,7 @@ struct FieldVolume
     double side = 1.0;      ///< [m] side of a voxel
     bool isAligned = true;  ///< true: the axes of voxels are those of the world
     float largest = 0.0f;   ///< [1/m] largest extinction
+    bool isFine = false;    ///< true: there are no coarser voxels yet
 };
 
 constexpr uint32_t kVolumeBudget = 8; ///< see FieldPlanInputs::mostBricks
@@ -44,6 +45,7 @@ struct PlacedVolume
     int level;           ///< voxels of the field have 2^level times the side of those of the volume
     uint32_t firstBrick; ///< range of the field's bricks
     uint32_t brickCount;
+    bool wantsCoarser; ///< true: coarser voxels than those of `level` would be drawn if they were there
 };
 
 struct FieldPlanInputs
@@ -72,7 +74,8 @@ class FieldPlan
 public:
     explicit FieldPlan(std::pmr::memory_resource* memory);
 
-    void build(const FieldPlanInputs& in);
+    /// @return false: a volume without coarser voxels needs them; there are no fields
+    bool build(const FieldPlanInputs& in);
     void clear();
 
     std::span<const FieldBlock> fields() const { return fields_; }
@@ -104,12 +107,13 @@ public:
 private:
     struct Lattice
     {
-        float voxel = 0.0f;   ///< [m]
-        glm::vec3 low{0.0f};  ///< [m] lower corner of the visible balls, relative to the eye
-        glm::vec3 high{0.0f}; ///< [m] upper corner
-        uint32_t field = 0;   ///< index among the fields with balls
-        float wanted = 0.0f;  ///< [m] of a volume: side of a voxel before it is rounded to a level
-        int level = 0;        ///< of a volume
+        float voxel = 0.0f;        ///< [m]
+        glm::vec3 low{0.0f};       ///< [m] lower corner of the visible balls, relative to the eye
+        glm::vec3 high{0.0f};      ///< [m] upper corner
+        uint32_t field = 0;        ///< index among the fields with balls
+        float wanted = 0.0f;       ///< [m] of a volume: side of a voxel before it is rounded to a level
+        int level = 0;             ///< of a volume
+        bool wantsCoarser = false; ///< see PlacedVolume
 
         bool hasBalls() const { return low.x <= high.x; }
     };
@@ -120,7 +124,7 @@ private:
     void enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly);
     bool place(const FieldPlanInputs& in); ///< returns false if there are too many bricks
     bool placeField(Lattice& lattice, const BlobEffect& effect, const FieldPlanInputs& in);
-    static void enlarge(Lattice& lattice, const BlobEffect& effect, const FieldPlanInputs& in);
+    void enlarge(Lattice& lattice, const BlobEffect& effect, const FieldPlanInputs& in);
     static void chooseLevel(Lattice& lattice, const FieldVolume& volume);
     static float reachOf(const BlobInstance& ball, const BlobEffect& effect, const Lattice& lattice,
                          const FieldPlanInputs& in);
@@ -144,6 +148,7 @@ private:
     std::pmr::vector<uint32_t> loose_;
     std::pmr::vector<PlacedVolume> volumes_;
     bool isOverBalls_ = false, isOverVolumes_ = false; ///< whether a budget of bricks is exceeded
+    bool lacksLevels_ = false;                         ///< see build()
     std::pmr::vector<float> peaks_;   ///< [1/m] for each brick: sum of the central extinctions of its balls
     std::pmr::vector<float> emitted_; ///< [exposed m2] for each field: emitted light
     /// for each field; empty unless networks are chosen by medium

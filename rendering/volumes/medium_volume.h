@@ -5,6 +5,7 @@
 /// centers of voxels. Places are given in voxels: the center of voxel (i, j, k) is at (i, j, k).
 #pragma once
 
+#include "foundation/assets/volume_levels.h"
 #include "foundation/assets/voxel_volume.h"
 
 #include <glm/vec3.hpp>
@@ -49,7 +50,7 @@ public:
 
     /// A voxel in the layout of shaders/field/field_volume.comp.glsl: bits of the extinction [1/m]; emitted
     /// light over brightest() as half floats, red and green, then blue; albedo with 10 bits a component.
-    using Packed = std::array<uint32_t, 4>;
+    using Packed = base::VolumeLevel::Packed;
     /// The voxels of all bricks in the order of the bricks, x fastest.
     std::vector<Packed> packed() const;
     /// As packed(), with the velocities of all voxels behind it, two voxels an element: half floats of x and

@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <mutex>
+#include <set>
 #include <thread>
 
 using namespace fx;
@@ -20,6 +22,16 @@ VolumeSequence::Volume volumeOf(uint32_t frame)
     volume.bricks = {{1, 1, 1}};
     volume.extinction.assign(base::kVolumeBrickVoxels, float(frame + 1));
     return std::make_shared<const base::VoxelVolume>(std::move(volume));
+}
+
+constexpr uint64_t kSlack = 64; ///< [byte] of upper bounds of levels
+
+/// Stands for the coarser levels of a volume: one level, which has the extinction as its light.
+base::CoarserLevels levelsOf(const base::VoxelVolume& volume)
+{
+    base::VolumeLevels levels{{{base::BrickIndex({}), 1, volume.extinction[0], {}}}};
+    levels.coarser[0].voxels.resize(volume.extinction.size() / 8);
+    return std::make_shared<const base::VolumeLevels>(std::move(levels));
 }
 
 /// A disk whose reading can be stopped, and which can lose a file.
@@ -46,6 +58,19 @@ struct Disk
         };
         return def;
     }
+
+    /// @param made is called where levels are made
+    VolumeSequence::Def withLevels(uint32_t memoryFrames, std::function<void()> made)
+    {
+        VolumeSequence::Def own = def(memoryFrames, 0);
+        for (VolumeSequence::Frame& frame : own.frames)
+            frame.coarserBytes = levelsOf(*volumeOf(0))->bytes() + kSlack / 2;
+        own.makeCoarser = [=](const base::VoxelVolume& volume) {
+            made();
+            return levelsOf(volume);
+        };
+        return own;
+    }
 };
 
 /// Whether a frame comes by itself.
@@ -54,6 +79,16 @@ bool comes(VolumeSequence& sequence, uint32_t frame)
     for (int i = 0; i < 2000; ++i) {
         if (const auto found = sequence.find(frame))
             return found->extinction[0] == float(frame + 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+bool levelsCome(VolumeSequence& sequence, uint32_t frame)
+{
+    for (int i = 0; i < 2000; ++i) {
+        if (const base::CoarserLevels found = sequence.coarser(frame))
+            return found->coarser[0].brightest == float(frame + 1);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return false;
@@ -135,12 +170,73 @@ TEST(VolumeSequence, aLostFrameIsAnErrorOnceAndOthersArePlayed)
     EXPECT_EQ(sequence.counts().failures, 1u);
 }
 
+TEST(VolumeSequence, itsThreadMakesCoarserLevelsWithinTheMemory)
+{
+    Disk disk;
+    std::mutex mutex;
+    std::set<std::thread::id> makers;
+    VolumeSequence sequence(disk.withLevels(8, [&] {
+        const std::scoped_lock lock(mutex);
+        makers.insert(std::this_thread::get_id());
+    }));
+    sequence.prefetch(0);
+    ASSERT_TRUE(comes(sequence, 1));
+    EXPECT_FALSE(sequence.coarser(0)) << "nobody has asked for them";
+    for (uint32_t i = 0; i < kFrames; ++i) {
+        sequence.prefetch(i, true);
+        ASSERT_TRUE(comes(sequence, i)) << i;
+        ASSERT_TRUE(levelsCome(sequence, i)) << i;
+        ASSERT_TRUE(levelsCome(sequence, (i + 1) % kFrames)) << i;
+    }
+    const std::scoped_lock lock(mutex);
+    EXPECT_EQ(makers.size(), 1u);
+    EXPECT_FALSE(makers.contains(std::this_thread::get_id()));
+    EXPECT_LE(sequence.counts().peakBytes, 8 * volumeOf(0)->bytes());
+    const uint64_t ofOne = volumeOf(0)->bytes() + levelsOf(*volumeOf(0))->bytes();
+    EXPECT_GE(sequence.counts().bytes, 2 * ofOne) << "levels count";
+}
+
+TEST(VolumeSequence, coarserLevelsOfTheFramesShownAreHeldWhateverTheMemory)
+{
+    Disk disk;
+    VolumeSequence sequence(disk.withLevels(3, [] {}));
+    for (uint32_t i = 0; i < kFrames; ++i)
+        for (int again = 0; again < 2; ++again) { // also when the frames after them are read
+            sequence.prefetch(i, true);
+            ASSERT_TRUE(levelsCome(sequence, i)) << i;
+            ASSERT_TRUE(levelsCome(sequence, (i + 1) % kFrames)) << i;
+            ASSERT_TRUE(sequence.coarser(i)) << i;
+        }
+    EXPECT_LE(sequence.counts().peakBytes,
+              3 * volumeOf(0)->bytes() + 2 * levelsOf(*volumeOf(0))->bytes() + kSlack);
+}
+
+TEST(VolumeSequence, aPictureThatWaitsHasItsCoarserLevelsAtOnce)
+{
+    Disk disk;
+    std::atomic<int> made{0};
+    VolumeSequence sequence(disk.withLevels(8, [&] { ++made; }));
+    sequence.setWaits(true);
+    for (const uint32_t frame : {9u, 2u, 9u, 3u}) {
+        const base::CoarserLevels levels = sequence.coarser(frame);
+        ASSERT_TRUE(levels);
+        EXPECT_EQ(levels->coarser[0].brightest, float(frame + 1));
+    }
+    EXPECT_EQ(made, 3) << "those of frame 9 are still there";
+    disk.lost = 5;
+    EXPECT_FALSE(sequence.coarser(5)) << "and no wait without end";
+}
+
 TEST(VolumeSequence, endsWhileItReads)
 {
     Disk disk;
     for (int i = 0; i < 50; ++i) {
         VolumeSequence sequence(disk.def(5, 0));
         sequence.prefetch(uint32_t(i) % kFrames);
+    }
+    for (int i = 0; i < 50; ++i) {
+        VolumeSequence sequence(disk.withLevels(8, [] {}));
+        sequence.prefetch(uint32_t(i) % kFrames, true);
     }
 }
 

@@ -288,6 +288,7 @@ base::Status EffectScene::waitForFrames()
         for (const uint32_t frame : {pair.first, pair.second})
             if (const auto read = sequence->wait(frame); !read)
                 return read.status();
+        sequence->setWaits(true); // for coarser levels, which only the view knows to be needed
     }
     return {};
 }

@@ -4,7 +4,7 @@
 #include "foundation/assets/asset_table.h"
 #include "foundation/snapshot/volume_kind.h"
 #include "rendering/frame/exposure.h"
-#include "rendering/volumes/medium_volume.h"
+#include "rendering/volumes/volume_levels.h"
 #include "simulation/volume/sequence_solver.h"
 #include "simulation/volume/volume_solver.h"
 
@@ -27,6 +27,7 @@ namespace {
 constexpr int kSize = 48;
 constexpr float kFieldOfView = 0.5f;
 constexpr double kFrameSeconds = 0.05;
+constexpr double kFar = 40.0;     ///< [m] where a pixel is four voxels wide
 constexpr float kExposure = 8.0f; ///< [EV100]: voxels hold half floats of exposed light
 
 class VolumeVoxelsTest : public ViewTest
@@ -79,7 +80,7 @@ protected:
     {
         def_.voxels = std::make_shared<const base::VoxelVolume>(voxels);
         def_.cells = base::volumeCells(voxels);
-        def_.asset = *assets_.addVolume(def_.voxels, 5);
+        def_.asset = *assets_.addVolume(def_.voxels, 5, render::coarserLevels(voxels));
         def_.density = density;
         base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
         snapshot.begin(0, ++sequence_);
@@ -98,7 +99,7 @@ protected:
         def.origin = frames[0].origin;
         def.memory = memory * frames[0].bytes();
         for (const base::VoxelVolume& frame : frames) {
-            def.frames.push_back({base::volumeCells(frame), frame.bytes()});
+            def.frames.push_back({base::volumeCells(frame), frame.bytes(), render::mostCoarserBytes(frame)});
             if (def.held.size() < memory)
                 def.held.push_back(std::make_shared<const base::VoxelVolume>(frame));
             def.hasVelocities = def.hasVelocities && !frame.velocity.empty();
@@ -106,6 +107,11 @@ protected:
         def.read = [=, this](uint32_t frame) -> base::Result<base::VolumeSequence::Volume> {
             const std::scoped_lock lock(disk_);
             return std::make_shared<const base::VoxelVolume>(frames[frame]);
+        };
+        def.makeCoarser = [this](const base::VoxelVolume& voxels) {
+            const std::scoped_lock lock(disk_);
+            hasHalvedHere_ = hasHalvedHere_ || std::this_thread::get_id() == here_;
+            return render::coarserLevels(voxels);
         };
         played_.setSequence(std::make_shared<base::VolumeSequence>(std::move(def)));
         played_.asset = *assets_.addSequence(played_.sequence, 6 + frames.size());
@@ -119,10 +125,18 @@ protected:
     }
 
     /// Before a black background.
-    Picture renderAlone(const base::FrameSnapshot& snapshot)
+    Picture renderAlone(const base::FrameSnapshot& snapshot, double distance = 5.0)
     {
         setPicture(std::vector<float>(size_t(kSize) * kSize * 4, 0.0f));
-        return render(snapshot, camera(5.0));
+        return render(snapshot, camera(distance));
+    }
+
+    static double sumOf(const Picture& picture, size_t channel)
+    {
+        double sum = 0.0;
+        for (size_t i = channel; i < picture.texels.size(); i += 4)
+            sum += double(picture.texels[i]);
+        return sum;
     }
 
     render::CameraView camera(double distance) const
@@ -197,7 +211,9 @@ protected:
         return {first, second, first};
     }
 
-    std::mutex disk_; ///< held: nothing can be read
+    std::mutex disk_; ///< held: nothing can be read and no coarser voxels made
+    const std::thread::id here_ = std::this_thread::get_id(); ///< [GL thread]
+    bool hasHalvedHere_ = false;                              ///< guarded by disk_
     base::AssetTable assets_{std::pmr::get_default_resource()};
     sim::VolumeDef def_;
     sim::SequenceDef played_;
@@ -236,7 +252,6 @@ TEST_F(VolumeVoxelsTest, turnWithTheirInstance)
 TEST_F(VolumeVoxelsTest, farAwayHaveCoarserVoxelsOfTheSameMedium)
 {
     const glm::quat upright(1.0f, 0.0f, 0.0f, 0.0f);
-    constexpr double kFar = 40.0; // a pixel is four voxels wide
     constexpr float kThin = 0.005f;
     const Picture picture = render(publish(lumps(true), upright, kThin), camera(kFar));
     const double pixel = 2.0 * std::tan(0.5 * double(kFieldOfView)) * kFar / kSize; // [m]
@@ -256,6 +271,68 @@ TEST_F(VolumeVoxelsTest, farAwayHaveCoarserVoxelsOfTheSameMedium)
             seen += double(picture.texels[i]);
         EXPECT_NEAR(seen, wanted[channel], 0.03 * wanted[channel]) << "channel " << channel;
     }
+}
+
+TEST_F(VolumeVoxelsTest, aViewMakesNoCoarserVoxelsItself)
+{
+    const auto pictureOf = [&](const base::CoarserLevels& coarser, uint64_t hash) {
+        base::FrameSnapshot snapshot = publish(lumps(), {1, 0, 0, 0}, 0.005f);
+        // another asset of the same medium, with other coarser voxels
+        base::VoxelVolume own = lumps();
+        own.evenAlbedo = glm::vec3(0.01f * float(hash));
+        const auto id =
+            *assets_.addVolume(std::make_shared<const base::VoxelVolume>(std::move(own)), hash, coarser);
+        snapshot.editGroup(1).editConstants()[base::volume_constant::Asset] = float(id);
+        return renderAlone(snapshot, kFar);
+    };
+    base::VoxelVolume half = lumps();
+    for (float& extinction : half.extinction)
+        extinction *= 0.5f;
+    const Picture whole = pictureOf(render::coarserLevels(lumps()), 10);
+    const Picture thin = pictureOf(render::coarserLevels(half), 11);
+    const Picture fine = pictureOf(nullptr, 12);
+    ASSERT_GT(sumOf(whole, 3), 0.0);
+    EXPECT_NEAR(sumOf(thin, 3) / sumOf(whole, 3), 0.5, 0.01) << "the voxels that came with the volume";
+    EXPECT_NE(fine.texels, whole.texels);
+    EXPECT_NEAR(sumOf(fine, 3) / sumOf(whole, 3), 1.0, 0.3) << "its own, of which rays miss some";
+}
+
+TEST_F(VolumeVoxelsTest, ofASequenceAreFineUntilItsThreadHasMadeCoarserOnes)
+{
+    std::vector<base::VoxelVolume> frames = movingLumps();
+    for (base::VoxelVolume& frame : frames)
+        frame.velocity.clear();
+    const Picture wanted = renderAlone(publish(frames[1], {1, 0, 0, 0}, 1.0f), kFar);
+    const base::Ticks tick = base::toTicks(kFrameSeconds);
+    Picture early;
+    {
+        const std::scoped_lock stopped(disk_);
+        early = renderAlone(publishBetween(frames, 3, tick), kFar);
+    }
+    EXPECT_NE(early.texels, wanted.texels);
+    EXPECT_NEAR(sumOf(early, 3) / sumOf(wanted, 3), 1.0, 0.4) << "rays miss some voxels";
+    for (int i = 0; i < 2000 && !played_.sequence->coarser(1); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(renderAlone(publishBetween(frames, 3, tick), kFar).texels, wanted.texels) << "bit for bit";
+    const std::scoped_lock lock(disk_);
+    EXPECT_FALSE(hasHalvedHere_);
+}
+
+TEST_F(VolumeVoxelsTest, ofAPictureThatWaitsAreCoarseAtOnce)
+{
+    std::vector<base::VoxelVolume> frames = movingLumps();
+    const base::Ticks tick = base::toTicks(0.5 * kFrameSeconds);
+    static_cast<void>(renderAlone(publishBetween(frames, 3, tick), kFar)); // has them made
+    for (const uint32_t frame : {0u, 1u})
+        for (int i = 0; i < 2000 && !played_.sequence->coarser(frame); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const Picture later = renderAlone(publishBetween(frames, 3, tick), kFar);
+    frames.push_back(frames.back()); // another sequence
+    const base::FrameSnapshot snapshot = publishBetween(frames, 4, tick);
+    played_.sequence->setWaits(true);
+    EXPECT_EQ(renderAlone(snapshot, kFar).texels, later.texels);
+    const std::scoped_lock lock(disk_);
+    EXPECT_FALSE(hasHalvedHere_);
 }
 
 TEST_F(VolumeVoxelsTest, betweenTwoFramesAreTheMomentOfTheReference)
