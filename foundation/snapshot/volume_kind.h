@@ -2,12 +2,13 @@
 /// The kind "volume": a medium on sparse voxels (foundation/assets/voxel_volume.h). Techniques that publish
 /// volumes and passes that draw them include this header; the snapshot container does not.
 ///
-/// A group of this kind has no elements. It follows a group of the kind "blob" of the same solver, which has
-/// one ball for each brick whose cells contain medium: up to eight for a stored brick, see VolumeCells. The
-/// ball has the cross section of the cells, is concentric with the brick, and contains the brick. Readers
-/// that know this kind replace the balls by the voxels. Other readers, and compositions without voxels, use
-/// the balls. The balls of a sequence are those of all frames that are shown between the previous snapshot
-/// and this one; their cross sections are interpolated between the frames, and may be as good as 0.
+/// A group of this kind has no elements. It follows a group of the kind "blob" of the same solver, and that
+/// of the kind "material" if the volume has detail. The group of blobs has one ball for each brick whose
+/// cells contain medium: up to eight for a stored brick, see VolumeCells. The ball has the cross section of
+/// the cells, is concentric with the brick, and contains the brick. Readers that know this kind replace the
+/// balls by the voxels. Other readers, and compositions without voxels, use the balls. The balls of a
+/// sequence are those of all frames that are shown between the previous snapshot and this one; their cross
+/// sections are interpolated between the frames, and may be as good as 0.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"

@@ -41,7 +41,9 @@ static_assert(sizeof(FieldVolumeBlock) == 224);
 ///         index[1], voxels[1]  those of the second frame; invalid unless the moment is between two frames
 /// writes  textures     of FieldFillPass, which must have run before: medium, scatter, shares, table, and
 ///                      change: the extinction less that of the balls that stand for the volume in light
-///                      slices. Formula for the balls: kernel-optical-depth (1).
+///                      slices. Formula for the balls: kernel-optical-depth (1). With detail also material:
+///                      no offsets, as coordinates are fixed in the volume, and the thinning of each voxel
+///                      by itself.
 class FieldVolumePass
 {
 public:
@@ -60,7 +62,8 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// Returns the variant of the program with or without layers, for one frame or for a moment between two.
-const ProgramDesc& fieldVolumeProgram(bool layers, bool between);
+/// Returns the variant of the program with or without layers, for one frame or for a moment between two, and
+/// with or without fields with detail.
+const ProgramDesc& fieldVolumeProgram(bool layers, bool between, bool detail);
 
 } // namespace fx::render

@@ -233,6 +233,17 @@ MediumVolume::Sample MediumVolume::at(const glm::dvec3& place) const
     return sample;
 }
 
+MediumVolume::Corners MediumVolume::cornersAt(const glm::dvec3& place) const
+{
+    Corners corners;
+    size_t count = 0;
+    addCorners(place, [&](size_t v, double weight) {
+        corners.weight[count] = weight;
+        corners.extinction[count++] = double(extinction_[v]);
+    });
+    return corners;
+}
+
 MediumVolume::Flow MediumVolume::flowAt(const glm::dvec3& place) const
 {
     Flow flow;

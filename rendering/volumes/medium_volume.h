@@ -41,6 +41,13 @@ public:
     MediumVolume halved() const;
 
     Sample at(const glm::dvec3& place) const;
+    /// The voxels around a place.
+    struct Corners
+    {
+        std::array<double, 8> weight{};     ///< [1] of the interpolation
+        std::array<double, 8> extinction{}; ///< [1/m]
+    };
+    Corners cornersAt(const glm::dvec3& place) const;
     /// [1/m] Largest extinction in the cells of a brick, see base::VolumeCells.
     float largestIn(const glm::ivec3& brick) const;
     float largest() const { return largest_; } ///< [1/m] largest extinction

@@ -1,6 +1,7 @@
 #include "rendering/volumes/volume_place.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/volume_kind.h"
 
 #include <glm/common.hpp>
@@ -25,13 +26,18 @@ glm::dvec3 GroupVolume::origin() const
 
 const base::SnapshotGroup* volumeGroup(const base::FrameSnapshot& snapshot, size_t group)
 {
-    if (group + 1 >= snapshot.groupCount())
-        return nullptr;
     const base::GroupName blobs = snapshot.name(group);
-    const base::GroupName next = snapshot.name(group + 1);
-    const bool isOwn = next.instance == blobs.instance && next.solver == blobs.solver &&
-                       snapshot.schema().kind(next.kind) == base::kVolumeKind;
-    return isOwn ? &snapshot.group(group + 1) : nullptr;
+    for (size_t g = group + 1; g < snapshot.groupCount(); ++g) {
+        const base::GroupName next = snapshot.name(g);
+        if (next.instance != blobs.instance || next.solver != blobs.solver)
+            return nullptr;
+        const base::KindDesc& kind = snapshot.schema().kind(next.kind);
+        if (kind == base::kVolumeKind)
+            return &snapshot.group(g);
+        if (!(kind == base::kMaterialKind))
+            return nullptr;
+    }
+    return nullptr;
 }
 
 GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGroup& volume,

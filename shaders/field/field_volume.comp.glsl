@@ -1,3 +1,6 @@
+#if FX_DETAIL
+#include "formulas/field_detail.fx.h"
+#endif
 #include "formulas/kernel_optical_depth.fx.h"
 #include "formulas/volume_advection.fx.h"
 #include "formulas/voxel_kernel.fx.h"
@@ -21,6 +24,12 @@ layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted l
 layout(rgba16f, binding = 1) uniform writeonly image3D scatter; // rgb mean albedo; a mean cosine of the phase function
 #if FX_LAYERS
 layout(rgba16f, binding = 2) uniform writeonly image3D shares; // see field_sample.glsl
+#endif
+#if FX_DETAIL
+// As in field_fill.comp.glsl. Coordinates are fixed in the volume: nothing is added to them.
+layout(rgba16f, binding = 3) uniform writeonly image3D material0;
+layout(rgba16f, binding = 4) uniform writeonly image3D material1; // a thinning times extinction over the field's largest
+const int kErosionTexel = 6; // as in field_detail.glsl
 #endif
 layout(r32f, binding = 6) uniform writeonly image3D change; // extinction less that of casters, over the field's largest
 struct VolumeFrame
@@ -199,6 +208,10 @@ void main()
     clearSeen();
     barrier();
     vec2 largest = vec2(0.0);
+#if FX_DETAIL
+    bool isDetailed = field.limits.z > 0.5;
+    vec4 erosion = isDetailed ? fieldTexel(int(field.limits.z) + kErosionTexel) : vec4(0.0);
+#endif
     for (int z = 0; z < kBrickSamples; ++z) {
         vec3 p = placeOfSample(field, brick, first + ivec3(0, 0, z));
         VolumeSample found = volumeAt(voxelAt(p));
@@ -209,6 +222,11 @@ void main()
         imageStore(scatter, texel + ivec3(0, 0, z), vec4(clamp(albedo, vec3(0.0), vec3(1.0)), factors.z));
 #if FX_LAYERS
         imageStore(shares, texel + ivec3(0, 0, z), share * (extinction / field.limits.y));
+#endif
+#if FX_DETAIL
+        float thinning = isDetailed && extinction > 0.0 ? fxDetailThinning(extinction * erosion.x, erosion.y, erosion.z) : 0.0;
+        imageStore(material0, texel + ivec3(0, 0, z), vec4(0.0));
+        imageStore(material1, texel + ivec3(0, 0, z), vec4(vec3(0.0), thinning * extinction / field.limits.y));
 #endif
         imageStore(change, texel + ivec3(0, 0, z), vec4((extinction - castersAt(field, brick, p)) / field.limits.y));
     }

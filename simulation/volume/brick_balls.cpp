@@ -1,5 +1,7 @@
 #include "simulation/volume/brick_balls.h"
 
+#include "foundation/snapshot/material_kind.h"
+
 #include <algorithm>
 
 namespace fx::sim {
@@ -17,11 +19,32 @@ uint64_t idOf(const glm::ivec3& brick)
 
 } // namespace
 
-void BrickBalls::publish(const base::GroupInfo& base, base::KindId blobs, base::KindId volumes,
+VolumeKinds::VolumeKinds(const base::SnapshotSchema& schema)
+    : blobs(schema.find(base::kBlobKind.name)), volumes(schema.find(base::kVolumeKind.name)),
+      materials(schema.find(base::kMaterialKind.name))
+{}
+
+/// One generation, which does not end: the coordinate of a ball is its place.
+void BrickBalls::addCoordinates(base::KindId kind, base::FrameSnapshot& snapshot) const
+{
+    DetailGenerations generations;
+    for (size_t g = 0; g < 2; ++g)
+        generations.radius[g] = generations.radiusNow[g] = base::kVolumeBallRadius * place.side;
+    base::SnapshotGroup& group = addMaterial(detail, generations, kind, capacity, snapshot);
+    group.editConstants()[base::material_constant::Lossy] = 1.0f; // balls are too coarse to find the factor
+    const base::SnapshotGroup& balls = snapshot.editGroup(snapshot.addedCount() - 2);
+    std::ranges::copy(balls.ids(), group.editIds().begin());
+    for (size_t g = 0; g < 2; ++g)
+        for (size_t k = 0; k < 3; ++k)
+            std::ranges::copy(balls.column(blob::PositionX + k),
+                              group.editColumn(base::material_column::Place0X + 3 * g + k).begin());
+}
+
+void BrickBalls::publish(const base::GroupInfo& base, const VolumeKinds& kinds,
                          base::FrameSnapshot& snapshot) const
 {
     const auto count = uint32_t(cells.size());
-    BlobWriter writer(snapshot, base, blobs, count, capacity);
+    BlobWriter writer(snapshot, base, kinds.blobs, count, capacity);
     StillMediumSolver::writeShared(def, writer);
     writer.fill(blob::Radius, base::kVolumeBallRadius * place.side);
     for (uint32_t i = 0; i < count; ++i) {
@@ -37,13 +60,15 @@ void BrickBalls::publish(const base::GroupInfo& base, base::KindId blobs, base::
         writer.ids()[i] = blobId(base.solver, idOf(own.brick));
     }
     writer.closeBounds();
-    if (volumes == base::kNoKind)
-        return;
     const base::Bounds bounds = writer.bounds();
-    base::SnapshotGroup& group = snapshot.addGroup(volumes, 0);
+    if (detail.given && kinds.materials != base::kNoKind)
+        addCoordinates(kinds.materials, snapshot);
+    if (kinds.volumes == base::kNoKind)
+        return;
+    base::SnapshotGroup& group = snapshot.addGroup(kinds.volumes, 0);
     base::GroupInfo& info = group.editInfo();
     info = base;
-    info.kind = volumes;
+    info.kind = kinds.volumes;
     info.bounds = bounds;
     namespace c = base::volume_constant;
     const std::span<float> constants = group.editConstants();

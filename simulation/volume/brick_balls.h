@@ -4,6 +4,7 @@
 
 #include "foundation/assets/voxel_volume.h"
 #include "foundation/snapshot/volume_kind.h"
+#include "simulation/detail/field_detail.h"
 #include "simulation/solver/still_medium.h"
 
 #include <glm/geometric.hpp>
@@ -34,6 +35,17 @@ struct BrickPlace
     }
 };
 
+/// The kinds of a volume; kNoKind if a snapshot does not have them.
+struct VolumeKinds
+{
+    base::KindId blobs, volumes, materials;
+
+    explicit VolumeKinds(const base::SnapshotSchema& schema);
+};
+
+/// [byte] In all snapshots of a scene, of each ball of a volume with detail.
+constexpr uint64_t kBrickMaterialBytes = 3 * 32;
+
 struct BrickBalls
 {
     const StillMediumDef& def;
@@ -41,13 +53,16 @@ struct BrickBalls
     std::span<const base::VolumeCells> cells; ///< may be empty
     uint32_t capacity;                        ///< most cells at any time
     uint32_t asset;                           ///< id in the asset table
+    const FieldDetail& detail;                ///< its coordinates are places in the volume
     float frame = 0.0f, frameBefore = 0.0f;   ///< see volume_constant
     float frameSeconds = 0.0f;                ///< [s]
 
-    /// Adds a group of balls and, if its kind is known, one of the volume. A ball has the same id wherever
-    /// its brick is.
-    void publish(const base::GroupInfo& base, base::KindId blobs, base::KindId volumes,
-                 base::FrameSnapshot& snapshot) const;
+    /// Adds a group of balls, their noise coordinates if there is detail, and one of the volume, each if its
+    /// kind is known. A ball has the same id wherever its brick is.
+    void publish(const base::GroupInfo& base, const VolumeKinds& kinds, base::FrameSnapshot& snapshot) const;
+
+private:
+    void addCoordinates(base::KindId kind, base::FrameSnapshot& snapshot) const;
 };
 
 } // namespace fx::sim

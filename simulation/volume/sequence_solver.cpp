@@ -1,5 +1,6 @@
 #include "simulation/volume/sequence_solver.h"
 
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/volume_kind.h"
 #include "simulation/solver/sequence_player.h"
 #include "simulation/volume/brick_balls.h"
@@ -85,23 +86,29 @@ std::vector<Part> partsOf(double before, double frame, uint32_t count)
 class SequenceSolver final : public SequencePlayer
 {
 public:
-    SequenceSolver(const SequenceDef& def, base::KindId blobs, base::KindId volumes)
-        : SequencePlayer(def.time()), def_(def), blobs_(blobs), volumes_(volumes)
+    SequenceSolver(const SequenceDef& def, const base::SnapshotSchema& schema)
+        : SequencePlayer(def.time()), def_(def), kinds_(schema)
     {}
 
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
-        if (blobs_ == base::kNoKind)
+        if (kinds_.blobs == base::kNoKind)
             return;
         const uint32_t count = def_.sequence->count();
         double before = def_.frameAt(now() - snapshot.step());
         if (before > frame())
             before -= double(count);
         const std::vector<base::VolumeCells> cells = blend(*def_.sequence, partsOf(before, frame(), count));
-        BrickBalls{
-            def_,       placeOf(def_),  cells,         std::max(def_.capacity(), uint32_t(cells.size())),
-            def_.asset, float(frame()), float(before), 1.0f / def_.framesPerSecond}
-            .publish(base, blobs_, volumes_, snapshot);
+        BrickBalls{def_,
+                   placeOf(def_),
+                   cells,
+                   std::max(def_.capacity(), uint32_t(cells.size())),
+                   def_.asset,
+                   def_.detail,
+                   float(frame()),
+                   float(before),
+                   1.0f / def_.framesPerSecond}
+            .publish(base, kinds_, snapshot);
     }
 
     uint32_t elementCount() const override
@@ -111,7 +118,7 @@ public:
 
 private:
     const SequenceDef& def_;
-    base::KindId blobs_, volumes_;
+    VolumeKinds kinds_;
 };
 
 } // namespace
@@ -128,13 +135,13 @@ void SequenceDef::setSequence(std::shared_ptr<base::VolumeSequence> frames)
 std::unique_ptr<Solver> SequenceDef::create(const base::SnapshotSchema& schema, const Quality&,
                                             std::pmr::memory_resource*) const
 {
-    return std::make_unique<SequenceSolver>(*this, schema.find(base::kBlobKind.name),
-                                            schema.find(base::kVolumeKind.name));
+    return std::make_unique<SequenceSolver>(*this, schema);
 }
 
 bool SequenceDef::publishes(const base::KindDesc& kind) const
 {
-    return kind == base::kBlobKind || kind == base::kVolumeKind;
+    return kind == base::kBlobKind || kind == base::kVolumeKind ||
+           (detail.given && kind == base::kMaterialKind);
 }
 
 uint64_t SequenceDef::bytes() const
@@ -146,7 +153,8 @@ uint64_t SequenceDef::bytes() const
         cells += sequence->cells(i).size() * sizeof(base::VolumeCells);
         voxels += sequence->bytes(i);
     }
-    return cells + std::min(voxels, sequence->memory());
+    return cells + std::min(voxels, sequence->memory()) +
+           (detail.given ? capacity() * kBrickMaterialBytes : 0);
 }
 
 float SequenceDef::reach(float, float, float) const

@@ -4,6 +4,7 @@
 
 #include "foundation/assets/asset_table.h"
 #include "foundation/assets/volume_sequence.h"
+#include "simulation/detail/field_detail.h"
 #include "simulation/solver/sequence_time.h"
 #include "simulation/solver/still_medium.h"
 
@@ -19,6 +20,7 @@ struct SequenceDef final : StillMediumDef
     float framesPerSecond = 24.0f;
     SequenceEnd end = SequenceEnd::Hold;
     uint32_t mostCells = 0; ///< of any two successive steps
+    FieldDetail detail;     ///< fixed in space, while the medium moves through it
 
     /// Sets `sequence` and `mostCells`.
     void setSequence(std::shared_ptr<base::VolumeSequence> frames);

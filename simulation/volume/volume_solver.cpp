@@ -1,5 +1,6 @@
 #include "simulation/volume/volume_solver.h"
 
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/volume_kind.h"
 #include "simulation/volume/brick_balls.h"
 
@@ -16,23 +17,21 @@ BrickPlace placeOf(const VolumeDef& def)
 class VolumeSolver final : public StillMediumSolver
 {
 public:
-    VolumeSolver(const VolumeDef& def, base::KindId blobs, base::KindId volumes)
-        : def_(def), blobs_(blobs), volumes_(volumes)
-    {}
+    VolumeSolver(const VolumeDef& def, const base::SnapshotSchema& schema) : def_(def), kinds_(schema) {}
 
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
     {
-        if (blobs_ == base::kNoKind || def_.cells.empty())
+        if (kinds_.blobs == base::kNoKind || def_.cells.empty())
             return;
-        BrickBalls{def_, placeOf(def_), def_.cells, def_.capacity(), def_.asset}.publish(base, blobs_,
-                                                                                         volumes_, snapshot);
+        BrickBalls{def_, placeOf(def_), def_.cells, def_.capacity(), def_.asset, def_.detail}.publish(
+            base, kinds_, snapshot);
     }
 
     uint32_t elementCount() const override { return def_.capacity(); }
 
 private:
     const VolumeDef& def_;
-    base::KindId blobs_, volumes_;
+    VolumeKinds kinds_;
 };
 
 } // namespace
@@ -40,13 +39,18 @@ private:
 std::unique_ptr<Solver> VolumeDef::create(const base::SnapshotSchema& schema, const Quality&,
                                           std::pmr::memory_resource*) const
 {
-    return std::make_unique<VolumeSolver>(*this, schema.find(base::kBlobKind.name),
-                                          schema.find(base::kVolumeKind.name));
+    return std::make_unique<VolumeSolver>(*this, schema);
 }
 
 bool VolumeDef::publishes(const base::KindDesc& kind) const
 {
-    return kind == base::kBlobKind || kind == base::kVolumeKind;
+    return kind == base::kBlobKind || kind == base::kVolumeKind ||
+           (detail.given && kind == base::kMaterialKind);
+}
+
+uint64_t VolumeDef::bytes() const
+{
+    return detail.given ? capacity() * kBrickMaterialBytes : 0;
 }
 
 float VolumeDef::reach(float, float, float) const

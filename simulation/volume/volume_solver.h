@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/assets/asset_table.h"
+#include "simulation/detail/field_detail.h"
 #include "simulation/solver/still_medium.h"
 
 #include <memory>
@@ -15,11 +16,13 @@ struct VolumeDef final : StillMediumDef
     std::shared_ptr<const base::VoxelVolume> voxels;
     base::AssetId asset = 0;              ///< id of `voxels` in the asset table
     std::vector<base::VolumeCells> cells; ///< volumeCells() of `voxels`
+    FieldDetail detail;                   ///< fixed in the volume
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return uint32_t(cells.size()); }
     bool publishes(const base::KindDesc& kind) const override;
+    uint64_t bytes() const override;
     float reach(float gravity, float wind, float seconds) const override;
 };
 

@@ -1,3 +1,4 @@
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/volume_kind.h"
 #include "fxsdk/assets/asset_loader.h"
 #include "fxsdk/assets/volume_file.h"
@@ -244,6 +245,64 @@ TEST(Volume, publishesABallAroundEachBrickAndThePlaceOfTheVoxels)
     EXPECT_EQ(constants[c::Side], 1.0f);
     EXPECT_EQ(constants[c::OriginY], 16.0f);
     EXPECT_EQ(constants[c::Density], 1.5f);
+}
+
+TEST(Volume, coordinatesOfItsDetailArePlacesInIt)
+{
+    base::SnapshotSchema schema;
+    for (const base::KindDesc* kind : {&base::kBlobKind, &base::kMaterialKind, &base::kVolumeKind})
+        schema.add(*kind);
+    sim::VolumeDef def;
+    def.voxels = std::make_shared<base::VoxelVolume>(twoBricks());
+    def.cells = base::volumeCells(*def.voxels);
+    def.scale = 2.0f;
+    def.detail = {.given = true, .billowSize = 3.0f};
+    const auto solver = def.create(schema, {}, std::pmr::get_default_resource());
+    base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+    solver->publish({}, snapshot);
+    ASSERT_EQ(snapshot.groupCount(), 3u);
+    const base::SnapshotGroup& blobs = snapshot.group(0);
+    const base::SnapshotGroup& material = snapshot.group(1);
+    ASSERT_EQ(material.count(), blobs.count());
+    namespace m = base::material_column;
+    for (size_t i = 0; i < blobs.count(); ++i) {
+        EXPECT_EQ(material.ids()[i], blobs.ids()[i]);
+        for (size_t k = 0; k < 3; ++k) {
+            const float place = blobs.column(base::blob_column::PositionX + k)[i];
+            EXPECT_EQ(material.column(m::Place0X + k)[i], place);
+            EXPECT_EQ(material.column(m::Place1X + k)[i], place);
+        }
+    }
+    namespace c = base::material_constant;
+    EXPECT_EQ(material.constants()[c::Fade], 0.0f);
+    EXPECT_FLOAT_EQ(material.constants()[c::Length0], 1.1f * 3.0f * 8.0f * 2.0f * twoBricks().side);
+    EXPECT_EQ(material.constants()[c::Lossy], 1.0f);
+    EXPECT_GT(def.bytes(), 0u);
+    def.detail.given = false;
+    EXPECT_EQ(def.bytes(), 0u);
+}
+
+TEST(Volumes, presetsStateTheirDetail)
+{
+    const test::TempFolder folder;
+    folder.write("a.fxvolume", *asset::writeVolume(twoBricks()));
+    const auto load = [&](const std::string& detail) {
+        return preset::loadPresetFile(folder.write(
+            "p.fx.json", R"({"version": 1, "volumes": [{"file": "a.fxvolume", "detail": )" + detail + "}]}"));
+    };
+    const auto loaded = load(R"({"material": "dust", "crispness": 0.9})");
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    const auto* def = dynamic_cast<const sim::VolumeDef*>(loaded->effect->solvers[0].get());
+    ASSERT_NE(def, nullptr);
+    EXPECT_TRUE(def->detail.given);
+    EXPECT_EQ(def->detail.material, sim::DetailMaterial::Dust);
+    EXPECT_EQ(def->detail.crispness, 0.9f);
+    EXPECT_TRUE(loaded->warnings.empty());
+    EXPECT_EQ(load(R"({"material": "smoke", "liveliness": 2})")->warnings.size(), 1u);
+    const auto wrong = load(R"({"material": "smoke", "crispness": 2})");
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_NE(wrong.status().message().find("crispness"), std::string::npos) << wrong.status().message();
+    EXPECT_FALSE(load(R"({"crispness": 0.5})").ok()) << "the material is needed";
 }
 
 TEST(Volumes, presetsNameTheirFileAndWithoutOneAreErrors)

@@ -10,7 +10,8 @@
 
 namespace fx::cli {
 
-/// Noise finer than a voxel fades out, as that finer than a pixel does in pictures. Volumes have no detail.
+/// Noise finer than a voxel fades out, as that finer than a pixel does in pictures. Of a volume the balls of
+/// its bricks have detail.
 class FieldVoxelDetail final : public render::VoxelDetail
 {
 public:

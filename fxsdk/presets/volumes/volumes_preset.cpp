@@ -2,6 +2,7 @@
 
 #include "embedded/volumes_schema.h"
 #include "fxsdk/assets/asset_loader.h"
+#include "fxsdk/presets/field_detail_preset.h"
 #include "fxsdk/presets/still_medium.h"
 #include "simulation/volume/sequence_solver.h"
 #include "simulation/volume/volume_solver.h"
@@ -68,6 +69,13 @@ void readFrames(const PresetValue& element, uint32_t frames, sim::SequenceDef& o
                                 "and import the volumes again");
 }
 
+void readDetail(const PresetValue& element, sim::FieldDetail& out)
+{
+    readFieldDetail(element, out);
+    if (out.given && element.child("detail").has("liveliness"))
+        element.child("detail").warning("liveliness", "the detail of a volume stays where it is; remove it");
+}
+
 } // namespace
 
 std::string_view volumesSchema()
@@ -82,12 +90,14 @@ void buildVolume(const PresetValue& element, sim::EffectDef& effect)
     if (frames > 0) {
         auto sequence = std::make_unique<sim::SequenceDef>();
         readStillMedium(element, *sequence);
+        readDetail(element, sequence->detail);
         readFrames(element, frames, *sequence);
         effect.solvers.push_back(std::move(sequence));
         return;
     }
     auto volume = std::make_unique<sim::VolumeDef>();
     readStillMedium(element, *volume);
+    readDetail(element, volume->detail);
     readVoxels(element, *volume);
     effect.solvers.push_back(std::move(volume));
 }

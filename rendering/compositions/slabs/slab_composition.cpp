@@ -47,8 +47,10 @@ std::span<const ProgramDesc* const> programs()
                                              &blobLightProgram(true),
                                              &fieldFillProgram(false, false),
                                              &fieldFillProgram(false, true),
-                                             &fieldVolumeProgram(false, false),
-                                             &fieldVolumeProgram(false, true)};
+                                             &fieldVolumeProgram(false, false, false),
+                                             &fieldVolumeProgram(false, true, false),
+                                             &fieldVolumeProgram(false, false, true),
+                                             &fieldVolumeProgram(false, true, true)};
         for (size_t i = 0; i < kSlabPrograms; ++i)
             list.push_back(&slabProgramAt(i));
         for (size_t i = 0; i < size_t(BatchShape::Count); ++i)

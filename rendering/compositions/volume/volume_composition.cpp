@@ -27,12 +27,12 @@ std::span<const ProgramDesc* const> programs()
                      &fieldNearProgram(false), &fieldNearProgram(true), &kFieldNearDetailProgram});
         for (const bool detail : {false, true}) {
             list.push_back(&fieldFillProgram(true, detail)); // without layers: of networks in slabs
+            for (const bool between : {false, true})
+                list.push_back(&fieldVolumeProgram(true, between, detail));
             for (const bool layers : {false, true})
                 for (const bool network : {false, true})
                     list.push_back(&fieldLightProgram(layers, detail, network));
         }
-        list.push_back(&fieldVolumeProgram(true, false));
-        list.push_back(&fieldVolumeProgram(true, true));
         for (size_t i = 0; i < kFieldMarchPrograms; ++i)
             list.push_back(&fieldMarchProgramAt(i));
         return list;

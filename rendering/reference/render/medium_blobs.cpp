@@ -49,16 +49,15 @@ public:
 
     void appendTo(MediumList& out)
     {
-        if (volume_) {
-            group_ = int32_t(out.details.groups.size());
-            out.details.groups.push_back({{}, place_.position, volume_, groupVolume_});
-        }
         if (detail_.isGiven()) {
             base::Placement here = place_; // relative to its own origin, from where floats are exact enough
             here.position = glm::dvec3(0.0);
             groupDetail_ = detail_.groupDetail(here);
-            group_ = int32_t(out.details.groups.size());
         }
+        if (volume_ || detail_.isGiven())
+            group_ = int32_t(out.details.groups.size());
+        if (volume_)
+            out.details.groups.push_back({groupDetail_, place_.position, volume_, groupVolume_});
         size_t j = 0;
         for (size_t i = 0; i < newer_.count(); ++i) {
             const size_t old = oldPlaceOf(i, j);
@@ -66,7 +65,7 @@ public:
                 continue; // not yet born
             append(i, old, out);
         }
-        if (detail_.isGiven()) {
+        if (detail_.isGiven() && !volume_) {
             groupDetail_.factor =
                 ConservationFactor(std::pmr::get_default_resource()).of(groupDetail_, casters_);
             out.details.groups.push_back({groupDetail_, place_.position});
@@ -139,7 +138,7 @@ private:
             const glm::ivec3 brick(glm::floor(voxel / double(base::kVolumeBrickSide)));
             ball.largest = float(double(volume_->largestIn(brick)) * own.density);
         }
-        if (detail_.isGiven()) {
+        if (detail_.isGiven() && !volume_) {
             ball.carried = detail_.carried(i, old, old != kNone, glm::vec3(position));
             const MediumBlob& piece = out.blobs.back();
             ball.thinning = thinningOf(groupDetail_, float(piece.crossSection), float(piece.radius));

@@ -1,6 +1,7 @@
 #include "rendering/reference/render/medium_details.h"
 
 #include "rendering/optics/black_body.h"
+#include "shaders/formulas/formula.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -24,6 +25,7 @@ void removeNoise(MediumDetails& io)
         if (io.groups[group].volume) {
             kept[group] = int32_t(volumes.size());
             volumes.push_back(std::move(io.groups[group]));
+            volumes.back().detail = {};
         }
     io.groups = std::move(volumes);
     for (MediumDetails::Ball& ball : io.balls)
@@ -61,10 +63,10 @@ DetailedMedium::DetailedMedium(const MediumDetails& details, const BallTree& tre
 
 double DetailedMedium::lumpSize(size_t group) const
 {
-    if (isVolume(group))
-        return kVoxelsPerLump * groups_[group].place.side;
     const GroupDetail& detail = groups_[group].detail;
-    return double(detail.numbers.length()) * double(detail.scale);
+    const double lump = double(detail.numbers.length()) * double(detail.scale);
+    const double voxels = kVoxelsPerLump * groups_[group].place.side;
+    return !isVolume(group) ? lump : hasNoise(group) ? std::min(lump, voxels) : voxels;
 }
 
 MediumDetail DetailedMedium::at(size_t group, double extinction, const std::array<glm::dvec3, 2>& carried,
@@ -101,18 +103,44 @@ double DetailedMedium::maxErodedExtinction(size_t group, double most) const
 MediumVolume::Sample DetailedMedium::volumeAt(size_t group, const glm::dvec3& point) const
 {
     const Group& own = groups_[group];
-    MediumVolume::Sample sample = own.volume->at(own.place.voxelAt(point - own.origin));
-    sample.extinction *= own.place.density;
-    sample.emitted *= own.place.density * glm::dvec3(own.place.tint);
-    sample.scattered *= own.place.density * glm::dvec3(own.place.tint);
+    const glm::dvec3 voxel = own.place.voxelAt(point - own.origin);
+    MediumVolume::Sample sample = own.volume->at(voxel);
+    double share = own.place.density;
+    if (hasNoise(group) && sample.extinction > 0.0)
+        share *= double(at(group, share * sample.extinction, {}, volumeThinning(group, voxel), point).share);
+    sample.extinction *= share;
+    sample.emitted *= share * glm::dvec3(own.place.tint);
+    sample.scattered *= share * glm::dvec3(own.place.tint);
     return sample;
+}
+
+/// [1] Symbol v of formula field-detail: the mean of that of voxels by their extinction, as OpenGL
+/// interpolates it.
+double DetailedMedium::volumeThinning(size_t group, const glm::dvec3& voxel) const
+{
+    const Group& own = groups_[group];
+    const FieldDetailNumbers& numbers = own.detail.numbers;
+    const double perExtinction = own.place.density * double(numbers.length()) * double(own.detail.scale);
+    const MediumVolume::Corners corners = own.volume->cornersAt(voxel);
+    double sum = 0.0, weight = 0.0;
+    for (size_t k = 0; k < corners.weight.size(); ++k) {
+        const double extinction = corners.weight[k] * corners.extinction[k];
+        const double depth = perExtinction * corners.extinction[k];
+        weight += extinction;
+        sum += extinction *
+               formula64::fxDetailThinning(depth, double(numbers.thinnest), double(numbers.densest));
+    }
+    return weight > 0.0 ? sum / weight : 0.0;
 }
 
 double DetailedMedium::largestOfVolumes() const
 {
     double sum = 0.0;
-    for (const Group& group : groups_)
-        sum += group.volume ? double(group.volume->largest()) * group.place.density : 0.0;
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const Group& group = groups_[g];
+        const double largest = group.volume ? double(group.volume->largest()) * group.place.density : 0.0;
+        sum += hasNoise(g) && group.volume ? maxErodedExtinction(g, largest) : largest;
+    }
     return sum;
 }
 
@@ -210,9 +238,11 @@ void DetailMix::finishVolume(size_t group, const glm::dvec3& point)
 double DetailMix::maxErodedExtinction() const
 {
     double sum = smooth_;
-    for (size_t group = 0; group < sums_.size(); ++group)
-        sum += medium_.isVolume(group) ? sums_[group].largest
-                                       : medium_.maxErodedExtinction(group, sums_[group].extinction);
+    for (size_t group = 0; group < sums_.size(); ++group) {
+        const bool isVolume = medium_.isVolume(group);
+        const double most = isVolume ? sums_[group].largest : sums_[group].extinction;
+        sum += isVolume && !medium_.hasNoise(group) ? most : medium_.maxErodedExtinction(group, most);
+    }
     return sum;
 }
 

@@ -18,13 +18,14 @@
 namespace fx::render {
 
 /// The detail of a list of balls. Without groups there is no detail. A group may be a volume: voxels replace
-/// the sum of its balls, which only say where there is medium.
+/// the sum of its balls, which only say where there is medium. Its detail erodes the voxels.
 struct MediumDetails
 {
     /// Data that all blobs of a group share.
     struct Group
     {
-        /// Parameters of the detail, for positions relative to `origin`, along world axes.
+        /// Parameters of the detail, for positions relative to `origin`, along world axes. Of a volume
+        /// without detail, numbers.isGiven() is false.
         GroupDetail detail;
         glm::dvec3 origin{0.0};                               ///< [m] position of the origin in the world
         std::shared_ptr<const MediumVolume> volume = nullptr; ///< null: the group is no volume
@@ -47,7 +48,7 @@ struct MediumDetails
     bool isGiven() const { return !groups.empty(); }
 };
 
-/// Removes the detail of all groups but volumes.
+/// Removes the detail of all groups. Volumes stay.
 void removeNoise(MediumDetails& io);
 
 /// Width of a pixel as a function of distance. Octaves of noise fade out by equation (3) of lump-noise.
@@ -86,7 +87,8 @@ public:
     MediumDetail at(size_t group, double extinction, const std::array<glm::dvec3, 2>& carried,
                     double thinning, const glm::dvec3& point) const;
     bool isVolume(size_t group) const { return groups_[group].volume != nullptr; }
-    /// The medium of a group that is a volume, at a point. Extinction and light have their factors.
+    /// The medium of a group that is a volume, at a point. Extinction and light have their factors, and are
+    /// eroded by the detail of the volume.
     MediumVolume::Sample volumeAt(size_t group, const glm::dvec3& point) const;
     /// [1/m] Sum over volumes of their largest extinction.
     double largestOfVolumes() const;
@@ -99,7 +101,11 @@ public:
     double maxErodedExtinction(size_t group, double most) const;
     double mostGain(size_t group) const; ///< [1] largest factor by which detail multiplies extinction
 
+    bool hasNoise(size_t group) const { return groups_[group].detail.numbers.isGiven(); }
+
 private:
+    double volumeThinning(size_t group, const glm::dvec3& voxel) const;
+
     struct Group
     {
         GroupDetail detail;

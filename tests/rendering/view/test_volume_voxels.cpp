@@ -2,8 +2,10 @@
 #include "view_fixture.h"
 
 #include "foundation/assets/asset_table.h"
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/volume_kind.h"
 #include "rendering/frame/exposure.h"
+#include "rendering/reference/render/medium_blobs.h"
 #include "rendering/volumes/volume_levels.h"
 #include "simulation/volume/sequence_solver.h"
 #include "simulation/volume/volume_solver.h"
@@ -36,6 +38,7 @@ protected:
     void SetUp() override
     {
         ViewTest::SetUp();
+        schema_.add(base::kMaterialKind);
         schema_.add(base::kVolumeKind);
         view_ =
             std::make_unique<render::ViewRenderer>(device_.get(), &schema_, std::pmr::get_default_resource());
@@ -88,6 +91,29 @@ protected:
         info.placement.rotation = turned;
         def_.create(schema_, {}, std::pmr::get_default_resource())->publish(info, snapshot);
         return snapshot;
+    }
+
+    /// The medium of a snapshot as the reference renderer sees it, eroded by its detail.
+    struct Eroded
+    {
+        render::DetailedMedium medium;
+        glm::dvec3 eye;
+
+        render::MediumVolume::Sample at(const glm::dvec3& place) const
+        {
+            return medium.volumeAt(0, place - eye);
+        }
+    };
+    Eroded eroded(const base::FrameSnapshot& snapshot,
+                  const std::shared_ptr<const render::MediumVolume>& volume, double distance) const
+    {
+        const render::MediumList list =
+            render::mediumOf({&snapshot, nullptr}, 1.0, [&](const render::GroupVolume&) { return volume; });
+        auto eyeCamera = render::ReferenceCamera::lookAt({0.0, 0.0, distance}, {}, {0.0, 1.0, 0.0});
+        eyeCamera.halfHeight = std::tan(0.5 * double(kFieldOfView));
+        render::MediumDetails details = list.details;
+        details.balls.clear();
+        return {{details, render::BallTree(), eyeCamera.eye, {eyeCamera, kSize}}, eyeCamera.eye};
     }
 
     /// A sequence at a time. @param memory for how many frames, of which the first ones are held
@@ -155,7 +181,20 @@ protected:
                                          const glm::quat& turned, double density, double distance)
     {
         const glm::dmat3 back = glm::transpose(glm::dmat3(glm::mat3_cast(turned)));
-        const double slope = std::tan(0.5 * double(kFieldOfView)), step = 0.02 * double(voxels.side);
+        return integrals(
+            [&](const glm::dvec3& place) {
+                auto sample = volume.at((back * place - glm::dvec3(voxels.origin)) / double(voxels.side));
+                sample.extinction *= density;
+                sample.emitted *= density;
+                return sample;
+            },
+            0.02 * double(voxels.side), distance);
+    }
+    /// @param mediumAt of a place [m]  @param step [m]
+    template <class MediumAt>
+    static std::vector<double> integrals(const MediumAt& mediumAt, double step, double distance)
+    {
+        const double slope = std::tan(0.5 * double(kFieldOfView));
         const auto exposure = double(render::exposureFromEv100(kExposure));
         std::vector<double> picture;
         for (int y = 0; y < kSize; ++y)
@@ -165,9 +204,9 @@ protected:
                 double passed = 1.0;
                 glm::dvec3 light(0.0);
                 for (double t = distance - 1.6; t < distance + 1.6; t += step) {
-                    const glm::dvec3 place = back * (glm::dvec3(0.0, 0.0, distance) + (t + 0.5 * step) * ray);
-                    const auto sample = volume.at((place - glm::dvec3(voxels.origin)) / double(voxels.side));
-                    const double passes = std::exp(-density * sample.extinction * step);
+                    const render::MediumVolume::Sample sample =
+                        mediumAt(glm::dvec3(0.0, 0.0, distance) + (t + 0.5 * step) * ray);
+                    const double passes = std::exp(-sample.extinction * step);
                     if (sample.extinction > 0.0)
                         light += passed * (1.0 - passes) / sample.extinction * sample.emitted * exposure;
                     passed *= passes;
@@ -380,6 +419,59 @@ TEST_F(VolumeVoxelsTest, ofALateFrameAreItsBallsUntilItIsRead)
     for (int i = 0; i < 2000 && !played_.sequence->find(4); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     expectEqual(renderAlone(publishBetween(frames, 3, tick)), wanted, 0.01);
+}
+
+TEST_F(VolumeVoxelsTest, withDetailAreTheIntegralOfTheErodedVoxels)
+{
+    const glm::quat upright(1.0f, 0.0f, 0.0f, 0.0f);
+    for (const auto& [dense, softening] : {std::pair(3.0f, 0.0f), std::pair(0.2f, 1.0f)}) {
+        def_.detail.given = false;
+        const Picture smooth = renderAlone(publish(lumps(), upright, dense));
+        def_.detail = {.given = true, .billowSize = 0.7f, .crispness = 0.7f, .softening = softening};
+        const base::FrameSnapshot snapshot = publish(lumps(), upright, dense);
+        const Picture picture = renderAlone(snapshot);
+        const Eroded medium = eroded(snapshot, std::make_shared<const render::MediumVolume>(lumps()), 5.0);
+        const std::vector<double> wanted =
+            integrals([&](const glm::dvec3& place) { return medium.at(place); }, 0.01, 5.0);
+        expectEqual(picture, wanted, 0.04); // rays are sampled in lumps finer than voxels
+        double change = 0.0, all = 0.0;
+        for (size_t i = 3; i < wanted.size(); i += 4) {
+            change += std::abs(double(smooth.texels[i]) - wanted[i]);
+            all += double(smooth.texels[i]);
+        }
+        EXPECT_GT(change, 0.1 * all) << "billows are seen";
+    }
+}
+
+TEST_F(VolumeVoxelsTest, detailOfASequenceErodesTheMomentBetweenFrames)
+{
+    const std::vector<base::VoxelVolume> frames = movingLumps();
+    played_.detail = {.given = true, .billowSize = 0.7f};
+    const base::FrameSnapshot snapshot = publishBetween(frames, 3, base::toTicks(0.5 * kFrameSeconds));
+    const auto between = std::make_shared<const render::MediumVolume>(render::MediumVolume::between(
+        render::MediumVolume(frames[0]), render::MediumVolume(frames[1]), {0.5, kFrameSeconds}));
+    const Eroded medium = eroded(snapshot, between, 5.0);
+    const auto mediumAt = [&](const glm::dvec3& place) { return medium.at(place); };
+    expectEqual(renderAlone(snapshot), integrals(mediumAt, 0.01, 5.0), 0.04);
+}
+
+TEST_F(VolumeVoxelsTest, detailStaysWhereItIsInAnInstanceThatMoves)
+{
+    def_.detail = {.given = true};
+    const base::FrameSnapshot here = publish(lumps(), {1, 0, 0, 0}, 3.0f);
+    base::FrameSnapshot there = publish(lumps(), {1, 0, 0, 0}, 3.0f);
+    const glm::dvec3 way(700.0, -31.0, 12.5);
+    for (size_t g = 0; g < there.groupCount(); ++g)
+        there.editGroup(g).editInfo().placement.position = way;
+    const Picture before = renderAlone(here);
+    setPicture(std::vector<float>(size_t(kSize) * kSize * 4, 0.0f));
+    const Picture after =
+        render(there, render::perspectiveView({way + glm::dvec3(0, 0, 5), way, {0.0f, 1.0f, 0.0f}},
+                                              kFieldOfView, 1.0f, 0.1f));
+    double difference = 0.0;
+    for (size_t i = 3; i < before.texels.size(); i += 4)
+        difference = std::max(difference, double(std::abs(before.texels[i] - after.texels[i])));
+    EXPECT_LT(difference, 0.01);
 }
 
 TEST_F(VolumeVoxelsTest, aTintOfTheInstanceFiltersTheLightOfVoxels)

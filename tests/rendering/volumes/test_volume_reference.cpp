@@ -1,4 +1,5 @@
 // A volume in the ray integral and in the path tracer: balls say where it is, voxels what it has.
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/volume_kind.h"
 #include "rendering/reference/path/blob_path_medium.h"
 #include "rendering/reference/render/detailed_ray.h"
@@ -23,7 +24,8 @@ class VolumeScene
 {
 public:
     template <class F>
-    explicit VolumeScene(F f, const glm::quat& rotation = {1, 0, 0, 0})
+    explicit VolumeScene(F f, const glm::quat& rotation = {1, 0, 0, 0}, bool hasDetail = false)
+        : hasDetail_(hasDetail)
     {
         base::VoxelVolume voxels;
         voxels.bricks = {{1, 1, 1}};
@@ -33,6 +35,7 @@ public:
             voxels.extinction.push_back(f(v % 8, v / 8 % 8, v / 64));
         volume_ = std::make_shared<render::MediumVolume>(voxels);
         schema_.add(base::kBlobKind);
+        schema_.add(base::kMaterialKind);
         schema_.add(base::kVolumeKind);
         voxels.side = kSide;
         publish(base::volumeCells(voxels), rotation);
@@ -41,6 +44,7 @@ public:
     }
 
     const render::MediumList& list() const { return list_; }
+    render::MediumList& list() { return list_; }
     const render::MediumVolume& volume() const { return *volume_; }
 
 private:
@@ -61,6 +65,8 @@ private:
             blobs.editColumn(blob::CrossSection)[i] = cells[i].crossSection;
             blobs.editIds()[i] = i;
         }
+        if (hasDetail_)
+            addDetail(cells.size());
         base::SnapshotGroup& volume = snapshot_.addGroup(schema_.find("volume"), 0);
         volume.editInfo().kind = schema_.find("volume");
         volume.editInfo().placement.rotation = rotation;
@@ -68,6 +74,30 @@ private:
         volume.editConstants()[base::volume_constant::Density] = 1.0f;
     }
 
+    void addDetail(size_t balls)
+    {
+        namespace m = base::material_constant;
+        const uint32_t capacity = uint32_t(balls);
+        base::SnapshotGroup& material = snapshot_.addGroup(schema_.find("material"), capacity);
+        const base::SnapshotGroup& blobs = snapshot_.editGroup(0);
+        material.editInfo() = blobs.info();
+        material.editInfo().kind = schema_.find("material");
+        for (size_t g = 0; g < 2; ++g) {
+            for (size_t k = 0; k < 3; ++k)
+                std::ranges::copy(blobs.column(base::blob_column::PositionX + k),
+                                  material.editColumn(base::material_column::Place0X + 3 * g + k).begin());
+            material.editConstants()[m::Length0 + g] = 4.0f * kSide;
+            material.editConstants()[m::Growth0 + g] = 1.0f;
+        }
+        material.editConstants()[m::Generation] = 1.0f;
+        material.editConstants()[m::Thinnest] = 0.2f;
+        material.editConstants()[m::Densest] = 5.0f;
+        material.editConstants()[m::Ramp] = 0.25f;
+        material.editConstants()[m::Gain] = 0.55f;
+        material.editConstants()[m::Lossy] = 1.0f;
+    }
+
+    bool hasDetail_;
     base::SnapshotSchema schema_;
     base::FrameSnapshot snapshot_{&schema_, std::pmr::get_default_resource()};
     std::shared_ptr<const render::MediumVolume> volume_;
@@ -104,6 +134,52 @@ TEST(VolumeReference, opticalDepthIsTheIntegralOfTheInterpolatedVoxels)
         sum += uneven.volume().at(p / double(kSide)).extinction * 8.0 / steps;
     }
     EXPECT_NEAR(depthOf(uneven, {origin, direction}), sum, 1e-4);
+}
+
+TEST(VolumeReference, detailErodesVoxelsEquallyForRaysAndPaths)
+{
+    const VolumeScene scene([](int x, int y, int z) { return 0.2f + 0.1f * float((x * 5 + y * 3 + z) % 7); },
+                            {1, 0, 0, 0}, true);
+    const auto tasks = base::makeSerialRunner();
+    const render::BlobPathMedium medium(scene.list().blobs, glm::dvec3(0.0), *tasks, 0.0,
+                                        scene.list().details);
+    const auto walk = medium.walk();
+    int eroded = 0, denser = 0;
+    for (int i = 0; i < 6; ++i) {
+        const glm::dvec3 origin(0.1, 0.3, -4.0);
+        const glm::dvec3 direction =
+            glm::normalize(double(kSide) * glm::dvec3(9.0 + i, 13.0 - i, 11.5) - origin);
+        walk->start({origin, direction}, 0.0, 1e3);
+        render::MajorantSegment segment;
+        double depth = 0.0;
+        while (walk->next(segment)) {
+            const int points = 1 + int((segment.end - segment.begin) * 400.0);
+            for (int k = 0; k < points; ++k) {
+                const double t = segment.begin + (segment.end - segment.begin) * (k + 0.5) / points;
+                const double found = walk->at(t, 0.5).extinction.x;
+                const double smooth = scene.volume().at((origin + direction * t) / double(kSide)).extinction;
+                EXPECT_LE(found, segment.majorant);
+                eroded += smooth > 0.1 && found < 0.5 * smooth ? 1 : 0;
+                denser += found > 1.2 * smooth ? 1 : 0;
+                depth += found * (segment.end - segment.begin) / points;
+            }
+        }
+        EXPECT_NEAR(depthOf(scene, {origin, direction}), depth, 0.01 * depth) << i;
+    }
+    EXPECT_GT(eroded, 100);
+    EXPECT_GT(denser, 100) << "the mean of what is left is the smooth medium";
+}
+
+TEST(VolumeReference, withoutDetailOfPicturesIsTheSmoothVolume)
+{
+    const auto f = [](int x, int, int) { return x < 4 ? 0.6f : 0.3f; };
+    VolumeScene detailed(f, {1, 0, 0, 0}, true);
+    const double middle = double(kSide) * 11.5;
+    const render::TraceRay ray{{-1.0, middle, middle}, {1, 0, 0}};
+    const double smooth = depthOf(VolumeScene(f), ray);
+    EXPECT_GT(std::abs(depthOf(detailed, ray) - smooth), 0.05 * smooth);
+    render::removeNoise(detailed.list().details);
+    EXPECT_EQ(depthOf(detailed, ray), smooth);
 }
 
 TEST(VolumeReference, turnsWithItsInstance)
