@@ -103,12 +103,14 @@ base::Status QualityStage::setBudget(double budget, StageClock clock)
     return view_->quality.setOptions({budget, timing});
 }
 
-base::Status QualityStage::look(const scene_file::CameraPath& path)
+base::Status QualityStage::look(const scene_file::CameraPath& path,
+                                const std::optional<PictureWindow>& window)
 {
     camera_ = {};
     camera_.origin = path.at(0.0).position;
     camera_.view = path.viewRotation(0.0);
-    camera_.projection = path.projection(float(width_) / float(height_));
+    camera_.projection = window ? window->clip() * path.projection(window->aspect())
+                                : path.projection(float(width_) / float(height_));
     const auto snapshot = effects_->snapshot();
     if (!snapshot.ok())
         return snapshot.status();

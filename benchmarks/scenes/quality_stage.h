@@ -4,6 +4,7 @@
 /// Threads: only the thread that created the object, which is its GL thread.
 #pragma once
 
+#include "benchmarks/scenes/picture_window.h"
 #include "foundation/result/status.h"
 #include "fxsdk/api/view_object.h"
 #include "fxsdk/cli/scene/effect_scene.h"
@@ -47,7 +48,8 @@ public:
     /// Simulates up to `tick`. `tick` must not decrease from call to call.
     base::Status simulate(base::Ticks tick) { return effects_->showMoment(tick); }
     /// Draws the stage as the camera sees it. Frames are drawn over this picture until the next call.
-    base::Status look(const scene_file::CameraPath& camera);
+    /// @param window the part that the stage shows, of its size; empty: all of the camera's picture
+    base::Status look(const scene_file::CameraPath& camera, const std::optional<PictureWindow>& window = {});
     /// Draws one frame and waits for the GPU.
     base::Status draw();
 

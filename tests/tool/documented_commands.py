@@ -152,7 +152,7 @@ class Small:
 
 
 FEW = {"--count": "1000", "--steps": "1"}
-HAVE_SMALL = ("paper-frame", "billboards", "blocks", "composition", "detail", "layer-scale", "slices", "lit-frame", "network-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "network", "trace",
+HAVE_SMALL = ("paper-frame", "billboards", "composition", "detail", "layer-scale", "slices", "lit-frame", "network-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "network", "trace",
               "reference", "parallel-loop", "work-units")  # an option for it
 # Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
@@ -166,6 +166,7 @@ SMALL = (
     Small(("fx", "bench", "emit"), FEW),
     Small(("fx", "bench", "frame"), FEW),
     *(Small(("fx", "bench", name), {"--small": None}) for name in HAVE_SMALL),
+    Small(("fx", "bench", "blocks"), {"--small": None}, {"--count": "1000000"}),
     Small(("fx", "bench", "--plot"), {"--most": "1000"}),
     Small(("fx", "bench", "city"), {"--instances": "100", "--frames": "2"}, dropped=("--check",)),
     Small(("fx", "bench", "lod"), {"--instances": "2", "--size": "64", "--repeats": "1", "--flight": "2"}, dropped=("--check",)),

@@ -36,6 +36,21 @@ class Bench(FxTest):
         self.assertEqual(fx("bench", *arguments, "--validate-hash", row["hash"]).code, 0)
         self.assertEqual(fx("bench", *arguments, "--validate-hash", "1").code, 1)
 
+    def test_blocks_in_parts_of_a_picture_look_as_their_balls_in_the_light_of_the_whole_picture(self):
+        # Without the shadows of what is beside the parts, PSNR is 32 dB, and the light differs by 2 %.
+        outcome = fx("bench", "blocks", "--small", "--crops", "8", "--block-error", "0")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        row = json.loads(outcome.out)
+        self.assertEqual((row["crops"], row["crop_width"], row["crop_height"]), (8, 8, 5))
+        self.assertGreater(row["count"], 65536)  # so many that blocks beside the parts cast shadows of single balls
+        self.assertGreater(row["crop_balls"], 0)
+        self.assertLess(row["crop_balls"], 8 * row["count"] // 20)
+        self.assertGreater(row["psnr_whole"], 60.0)
+        self.assertGreater(row["psnr"], 37.0)
+        self.assertLess(abs(row["brighter"]), 0.01)
+        for name in ("blocks", "particles_per_block", "ms_blocks", "ms_single", "ms_blocks_animated", "bytes"):
+            self.assertGreater(row[name], 0, name)
+
     def test_options_without_effect_are_refused(self):
         picture = self.folder / "a.svg"
         for arguments in (["sort", "--threads", "2"], ["frame", "--threads", "2"], ["emit", "--gpu"],
