@@ -94,7 +94,8 @@ TEST_F(EffectInYourGame, theCodeOfThePageTakesTheAuthorsSettings)
     FxViewSettings settings = gameLight(13.0f, 9830.4f, 0.7f, sky);
     Effects effects{};
     ASSERT_EQ(openEffects(&effects, &settings), 0) << fxGetLastErrorMessage();
-    ASSERT_EQ(useAuthorsSettings(effects.context, effects.explosion, &settings), 0) << fxGetLastErrorMessage();
+    ASSERT_EQ(useAuthorsSettings(effects.context, effects.explosion, &settings), 0)
+        << fxGetLastErrorMessage();
     EXPECT_EQ(settings.exposureEv100, 11.3f); // of library:explosion
     EXPECT_GT(settings.sunIlluminance[0], 0.0f);
     EXPECT_EQ(fxView_SetSettings(effects.view, &settings), FX_OK) << fxGetLastErrorMessage();
