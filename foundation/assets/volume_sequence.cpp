@@ -2,12 +2,24 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
 
 namespace fx::base {
 
 namespace {
 
 std::atomic<uint64_t> readsOfProcess{0};
+
+/// Calls f(), on a thread that no exception may leave.
+template <class T, class F>
+Result<T> unlessOutOfMemory(F&& f)
+{
+    try {
+        return f();
+    } catch (const std::bad_alloc&) {
+        return Status(Code::OutOfMemory, "there is no memory for a frame of a volume");
+    }
+}
 
 } // namespace
 
@@ -67,18 +79,19 @@ void VolumeSequence::prefetch(uint32_t frame, bool withCoarser)
 {
     {
         const std::scoped_lock lock(mutex_);
-        uint64_t bytes = 0;
+        uint64_t bytes = 0, ofLevels = 0;
         shown_ = frame;
         for (uint32_t k = 0; k < count(); ++k) {
             const uint32_t wanted = (frame + k) % count();
             Slot& slot = slots_[wanted];
             const bool isCoarserWanted = withCoarser && def_.makeCoarser;
             bytes += def_.frames[wanted].bytes;
-            bytes += isCoarserWanted ? def_.frames[wanted].coarserBytes : slot.coarserBytes;
-            if (k > 1 && bytes > def_.memory)
+            ofLevels += isCoarserWanted ? def_.frames[wanted].coarserBytes : slot.coarserBytes;
+            const bool fits = bytes + ofLevels <= def_.memory;
+            if (k > 1 && !fits && (k > 2 || bytes > def_.memory))
                 break;
             slot.lastUse = uses_ + count() - k; // the next one is needed most
-            slot.wantsCoarser = slot.wantsCoarser || isCoarserWanted;
+            slot.wantsCoarser = slot.wantsCoarser || (isCoarserWanted && (k < 2 || fits));
             if (slot.isQueued || !slot.isIncomplete())
                 continue;
             slot.isQueued = true;
@@ -147,19 +160,18 @@ VolumeSequence::Counts VolumeSequence::counts() const
     return counts_;
 }
 
-/// The least recently used frames go. The caller holds the lock.
-/// @param keepsShown whether frames that are shown stay
-void VolumeSequence::makeRoom(uint64_t bytes, bool keepsShown)
+/// The least recently used frames go, but for those that are shown. The caller holds the lock.
+void VolumeSequence::makeRoom(uint64_t bytes)
 {
     const auto isShown = [&](size_t i) { return i == shown_ || i == (shown_ + 1) % count(); };
     while (counts_.bytes + bytes > def_.memory) {
         size_t oldest = slots_.size();
         for (size_t i = 0; i < slots_.size(); ++i)
-            if (slots_[i].volume && !slots_[i].isMakingCoarser && !(keepsShown && isShown(i)) &&
+            if (slots_[i].volume && !slots_[i].isMakingCoarser && !isShown(i) &&
                 (oldest == slots_.size() || slots_[i].lastUse < slots_[oldest].lastUse))
                 oldest = i;
         if (oldest == slots_.size())
-            return; // the rest is being read
+            return; // the rest is shown or being read
         Slot& slot = slots_[oldest];
         counts_.bytes -= def_.frames[oldest].bytes + slot.coarserBytes;
         slot.volume = nullptr;
@@ -174,16 +186,17 @@ Result<VolumeSequence::Volume> VolumeSequence::readInto(uint32_t frame, std::uni
 {
     Slot& slot = slots_[frame];
     const uint64_t bytes = def_.frames[frame].bytes;
-    makeRoom(bytes, false);
+    makeRoom(bytes);
     slot.isReading = true;
     counts_.bytes += bytes;
     counts_.peakBytes = std::max(counts_.peakBytes, counts_.bytes);
     lock.unlock();
-    Result<Volume> read = def_.read(frame);
+    Result<Volume> read = unlessOutOfMemory<Volume>([&] { return def_.read(frame); });
     lock.lock();
     slot.isReading = false;
     if (read) {
         ++counts_.reads;
+        slot.hasFailed = false;
         slot.volume = *read;
         readsOfProcess.fetch_add(1, std::memory_order_release);
     } else {
@@ -201,18 +214,20 @@ void VolumeSequence::makeCoarser(uint32_t frame, std::unique_lock<std::mutex>& l
     Slot& slot = slots_[frame];
     const Volume volume = slot.volume;
     slot.isMakingCoarser = true;
-    makeRoom(def_.frames[frame].coarserBytes, true);
+    makeRoom(def_.frames[frame].coarserBytes);
     slot.coarserBytes = def_.frames[frame].coarserBytes;
     counts_.bytes += slot.coarserBytes;
     counts_.peakBytes = std::max(counts_.peakBytes, counts_.bytes);
     lock.unlock();
-    CoarserLevels made = def_.makeCoarser(*volume);
+    const Result<CoarserLevels> made =
+        unlessOutOfMemory<CoarserLevels>([&] { return Result<CoarserLevels>(def_.makeCoarser(*volume)); });
     lock.lock();
     slot.isMakingCoarser = false;
     counts_.bytes -= slot.coarserBytes;
-    slot.coarserBytes = made->bytes();
+    slot.hasFailed = !made;
+    slot.coarser = made ? *made : nullptr;
+    slot.coarserBytes = made ? slot.coarser->bytes() : 0;
     counts_.bytes += slot.coarserBytes;
-    slot.coarser = std::move(made);
     readsOfProcess.fetch_add(1, std::memory_order_release);
     changed_.notify_all();
 }
@@ -230,7 +245,7 @@ void VolumeSequence::runReader()
         slot.isQueued = false;
         if (!slot.volume && !slot.isReading && !slot.hasFailed)
             static_cast<void>(readInto(frame, lock));
-        if (slot.volume && slot.isIncomplete())
+        if (slot.volume && slot.isIncomplete() && !isEnding_)
             makeCoarser(frame, lock);
     }
 }

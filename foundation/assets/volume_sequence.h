@@ -46,7 +46,8 @@ public:
         glm::vec3 origin{0.0f};    ///< [m] center of the voxel (0, 0, 0) of all frames
         bool hasVelocities = true; ///< false: a frame has none
         /// [byte] upper bound of the voxels of all frames that are held, with their coarser levels. Those of
-        /// the two frames that are shown are held even if they do not fit.
+        /// the two frames that are shown and the voxels of the next one are held even if they do not fit with
+        /// levels.
         uint64_t memory = 0;
         std::vector<Frame> frames;
         std::vector<Volume> held; ///< of the first frames; together at most `memory`
@@ -104,7 +105,8 @@ private:
     {
         Volume volume;
         uint64_t lastUse = 0;
-        bool isReading = false, isQueued = false, hasFailed = false;
+        bool isReading = false, isQueued = false;
+        bool hasFailed = false; ///< the voxels cannot be read, or there is no memory for coarser levels
         CoarserLevels coarser;
         uint64_t coarserBytes = 0; ///< [byte] that are counted for `coarser`
         bool wantsCoarser = false, isMakingCoarser = false;
@@ -112,7 +114,7 @@ private:
         /// Whether there is work for the thread.
         bool isIncomplete() const
         {
-            return volume ? wantsCoarser && !coarser && !isMakingCoarser : !isReading && !hasFailed;
+            return !hasFailed && (volume ? wantsCoarser && !coarser && !isMakingCoarser : !isReading);
         }
     };
 
@@ -120,7 +122,7 @@ private:
     void runReader();
     void makeCoarser(uint32_t frame, std::unique_lock<std::mutex>& lock);
     Result<Volume> readInto(uint32_t frame, std::unique_lock<std::mutex>& lock);
-    void makeRoom(uint64_t bytes, bool keepsShown);
+    void makeRoom(uint64_t bytes);
 
     Def def_;                  ///< constant after construction
     mutable std::mutex mutex_; ///< guards everything below

@@ -94,6 +94,9 @@ Status setCamera(const HostWorld& world, float nearDistance, FxFrameDef* ioFrame
     const Result<Camera> camera = find(double(frame.width) / double(frame.height));
     if (!camera)
         return camera.status();
+    if (!(glm::distance(camera->eye, camera->target) >= kNearest))
+        return fx::api::invalid("the eye is at the place at which it looks: give another target, or another "
+                                "camera in the preview of the preset");
     world.writePosition(camera->eye, frame.origin);
     writeView(world, *camera, frame.view);
     writeProjection(camera->fovY, nearDistance, frame, frame.projection);
@@ -111,10 +114,9 @@ Result<Camera> givenCamera(const HostWorld& world, const double* eye, const doub
     check.range3(eye, -farthest, farthest, "eye");
     check.range3(target, -farthest, farthest, "target");
     check.range(fovY, 0.01f, 3.1f, "fovY (in radians)");
-    const Camera camera{world.position(eye), world.position(target), fovY};
-    check.that(glm::distance(camera.eye, camera.target) >= kNearest,
-               "target is the place of the eye: give a place at least 1e-6 m away");
-    return check.status().ok() ? Result<Camera>(camera) : check.status();
+    if (!check.status())
+        return check.status();
+    return Camera{world.position(eye), world.position(target), fovY};
 }
 
 /// The camera of the author, where the instance is.
@@ -138,10 +140,11 @@ Result<Camera> framingCamera(FxScene& scene, fx::scene::LocalId id, double aspec
     }
     if (framing.isEmpty())
         return Status(Code::NotFound,
-                      "the instance shows nothing yet, and its preset has no camera: call fxScene_Update "
-                      "first, or fxSetFrameCamera");
+                      "the instance shows nothing at the last update, and its preset has no camera: call "
+                      "fxScene_Update before, fxScene_ExplainVisibility, or fxSetFrameCamera");
     const float fovY = glm::radians(fx::sim::PreviewDef().fovYDegrees);
-    const auto camera = framing.place(double(fovY), aspect, scene.scene.placementOf(id).position.y);
+    const auto camera =
+        framing.place(double(fovY), aspect, scene.scene.placementOf(id).position.y, kFarthest);
     return Camera{camera.position, camera.target, fovY};
 }
 

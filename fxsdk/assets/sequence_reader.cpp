@@ -122,6 +122,9 @@ public:
             all += frame.bytes;
             for (base::VolumeCells& cells : frame.cells)
                 cells.brick += known_[i].offset;
+            for (glm::ivec3& brick : bricks_[i])
+                brick += known_[i].offset;
+            frame.coarserBytes = render::mostCoarserBytes(std::move(bricks_[i]), frameHasVelocities_[i]);
             if (i < held_.size()) {
                 for (glm::ivec3& brick : held_[i].bricks)
                     brick += known_[i].offset;
@@ -185,7 +188,9 @@ private:
 
     void take(uint32_t i, base::VoxelVolume& volume)
     {
-        frames_.push_back({base::volumeCells(volume), volume.bytes(), render::mostCoarserBytes(volume)});
+        frames_.push_back({base::volumeCells(volume), volume.bytes(), 0});
+        bricks_.push_back(volume.bricks);
+        frameHasVelocities_.push_back(!volume.velocity.empty());
         heldBytes_ += frames_.back().bytes;
         if (held_.size() == i && heldBytes_ <= files_.memory)
             held_.push_back(std::move(volume));
@@ -198,6 +203,9 @@ private:
     bool hasVelocities_ = true;
     std::vector<KnownFile> known_;
     std::vector<base::VolumeSequence::Frame> frames_;
+    std::vector<std::vector<glm::ivec3>>
+        bricks_; // of each frame; which coarser ones exist depends on offsets
+    std::vector<bool> frameHasVelocities_;
     std::vector<base::VoxelVolume> held_;
     uint64_t heldBytes_ = 0, hash_ = 4;
 };

@@ -1,6 +1,7 @@
 #include "fxsdk/presets/preset_loader.h"
 
 #include "embedded/preset_library.h"
+#include "foundation/math/euler.h"
 #include "foundation/math/hash.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "fxsdk/assets/read_file.h"
@@ -74,6 +75,26 @@ void readHints(const PresetValue& root, sim::DrawingHints& hints)
               hints.scattering);
 }
 
+/// The camera of the stage as one relative to the instance that stands there.
+void moveToInstance(const PresetValue& instance, sim::PreviewDef& io)
+{
+    glm::dvec3 position(0.0), degrees(0.0);
+    std::array<float, 4> xyzw{0, 0, 0, 1};
+    double scale = 1.0;
+    instance.read("position", position);
+    instance.read("rotationDegrees", degrees);
+    instance.read("quaternion", xyzw);
+    instance.read("scale", scale);
+    glm::dquat rotation{double(xyzw[3]), double(xyzw[0]), double(xyzw[1]), double(xyzw[2])};
+    const double length = glm::length(rotation);
+    rotation = instance.has("quaternion") && length > 1e-6 ? rotation / length
+                                                           : glm::dquat(base::rotationOf(degrees));
+    if (!(scale > 0.0)) // tools report it
+        return;
+    for (glm::dvec3* const place : {&io.cameraPosition, &io.cameraTarget})
+        *place = glm::conjugate(rotation) * (*place - position) / scale;
+}
+
 /// Tools report the faults of a preview, and read all of its members.
 void readPreview(const PresetValue& root, sim::PreviewDef& preview)
 {
@@ -98,6 +119,8 @@ void readPreview(const PresetValue& root, sim::PreviewDef& preview)
     camera.read("position", preview.cameraPosition);
     camera.read("target", preview.cameraTarget);
     camera.read("fovYDegrees", preview.fovYDegrees);
+    if (value.has("instance"))
+        moveToInstance(value.child("instance"), preview);
 }
 
 /// Warns of a way to scatter light that has no effect: sorted balls have no networks, and without a medium

@@ -1,6 +1,7 @@
 #include "fxsdk/scene/effect_framing.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/gpu_particles.h"
 #include "foundation/snapshot/particle_kind.h"
 
 #include <glm/geometric.hpp>
@@ -19,7 +20,6 @@ constexpr double kLeftOut = 0.02;        ///< [1] share of a moment's weight tha
 constexpr double kSeenRadius = 0.7;      ///< [1] of a blob's radius: its profile fades towards the rim
 constexpr double kMargin = 1.08;         ///< [1]
 constexpr double kNearest = 0.3;         ///< [m] smallest half height of what is framed
-constexpr double kFarthest = 200.0;      ///< [m] largest
 const glm::dvec3 kView(0.25, 0.12, 1.0); ///< from the effect to the camera
 
 double discOf(double radius)
@@ -62,6 +62,7 @@ void EffectFraming::add(const base::FrameSnapshot& snapshot, LocalId instance)
 {
     const base::KindId blobs = snapshot.schema().find(base::kBlobKind.name);
     const base::KindId particles = snapshot.schema().find(base::kParticleKind.name);
+    const base::KindId onGpu = snapshot.schema().find(base::kGpuParticleKind.name);
     for (size_t g = 0; g < snapshot.groupCount(); ++g) {
         if (snapshot.name(g).instance != instance)
             continue;
@@ -70,6 +71,8 @@ void EffectFraming::add(const base::FrameSnapshot& snapshot, LocalId instance)
             addMedia(snapshot.group(g));
         else if (kind == particles)
             addParticles(snapshot.group(g));
+        else if (kind == onGpu)
+            addBounds(snapshot.group(g).info());
     }
 }
 
@@ -89,6 +92,16 @@ void EffectFraming::addParticles(const base::SnapshotGroup& group)
         const double radius = double(group.column(column::Radius)[i] * placement.scale);
         addBall({inWorld(placement, local), radius, discOf(radius)});
     }
+}
+
+/// Particles whose places are not on the CPU.
+void EffectFraming::addBounds(const base::GroupInfo& info)
+{
+    const glm::vec3 extent = info.bounds.max - info.bounds.min;
+    if (info.count == 0 || !(extent.x >= 0.0f && extent.y >= 0.0f && extent.z >= 0.0f))
+        return;
+    const double radius = 0.5 * double(info.placement.scale * glm::length(extent));
+    addBall({inWorld(info.placement, 0.5f * (info.bounds.min + info.bounds.max)), radius, discOf(radius)});
 }
 
 void EffectFraming::addMedia(const base::SnapshotGroup& group)
@@ -137,7 +150,8 @@ EffectFraming::Span EffectFraming::spanAlong(const glm::dvec3& axis) const
     return span;
 }
 
-EffectFraming::Camera EffectFraming::place(double fovY, double aspect, double ground) const
+EffectFraming::Camera EffectFraming::place(double fovY, double aspect, double ground,
+                                           double mostHalfHeight) const
 {
     const glm::dvec3 back = glm::normalize(kView);
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
@@ -159,7 +173,7 @@ EffectFraming::Camera EffectFraming::place(double fovY, double aspect, double gr
         if (!wanted.empty())
             distance = std::max(distance, quantile(wanted, 1.0 - kLeftOut));
     }
-    distance = kMargin * std::min(distance, kFarthest / tangent);
+    distance = kMargin * std::min(distance, mostHalfHeight / tangent);
     Camera camera{target + distance * back, target, float(std::min(0.1, 0.01 * distance))};
     camera.position.y = std::max(camera.position.y, ground + 0.1 * distance * tangent);
     return camera;

@@ -42,7 +42,8 @@ public:
     /// @param fovY   [rad] vertical field of view
     /// @param aspect width of the picture over its height
     /// @param ground [m] height of the ground
-    Camera place(double fovY, double aspect, double ground) const;
+    /// @param mostHalfHeight [m] that the picture has at most where it looks
+    Camera place(double fovY, double aspect, double ground, double mostHalfHeight) const;
 
 private:
     struct Ball
@@ -57,6 +58,7 @@ private:
         double middle() const { return 0.5 * (low + high); }
     };
     using Weights = std::pmr::vector<std::pair<double, double>>; ///< values and their weights
+    void addBounds(const base::GroupInfo& info);
     void addMedia(const base::SnapshotGroup& group);
     void addParticles(const base::SnapshotGroup& group);
     static double quantile(Weights& values, double share);

@@ -64,7 +64,4 @@ struct InstancePlay
 /// Returns the last value whose time is at most `time`, or `before` if there is no such value.
 double valueAt(const std::vector<TimedValue>& values, double time, double before);
 
-/// Converts angles [degree] to a rotation about x, then y, then z.
-glm::quat rotationOf(const glm::dvec3& degrees);
-
 } // namespace fx::scene_file

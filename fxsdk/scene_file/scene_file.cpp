@@ -1,5 +1,6 @@
 #include "fxsdk/scene_file/scene_file.h"
 
+#include "foundation/math/euler.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
@@ -170,7 +171,8 @@ sim::DrawingHints preferredHints(const SceneFile& scene)
 base::Placement SceneInstance::placementAt(double time) const
 {
     return {play.moves ? smoothAt(play.keys, time, &InstanceKey::position) : position,
-            play.turns ? rotationOf(smoothAt(play.keys, time, &InstanceKey::rotationDegrees)) : rotation,
+            play.turns ? base::rotationOf(smoothAt(play.keys, time, &InstanceKey::rotationDegrees))
+                       : rotation,
             scale};
 }
 

@@ -1,6 +1,7 @@
 #include "fxsdk/scene_file/scene_members.h"
 #include "rendering/frame/composition_names.h"
 
+#include "foundation/math/euler.h"
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -125,7 +126,7 @@ glm::quat readRotation(const PresetValue& value)
     }
     glm::dvec3 degrees(0.0);
     value.read("rotationDegrees", degrees);
-    return rotationOf(degrees);
+    return base::rotationOf(degrees);
 }
 
 } // namespace

@@ -53,12 +53,11 @@ base::CoarserLevels coarserLevels(const base::VoxelVolume& volume)
     return levels;
 }
 
-uint64_t mostCoarserBytes(const base::VoxelVolume& volume)
+uint64_t mostCoarserBytes(std::vector<glm::ivec3> bricks, bool hasVelocities)
 {
     constexpr size_t kPacked = sizeof(base::VolumeLevel::Packed);
-    const size_t voxel = volume.velocity.empty() ? kPacked : kPacked + kPacked / 2;
+    const size_t voxel = hasVelocities ? kPacked + kPacked / 2 : kPacked;
     uint64_t sum = 0;
-    std::vector<glm::ivec3> bricks = volume.bricks;
     glm::ivec3 last(0);
     for (const glm::ivec3& brick : bricks)
         last = glm::max(last, brick * base::kVolumeBrickSide + (base::kVolumeBrickSide - 1));

@@ -16,6 +16,6 @@ base::VolumeLevel packedLevel(const MediumVolume& medium);
 base::CoarserLevels coarserLevels(const base::VoxelVolume& volume);
 
 /// [byte] Upper bound of VolumeLevels::bytes() of coarserLevels(), from the bricks of the volume alone.
-uint64_t mostCoarserBytes(const base::VoxelVolume& volume);
+uint64_t mostCoarserBytes(std::vector<glm::ivec3> bricks, bool hasVelocities);
 
 } // namespace fx::render

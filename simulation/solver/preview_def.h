@@ -16,7 +16,7 @@ struct PreviewDef
     glm::vec3 skyLuminance{2500.0f, 3150.0f, 4200.0f};               ///< [cd/m2]
     float groundAlbedo = 0.2f;                                       ///< [1]
     bool hasCamera = false;                                      ///< false: the author leaves it to the tool
-    glm::dvec3 cameraPosition{0.0, 0.0, 1.0}, cameraTarget{0.0}; ///< [m]
+    glm::dvec3 cameraPosition{0.0, 0.0, 1.0}, cameraTarget{0.0}; ///< [m] relative to the instance
     float fovYDegrees = 50.0f;
 };
 

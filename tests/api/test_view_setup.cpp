@@ -172,7 +172,8 @@ TEST_F(ViewSetup, aRefusedCameraChangesNothing)
     refused(context_, eye, nullptr, 1.0f, 0.1f, sizedFrame(), invalid, "target");
     refused(context_, nowhere, target, 1.0f, 0.1f, sizedFrame(), invalid, "eye");
     refused(context_, eye, nowhere, 1.0f, 0.1f, sizedFrame(), invalid, "target");
-    refused(context_, eye, eye, 1.0f, 0.1f, sizedFrame(), invalid, "target is the place of the eye");
+    refused(context_, eye, eye, 1.0f, 0.1f, sizedFrame(), invalid,
+            "the eye is at the place at which it looks");
     refused(context_, eye, target, 3.2f, 0.1f, sizedFrame(), invalid, "fovY");
     refused(context_, eye, target, 50.0f, 0.1f, sizedFrame(), invalid, "fovY"); // degrees
     refused(context_, eye, target, 1.0f, 0.0f, sizedFrame(), invalid, "nearDistance");
@@ -326,4 +327,42 @@ TEST_F(ViewSetup, aCameraOfNoInstanceIsRefused)
     const uint64_t before = hash();
     EXPECT_EQ(fxScene_SetFrameCamera(scene_, instance, 0.1f, &frame), FX_OK);
     EXPECT_EQ(hash(), before);
+}
+
+TEST_F(ViewSetup, theCameraOfAStageIsRelativeToTheInstanceOnIt)
+{
+    // On its stage the effect stands elsewhere, turned and larger: the same picture of an effect at the
+    // origin.
+    const std::string text = R"({"version": 1, "emitters": [], "preview": {
+        "camera": {"position": [4, 3, 9], "target": [1, 2, 0], "fovYDegrees": 50},
+        "instance": {"position": [2, 1, -1], "rotationDegrees": [24, 30, 10], "scale": 2}}})";
+    World world(kLibraryWorld);
+    HostView shown(world.context(), text);
+    FxFrameDef frame = sizedFrame(), onStage = sizedFrame();
+    ASSERT_EQ(fxScene_SetFrameCamera(shown.scene, shown.add(fxDefaultInstanceDef()), 0.1f, &frame), FX_OK);
+    const double eye[] = {4.0, 3.0, 9.0}, target[] = {1.0, 2.0, 0.0};
+    ASSERT_EQ(fxSetFrameCamera(world.context(), eye, target, glm::radians(50.0f), 0.1f, &onStage), FX_OK);
+    const glm::dquat turn = glm::angleAxis(glm::radians(10.0), glm::dvec3(0, 0, 1)) *
+                            glm::angleAxis(glm::radians(30.0), glm::dvec3(0, 1, 0)) *
+                            glm::angleAxis(glm::radians(24.0), glm::dvec3(1, 0, 0));
+    const auto staged = [&](const glm::dvec3& place) { return glm::dvec3(2, 1, -1) + turn * (2.0 * place); };
+    const glm::dvec3 middle(0.0);
+    // up is that of the world of each, so that the picture may roll: distances to its middle are the same
+    const auto away = [&](const FxFrameDef& seen, const glm::dvec3& place) {
+        const glm::dvec3 there = world.seen(seen, place);
+        return glm::length(glm::dvec2(there.x * 320.0 / 180.0, there.y));
+    };
+    for (const glm::dvec3& place : {middle, glm::dvec3(0.4, 0.3, 0.2), glm::dvec3(-0.5, 0.1, 0.4)})
+        EXPECT_NEAR(away(frame, place), away(onStage, staged(place)), 1e-5);
+}
+
+TEST_F(ViewSetup, aCameraThatLooksAtItsOwnPlaceIsRefused)
+{
+    HostView shown(context_, R"({"version": 1, "emitters": [], "preview": {
+        "camera": {"position": [1, 2, 3], "target": [1, 2, 3]}}})");
+    FxFrameDef frame = sizedFrame();
+    const FxFrameDef before = frame;
+    EXPECT_EQ(fxScene_SetFrameCamera(shown.scene, shown.add(fxDefaultInstanceDef()), 0.1f, &frame),
+              FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(std::memcmp(&before, &frame, sizeof frame), 0);
 }

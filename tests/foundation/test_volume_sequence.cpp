@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <set>
 #include <thread>
 
@@ -209,6 +210,51 @@ TEST(VolumeSequence, coarserLevelsOfTheFramesShownAreHeldWhateverTheMemory)
         }
     EXPECT_LE(sequence.counts().peakBytes,
               3 * volumeOf(0)->bytes() + 2 * levelsOf(*volumeOf(0))->bytes() + kSlack);
+}
+
+TEST(VolumeSequence, framesAreReadOnceAndAheadWhereLevelsAreLargerThanVoxels)
+{
+    Disk disk;
+    VolumeSequence::Def def = disk.withLevels(3, [] {});
+    for (VolumeSequence::Frame& frame : def.frames)
+        frame.coarserBytes = 2 * frame.bytes;
+    VolumeSequence sequence(std::move(def));
+    for (int picture = 0; picture < 12; ++picture) { // of the same moment
+        sequence.prefetch(0, true);
+        ASSERT_TRUE(levelsCome(sequence, 0));
+        ASSERT_TRUE(levelsCome(sequence, 1));
+        ASSERT_TRUE(comes(sequence, 2)) << "it is shown next";
+    }
+    EXPECT_EQ(disk.reads, 3);
+    for (uint32_t i = 1; i < kFrames; ++i) {
+        sequence.prefetch(i, true);
+        EXPECT_TRUE(sequence.find(i)) << i;
+        EXPECT_TRUE(sequence.find((i + 1) % kFrames)) << i << ": it was read ahead";
+        ASSERT_TRUE(levelsCome(sequence, (i + 1) % kFrames)) << i;
+        ASSERT_TRUE(comes(sequence, (i + 2) % kFrames)) << i;
+    }
+}
+
+TEST(VolumeSequence, withoutMemoryForLevelsThereAreNoneAndVoxelsStay)
+{
+    Disk disk;
+    VolumeSequence sequence(disk.withLevels(8, [] { throw std::bad_alloc(); }));
+    sequence.setWaits(true);
+    EXPECT_FALSE(sequence.coarser(3));
+    EXPECT_TRUE(sequence.find(3));
+    EXPECT_EQ(sequence.counts().bytes, volumeOf(0)->bytes());
+}
+
+TEST(VolumeSequence, aFrameThatIsFoundAgainHasLevels)
+{
+    Disk disk;
+    disk.lost = 4;
+    VolumeSequence sequence(disk.withLevels(8, [] {}));
+    sequence.setWaits(true);
+    EXPECT_FALSE(sequence.coarser(4));
+    disk.lost = -1;
+    ASSERT_TRUE(sequence.wait(4));
+    EXPECT_TRUE(sequence.coarser(4));
 }
 
 TEST(VolumeSequence, aPictureThatWaitsHasItsCoarserLevelsAtOnce)

@@ -161,9 +161,9 @@ class Simulation(unittest.TestCase):
         fire = scene.add("campfire", position=(100, 0, 0))
         camera = scene.camera(fire, 64, 32)
         self.assertAlmostEqual(camera["origin"][0], 100 + preview.cameraPosition[0], places=5)
-        with self.assertRaisesRegex(fxsdk.Error, "fxScene_Update first"):
+        with self.assertRaisesRegex(fxsdk.Error, "fxScene_Update before"):
             scene.camera(scene.add("explosion"), 64, 32)
-        with self.assertRaisesRegex(fxsdk.Error, "place of the eye"):
+        with self.assertRaisesRegex(fxsdk.Error, "at the place at which it looks"):
             self.context.camera((0, 0, 5), (0, 0, 5), 64, 32)
 
     def test_a_member_that_is_mistyped_gets_a_suggestion(self):

@@ -13,8 +13,9 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kFramingMoments = 12;  // looked at between the start and the end
-constexpr double kFramingLimit = 20; // [s] longest time simulated only to place the camera
+constexpr int kFramingMoments = 12;     // looked at between the start and the end
+constexpr double kMostHalfHeight = 200; // [m] of a picture, whatever the size of the effect
+constexpr double kFramingLimit = 20;    // [s] longest time simulated only to place the camera
 
 /// Ground and late afternoon light.
 void addDefaultStage(scene_file::SceneFile& scene)
@@ -94,8 +95,8 @@ base::Status frameEffect(scene_file::SceneFile& shown, base::Ticks until, const 
     }
     if (framing.isEmpty())
         return {};
-    const scene::EffectFraming::Camera camera =
-        framing.place(double(shown.camera.fovYDegrees) * std::numbers::pi / 180.0, aspect, 0.0);
+    const scene::EffectFraming::Camera camera = framing.place(
+        double(shown.camera.fovYDegrees) * std::numbers::pi / 180.0, aspect, 0.0, kMostHalfHeight);
     shown.camera.position = camera.position;
     shown.camera.target = camera.target;
     shown.camera.nearPlane = camera.nearDistance;

@@ -125,7 +125,8 @@ protected:
         def.origin = frames[0].origin;
         def.memory = memory * frames[0].bytes();
         for (const base::VoxelVolume& frame : frames) {
-            def.frames.push_back({base::volumeCells(frame), frame.bytes(), render::mostCoarserBytes(frame)});
+            def.frames.push_back({base::volumeCells(frame), frame.bytes(),
+                                  render::mostCoarserBytes(frame.bricks, !frame.velocity.empty())});
             if (def.held.size() < memory)
                 def.held.push_back(std::make_shared<const base::VoxelVolume>(frame));
             def.hasVelocities = def.hasVelocities && !frame.velocity.empty();
