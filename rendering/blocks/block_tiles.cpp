@@ -33,6 +33,12 @@ int16_t densityClass(float density)
     return int16_t(std::lround(2.0f * std::clamp(std::log2(std::max(density, 1e-6f)), -16.0f, 16.0f)));
 }
 
+/// `value` times 2^power, at least 1.
+uint16_t scaledBy(int power, uint16_t value)
+{
+    return uint16_t(power < 0 ? std::max(value / 2, 1) : value << power);
+}
+
 uint32_t slotsAlong(int size)
 {
     return uint32_t(kMaxTile / size);
@@ -108,8 +114,10 @@ std::optional<Tile> BlockTiles::find(const TileRequest& request)
         }
     }
     const auto slot = same != found_.end() ? std::optional(same->second) : slotFor(key);
-    if (!slot)
-        return std::nullopt;
+    if (!slot) {
+        const auto other = neighbor(request, key, cell);
+        return other && canWait(slots_[*other], request) ? std::optional(use(*other)) : std::nullopt;
+    }
     make(*slot, request);
     return use(*slot);
 }
@@ -143,26 +151,39 @@ bool BlockTiles::canWait(const Slot& slot, const TileRequest& request) const
            std::abs(seconds) <= kMostDeferred * kMaxTileSeconds;
 }
 
-/// An existing tile of a direction nearby.
+/// The existing tile of a direction and a distance nearby, or of another fineness, that differs least.
 std::optional<uint32_t> BlockTiles::neighbor(const TileRequest& request, const Key& key,
                                              const glm::ivec2& cell) const
 {
-    const int cells = key.cells;
     std::optional<uint32_t> best;
     float least = 2.0f;
-    for (int i = 0; i < 9; ++i) {
-        const glm::ivec2 near = neighborCell(cell, {i % 3 - 1, i / 3 - 1}, cells);
-        Key other = key;
-        other.cell = near.y * cells + near.x;
+    const float nearness = std::clamp(request.nearness, 0.0f, kMaxNearness);
+    const auto consider = [&](Key other, const glm::ivec2& at) {
+        other.cell = at.y * other.cells + at.x;
         const auto same = found_.find(other);
         if (same == found_.end())
-            continue;
-        const glm::vec3 between = axesOfCell(near, cells).along - request.along;
-        const float away = between.x * between.x + between.y * between.y + between.z * between.z;
+            return;
+        const glm::vec3 between = axesOfCell(at, other.cells).along - request.along;
+        const float farther = float(other.nearness) / float(other.nearnessSteps) - nearness;
+        const float away =
+            between.x * between.x + between.y * between.y + between.z * between.z + farther * farther;
         if (away < least) {
             least = away;
             best = same->second;
         }
+    };
+    for (int i = 0; i < 27; ++i) {
+        Key other = key;
+        other.nearness = uint16_t(std::max(int(key.nearness) + i / 9 - 1, 0));
+        consider(other, neighborCell(cell, {i % 3 - 1, i / 3 % 3 - 1}, key.cells));
+    }
+    for (int i = 0; i < 27; ++i) { // half, as many and twice the cells, steps and texels
+        Key other = key;
+        other.cells = scaledBy(i % 3 - 1, key.cells);
+        other.nearnessSteps = scaledBy(i / 3 % 3 - 1, key.nearnessSteps);
+        other.size = scaledBy(i / 9 - 1, key.size);
+        other.nearness = uint16_t(std::lround(nearness * float(other.nearnessSteps)));
+        consider(other, directionCell(request.along, other.cells));
     }
     return best;
 }

@@ -205,6 +205,11 @@ void BlockWalk::visit(const BlockFrame& frame, uint32_t variant, float weight)
         share > 0.0f && section > 0.0f ? drawImpostor(frame, variant, weight, share, pixels, isFull) : 0.0f;
     if (share >= 1.0f)
         return;
+    if (isFull) { // no tile and no room for its balls
+        addWholeBall(frame, content, weight);
+        addBlockCasters(frame, variant, weight);
+        return;
+    }
     const float rest = weight * (1.0f - share);
     if (isBalls) {
         addDrawnCasters(frame, variant, rest);
@@ -241,8 +246,8 @@ float BlockWalk::drawImpostor(const BlockFrame& frame, uint32_t variant, float w
     return share;
 }
 
-void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content, const Tile& tile,
-                            float weight)
+/// A ball with the medium of a block, without a tile.
+GatheredBlob BlockWalk::wholeBall(const BlockFrame& frame, const BlockContent& content, float weight) const
 {
     const float section = frame.scale * frame.scale * content.crossSection;
     GatheredBlob ball = like_;
@@ -250,7 +255,6 @@ void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content
     const float radius = frame.scale * content.radius;
     ball.radius = std::max(radius, leastRadius(frame.position));
     ball.crossSection = formula::fxWidenedSection(weight * frame.density * section, radius, ball.radius);
-    const float perWidth = radius / ball.radius;
     ball.albedo = content.albedo;
     ball.emission = content.light;
     ball.temperature = 0.0f;
@@ -259,6 +263,21 @@ void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content
     ball.velocity = frame.velocity;
     ball.seed = detailSeed(frame.id);
     ball.rank = listRank(instance_, frame.id, 0);
+    return ball;
+}
+
+void BlockWalk::addWholeBall(const BlockFrame& frame, const BlockContent& content, float weight)
+{
+    balls_.push_back(wholeBall(frame, content, weight));
+    ++counts_.impostors;
+}
+
+void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content, const Tile& tile,
+                            float weight)
+{
+    GatheredBlob ball = wholeBall(frame, content, weight);
+    const float section = frame.scale * frame.scale * content.crossSection;
+    const float perWidth = frame.scale * content.radius / ball.radius;
     const float middle = glm::dot(content.middle, tile.axes.along) / content.radius;
     const float steps = std::round(127.0f * (1.0f + glm::clamp(middle, -1.0f, 1.0f)));
     records_.push_back({{frame.rotation * tile.axes.right, steps + tile.nearness},

@@ -83,6 +83,8 @@ private:
     };
 
     void visit(const base::BlockFrame& frame, uint32_t variant, float weight);
+    GatheredBlob wholeBall(const base::BlockFrame& frame, const BlockContent& content, float weight) const;
+    void addWholeBall(const base::BlockFrame& frame, const BlockContent& content, float weight);
     void addImpostor(const base::BlockFrame& frame, const BlockContent& content, const Tile& tile,
                      float weight);
     void addBalls(const base::BlockFrame& frame, const base::SnapshotGroup& group, float weight,

@@ -1,6 +1,6 @@
 // Balls of medium as texels, which software renderers read several times faster than buffers. A ball has kBallTexels of them,
 // one below the other; kBallColumns balls stand in a row. Written by slabs/slab_balls.comp.glsl.
-const int kBallColumns = 1024;
+const int kBallColumns = 2048;
 const int kBallTexels = 11;
 const int kPlace = 0;   // xyz [m] center relative to the eye; w radius [m], of what is no smaller than a texel
 const int kMedium = 1;  // x optical depth of the chord through the middle; y radius [m]; z layer * 2 + share of fire; w detail [1]

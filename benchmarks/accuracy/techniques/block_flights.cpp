@@ -152,7 +152,8 @@ public:
 
 private:
     base::Status start(const std::function<bool()>& stop);
-    base::Result<FlightPictures> fly(const BlockFlightSetting* setting, const std::function<bool()>& stop);
+    template <class F>
+    base::Status fly(const render::BlockSettings& blocks, const std::function<bool()>& stop, F&& add);
     /// [1] Of the whole flight; the frames that are drawn are those in its middle.
     double shareAt(double frame) const
     {
@@ -161,7 +162,9 @@ private:
     glm::dvec3 eyeAt(double frame) const { return cameraAt(flight_, shareAt(frame)).position; }
     base::Status show(uint32_t frame, const std::function<bool()>& stop);
     base::Result<FrameLight> draw(const render::BlockSettings& blocks, double& ioSeconds);
+    bool isOfBalls(const BlockFlightSetting& setting, uint32_t frame) const;
     base::Status addFrame(uint32_t frame, const BlockFlightSetting& setting, FlightPictures& io);
+    base::Status addSwitch(uint32_t frame, const BlockFlightSetting& setting, FlightPictures& io);
     std::vector<double> changesOf(const FlightPictures& pictures) const;
     struct Largest
     {
@@ -230,32 +233,41 @@ render::BlockSettings blocksOf(const BlockFlightSetting& setting)
     return blocks;
 }
 
-/// Draws a frame, and what blocks that become balls in it change: the same frame with the shares of balls
-/// that blocks had a frame before, so that no motion hides their change.
+/// Whether a setting draws balls in a frame.
+bool BlockFlightAccuracy::isOfBalls(const BlockFlightSetting& setting, uint32_t frame) const
+{
+    return (setting.fault == Fault::InTurn && frame % 2 == 1) ||
+           (setting.fault == Fault::AtOnce && frame >= frames_ / 2);
+}
+
 base::Status BlockFlightAccuracy::addFrame(uint32_t frame, const BlockFlightSetting& setting,
                                            FlightPictures& io)
 {
-    const uint32_t middle = frames_ / 2;
-    const bool isOfBalls = (setting.fault == Fault::InTurn && frame % 2 == 1) ||
-                           (setting.fault == Fault::AtOnce && frame >= middle);
-    const render::BlockSettings blocks = blocksOf(setting);
-    if (isOfBalls) {
+    if (isOfBalls(setting, frame)) {
         io.frames.push_back(balls_.frames[frame]);
         io.impostors.push_back(0);
-    } else {
-        auto light = draw(blocks, io.seconds);
-        if (!light.ok())
-            return light.status();
-        io.frames.push_back(std::move(*light));
-        const render::FrameStatistics& drawn = stage_->view().renderer.statistics();
-        io.impostors.push_back(drawn.blockImpostors);
-        io.deferred += drawn.blockTilesDeferred;
+        return {};
     }
-    if (!flight_.isThrough || (isOfBalls && frame != middle)) {
+    auto light = draw(blocksOf(setting), io.seconds);
+    if (!light.ok())
+        return light.status();
+    io.frames.push_back(std::move(*light));
+    const render::FrameStatistics& drawn = stage_->view().renderer.statistics();
+    io.impostors.push_back(drawn.blockImpostors);
+    io.deferred += drawn.blockTilesDeferred;
+    return {};
+}
+
+/// What blocks that become balls in a frame change: the same frame with the shares of balls by size that
+/// blocks had a frame before, so that no motion hides their change.
+base::Status BlockFlightAccuracy::addSwitch(uint32_t frame, const BlockFlightSetting& setting,
+                                            FlightPictures& io)
+{
+    if (isOfBalls(setting, frame) && frame != frames_ / 2) {
         io.switches.push_back(0.0);
         return {};
     }
-    render::BlockSettings before = blocks;
+    render::BlockSettings before = blocksOf(setting);
     if (setting.fault == Fault::None) {
         const double step = glm::distance(eyeAt(double(frame) - 1.0), eyeAt(double(frame)));
         before.maxPixels *= float(1.0 + step / kSwitchDistance);
@@ -265,42 +277,35 @@ base::Status BlockFlightAccuracy::addFrame(uint32_t frame, const BlockFlightSett
     if (!light.ok())
         return light.status();
     const std::vector<bool>& covered = balls_.frames[frame].isCovered;
-    io.switches.push_back(meanChange(light->luminance, io.frames.back().luminance, covered, covered));
+    io.switches.push_back(meanChange(light->luminance, io.frames[frame].luminance, covered, covered));
     return {};
 }
 
-/// @param setting null: balls
-base::Result<FlightPictures> BlockFlightAccuracy::fly(const BlockFlightSetting* setting,
-                                                      const std::function<bool()>& stop)
+/// Calls add(frame) for each frame of a flight in a view of its own, whose tiles are those of one picture a
+/// frame.
+/// @param blocks with which the first frame is drawn until its tiles are there
+template <class F>
+base::Status BlockFlightAccuracy::fly(const render::BlockSettings& blocks, const std::function<bool()>& stop,
+                                      F&& add)
 {
     stage_.reset();
     auto stage = QualityStage::create(*scene_, width_, height_);
     if (!stage.ok())
         return stage.status();
     stage_ = std::move(*stage);
-    FlightPictures pictures;
-    render::BlockSettings balls;
-    balls.parallax = 0.0f;
     const render::FrameStatistics& drawn = stage_->view().renderer.statistics();
     for (uint32_t frame = 0; frame < frames_; ++frame) {
         if (base::Status status = show(frame, stop); !status)
             return status;
-        if (!setting) {
-            auto light = draw(balls, pictures.seconds);
-            if (!light.ok())
-                return light.status();
-            pictures.frames.push_back(std::move(*light));
-            continue;
-        }
         constexpr int kSettling = 16; // tiles are spread over frames
         double unused = 0.0;
         for (int k = 0; frame == 0 && k < kSettling && (k == 0 || drawn.blockTilesDeferred > 0); ++k)
-            if (const auto light = draw(blocksOf(*setting), unused); !light.ok())
+            if (const auto light = draw(blocks, unused); !light.ok())
                 return light.status();
-        if (base::Status status = addFrame(frame, *setting, pictures); !status)
+        if (base::Status status = add(frame); !status)
             return status;
     }
-    return pictures;
+    return {};
 }
 
 /// Between frames, over the pixels that the balls cover.
@@ -321,11 +326,14 @@ base::Status BlockFlightAccuracy::start(const std::function<bool()>& stop)
     if (!scene.ok())
         return scene.status();
     scene_ = std::move(*scene);
-    auto balls = fly(nullptr, stop);
-    if (!balls.ok())
-        return balls.status();
-    balls_ = std::move(*balls);
-    return {};
+    render::BlockSettings balls;
+    balls.parallax = 0.0f;
+    return fly(balls, stop, [&](uint32_t) -> base::Status {
+        auto light = draw(balls, balls_.seconds);
+        if (light.ok())
+            balls_.frames.push_back(std::move(*light));
+        return light.status();
+    });
 }
 
 /// Largest of all frames, of the mean luminance of the balls.
@@ -352,16 +360,24 @@ base::Result<AccuracySample> BlockFlightAccuracy::run(size_t index, const std::f
     if (base::Status status = start(stop); !status)
         return status;
     const BlockFlightSetting& setting = flight_.settings[index];
-    const auto pictures = fly(&setting, stop);
-    if (!pictures.ok())
-        return pictures.status();
-    const std::vector<double> changes = changesOf(*pictures), ofBalls = changesOf(balls_);
+    FlightPictures pictures;
+    if (base::Status status =
+            fly(blocksOf(setting), stop, [&](uint32_t frame) { return addFrame(frame, setting, pictures); });
+        !status)
+        return status;
+    if (flight_.isThrough)
+        if (base::Status status = fly(blocksOf(setting), stop,
+                                      [&](uint32_t frame) { return addSwitch(frame, setting, pictures); });
+            !status)
+            return status;
+    pictures.switches.resize(frames_, 0.0);
+    const std::vector<double> changes = changesOf(pictures), ofBalls = changesOf(balls_);
     const ChangeJudgment judgment = judgeChanges(changes, ofBalls, bound_);
-    const Largest largest = largestOf(*pictures, changes, ofBalls);
-    const std::vector<uint32_t>& impostors = pictures->impostors;
+    const Largest largest = largestOf(pictures, changes, ofBalls);
+    const std::vector<uint32_t>& impostors = pictures.impostors;
     AccuracySample sample;
     storeErrors(judgment.excess, sample);
-    sample.seconds = pictures->seconds;
+    sample.seconds = pictures.seconds;
     sample.items = double(frames_);
     const bool isKept = judgment.isKept() && largest.jump <= kMostJump && largest.switched <= kMostJump;
     sample.isAsPromised = impostors.front() > 0 && isKept != setting.isControl();
@@ -377,7 +393,7 @@ base::Result<AccuracySample> BlockFlightAccuracy::run(size_t index, const std::f
         {"impostors_first", impostors.front()},
         {"impostors_last", impostors.back()},
         {"impostors_per_frame", std::accumulate(impostors.begin(), impostors.end(), 0.0) / double(frames_)},
-        {"tiles_deferred_per_frame", double(pictures->deferred) / double(frames_)},
+        {"tiles_deferred_per_frame", double(pictures.deferred) / double(frames_)},
         {"seconds_balls", balls_.seconds}};
     char note[200];
     std::snprintf(note, sizeof note,

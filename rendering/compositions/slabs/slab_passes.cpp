@@ -49,8 +49,9 @@ constexpr uint32_t kAtlasUnit = 12;      ///< as in shaders/blocks/block_chord.g
 constexpr uint32_t kMaterialBinding = 4; ///< as in shaders/slabs/slab_balls.comp.glsl
 constexpr size_t kCardBytes = 32;
 constexpr size_t kTileBytes = 16;
-constexpr uint32_t kBallColumns = 1024; ///< as in shaders/slabs/slab_balls.glsl
+constexpr uint32_t kBallColumns = 2048; ///< as in shaders/slabs/slab_balls.glsl
 constexpr int kBallTexels = 11;         ///< likewise
+constexpr int kTextureSide = 16384;     ///< [texel] that every OpenGL 4.5 has
 constexpr uint32_t kListColumns = 4096; ///< likewise
 
 int tilesAlong(int texels)
@@ -155,7 +156,9 @@ ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const Sl
             if (id.valid())
                 builder.read(id);
         const uint32_t count = uint32_t(list.instances.size());
-        const int rows = int(std::bit_ceil((count + kBallColumns - 1) / kBallColumns)) * kBallTexels;
+        const uint32_t most = uint32_t(kTextureSide / kBallTexels);
+        const uint32_t needed = (count + kBallColumns - 1) / kBallColumns;
+        const int rows = int(std::max(std::min(std::bit_ceil(needed), most), needed)) * kBallTexels;
         texture =
             builder.write(builder.create({"balls as texels", int(kBallColumns), rows, Format::RGBA32F}));
         ViewBlock block = view;

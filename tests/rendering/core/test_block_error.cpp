@@ -367,6 +367,31 @@ TEST(BlockWalks, nearBlocksGetBallsBeforeFarOnesOfALargeError)
     EXPECT_EQ(few.impostors, 31u);
 }
 
+TEST(BlockWalks, blocksForWhichThereIsNeitherATileNorRoomAreSingleBalls)
+{
+    std::vector<glm::vec3> places; // each needs a tile of its own, more than the atlas has
+    for (int i = 0; i < 13 * 13; ++i)
+        places.emplace_back(1.8f * float(i % 13 - 6), 1.8f * float(i / 13 - 6), 0.0f);
+    constexpr uint32_t kBalls = 50, kMaxBalls = 120;
+    PublishedBlocks effect(1, kBalls, 0.3f, places);
+    const auto drawn = effect.walk({0.0, 0.0, -30.0}, kMaxBalls);
+    const render::BlockContent& content = effect.contents.of(0);
+    double section = 0.0;
+    size_t balls = 0, tiles = 0, single = 0;
+    for (const render::GatheredBlob& ball : drawn) {
+        section += double(ball.crossSection);
+        const bool isBlock = ball.radius == content.radius;
+        balls += !isBlock;
+        tiles += isBlock && ball.tile != 0;
+        single += isBlock && ball.tile == 0;
+    }
+    const double wanted = double(places.size() + 1) * double(content.crossSection);
+    EXPECT_NEAR(section, wanted, 1e-4 * wanted); // no medium is missing
+    EXPECT_LE(balls, kMaxBalls);
+    EXPECT_GE(tiles, 128u); // pages of the atlas; what is nearly the same shares one
+    EXPECT_GT(single, 30u);
+}
+
 TEST(BlockWalks, castersOfManyBallsAreWhatIsDrawn)
 {
     std::vector<glm::vec3> places;

@@ -172,6 +172,25 @@ TEST_F(TileCache, givesNoTileWhenThereIsNoRoomAndReplacesWhatIsUnused)
     EXPECT_EQ(tiles_.jobs().size(), 2u);
 }
 
+TEST_F(TileCache, aTileOfAnotherFinenessReplacesOneThatIsDue)
+{
+    // A block that comes nearer needs more texels, finer directions and other distances.
+    const render::BlockContent content = contentOf(1, 60'000);
+    for (const float pixels : {20.0f, 40.0f, 60.0f}) {
+        tiles_.forget();
+        tiles_.begin(settings_);
+        ASSERT_TRUE(find(content, {0, 0, -1}, 30.0f));
+        tiles_.begin(settings_);
+        for (int i = 0; i < 8; ++i)
+            find(contentOf(200 + uint64_t(i), 60'000), {0, 0, -1});
+        const size_t jobs = tiles_.jobs().size();
+        render::TileRequest request{.variant = 0, .content = &content, .along = {0, 0, -1}, .pixels = pixels};
+        request.isOptional = true;
+        EXPECT_TRUE(tiles_.find(request)) << pixels;
+        EXPECT_EQ(tiles_.jobs().size(), jobs) << pixels;
+    }
+}
+
 TEST_F(TileCache, spreadsOverFramesWhatANeighborCanReplace)
 {
     const render::BlockContent content = contentOf(1, 60'000);
