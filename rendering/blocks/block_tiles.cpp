@@ -103,7 +103,8 @@ std::optional<Tile> BlockTiles::find(const TileRequest& request)
     if (same != found_.end() && isFresh(slots_[same->second], request))
         return use(same->second);
     if (settings_.isSpread && work_ > kWorkOfFrame) {
-        const auto other = same != found_.end() ? std::optional(same->second) : neighbor(request, key, cell);
+        const auto other =
+            same != found_.end() ? std::optional(same->second) : neighbor(request, key, cell, false);
         if (other && canWait(slots_[*other], request)) {
             ++deferred_;
             return use(*other);
@@ -115,7 +116,7 @@ std::optional<Tile> BlockTiles::find(const TileRequest& request)
     }
     const auto slot = same != found_.end() ? std::optional(same->second) : slotFor(key);
     if (!slot) {
-        const auto other = neighbor(request, key, cell);
+        const auto other = neighbor(request, key, cell, true);
         return other && canWait(slots_[*other], request) ? std::optional(use(*other)) : std::nullopt;
     }
     make(*slot, request);
@@ -151,9 +152,10 @@ bool BlockTiles::canWait(const Slot& slot, const TileRequest& request) const
            std::abs(seconds) <= kMostDeferred * kMaxTileSeconds;
 }
 
-/// The existing tile of a direction and a distance nearby, or of another fineness, that differs least.
+/// The existing tile that differs least.
+/// @param isAnyFineness true: also of another distance or fineness, which is seen when it is replaced
 std::optional<uint32_t> BlockTiles::neighbor(const TileRequest& request, const Key& key,
-                                             const glm::ivec2& cell) const
+                                             const glm::ivec2& cell, bool isAnyFineness) const
 {
     std::optional<uint32_t> best;
     float least = 2.0f;
@@ -172,12 +174,9 @@ std::optional<uint32_t> BlockTiles::neighbor(const TileRequest& request, const K
             best = same->second;
         }
     };
-    for (int i = 0; i < 27; ++i) {
-        Key other = key;
-        other.nearness = uint16_t(std::max(int(key.nearness) + i / 9 - 1, 0));
-        consider(other, neighborCell(cell, {i % 3 - 1, i / 3 % 3 - 1}, key.cells));
-    }
-    for (int i = 0; i < 27; ++i) { // half, as many and twice the cells, steps and texels
+    for (int i = 0; i < 9; ++i)
+        consider(key, neighborCell(cell, {i % 3 - 1, i / 3 - 1}, key.cells));
+    for (int i = 0; isAnyFineness && i < 27; ++i) { // half, as many and twice the cells, steps and texels
         Key other = key;
         other.cells = scaledBy(i % 3 - 1, key.cells);
         other.nearnessSteps = scaledBy(i / 3 % 3 - 1, key.nearnessSteps);

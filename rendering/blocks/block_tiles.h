@@ -143,8 +143,8 @@ private:
     std::optional<uint32_t> freeSlot(int size);
     bool takePage(int size);
     void clearPage(uint32_t page);
-    std::optional<uint32_t> neighbor(const TileRequest& request, const Key& key,
-                                     const glm::ivec2& cell) const;
+    std::optional<uint32_t> neighbor(const TileRequest& request, const Key& key, const glm::ivec2& cell,
+                                     bool isAnyFineness) const;
     bool isFresh(const Slot& slot, const TileRequest& request) const;
     bool canWait(const Slot& slot, const TileRequest& request) const;
     Tile use(uint32_t slot);

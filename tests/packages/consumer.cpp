@@ -19,8 +19,7 @@ int main()
         frame = context.withCamera(frame, {0.0, 1.0, 5.0}, {0.0, 1.0, 0.0}, 0.9f, 0.1f);
         if (frame.origin[2] != 5.0 || frame.projection[11] != -1.0f)
             return 1;
-        for (int frame = 0; frame < 60; ++frame)
-            scene.update(1.0 / 60.0);
+        scene.advance(1.0);
         const fxsdk::Snapshot snapshot(scene);
         float reach = 0.0f;
         for (uint32_t g = 0; g < snapshot.info().groupsNewer; ++g)

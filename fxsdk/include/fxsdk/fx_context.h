@@ -193,7 +193,7 @@ typedef struct FxMemoryStats
     /// [byte] memory of all reservations of all scenes, a part of bytesInUse; see fx_reserve.h.
     uint64_t bytesReserved;
 
-    /// [byte] voxels of played volume sequences that are held or being read.
+    /// [byte] voxels of played volume sequences, with their coarser levels, that are held or being read.
     uint64_t sequenceBytes;
 
     /// Number of times that a frame of a volume sequence was read from its file while it played.

@@ -280,8 +280,21 @@ public:
     void destroy(FxInstanceId instance) { check(fxScene_DestroyInstance(get(), instance)); }
     bool isValid(FxInstanceId instance) { return fxScene_IsValid(get(), instance) != 0; }
 
-    /// @param seconds [s] >= 0
+    /// @param seconds [s] >= 0; of more than FxSceneDef::maxFrameTicks, 1/15 s by default, the rest is
+    /// dropped
     void update(double seconds) { check(fxScene_Update(get(), seconds)); }
+    /// Updates the scene by steps of 1/60 s, and by what remains. @param seconds [s] 0..1e6
+    void advance(double seconds)
+    {
+        constexpr double kStep = 1.0 / 60.0;
+        if (!(seconds >= 0.0 && seconds <= 1e6))
+            throw Error(FX_ERROR_INVALID_ARGUMENT, "advance: seconds is not from 0 to 1e6");
+        const auto steps = std::int64_t(seconds / kStep + 1e-6);
+        for (std::int64_t i = 0; i < steps; ++i)
+            update(kStep);
+        if (const double rest = seconds - double(steps) * kStep; rest > 1e-6 * kStep)
+            update(rest);
+    }
 
     /// @param position [m] @param rotation unit quaternion x, y, z, w @param scale [1]
     void setTransform(FxInstanceId instance, const double (&position)[3], const float (&rotation)[4],

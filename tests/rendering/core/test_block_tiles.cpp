@@ -172,23 +172,17 @@ TEST_F(TileCache, givesNoTileWhenThereIsNoRoomAndReplacesWhatIsUnused)
     EXPECT_EQ(tiles_.jobs().size(), 2u);
 }
 
-TEST_F(TileCache, aTileOfAnotherFinenessReplacesOneThatIsDue)
+TEST_F(TileCache, whereThereIsNoRoomATileOfAnotherFinenessIsGiven)
 {
-    // A block that comes nearer needs more texels, finer directions and other distances.
-    const render::BlockContent content = contentOf(1, 60'000);
-    for (const float pixels : {20.0f, 40.0f, 60.0f}) {
-        tiles_.forget();
-        tiles_.begin(settings_);
-        ASSERT_TRUE(find(content, {0, 0, -1}, 30.0f));
-        tiles_.begin(settings_);
-        for (int i = 0; i < 8; ++i)
-            find(contentOf(200 + uint64_t(i), 60'000), {0, 0, -1});
-        const size_t jobs = tiles_.jobs().size();
-        render::TileRequest request{.variant = 0, .content = &content, .along = {0, 0, -1}, .pixels = pixels};
-        request.isOptional = true;
-        EXPECT_TRUE(tiles_.find(request)) << pixels;
-        EXPECT_EQ(tiles_.jobs().size(), jobs) << pixels;
-    }
+    settings_.isSpread = false;
+    tiles_.begin(settings_);
+    const render::BlockContent content = contentOf(1);
+    ASSERT_TRUE(find(content, {0, 0, -1}, 100.0f));
+    for (uint64_t i = 2; find(contentOf(i), {0, 0, -1}, 100.0f);)
+        ++i;
+    for (const float pixels : {40.0f, 60.0f})
+        EXPECT_TRUE(find(content, {0, 0, -1}, pixels)) << pixels;
+    EXPECT_FALSE(find(contentOf(1000), {0, 0, -1}, 60.0f)); // of other content there is none
 }
 
 TEST_F(TileCache, spreadsOverFramesWhatANeighborCanReplace)
