@@ -87,11 +87,10 @@ void VolumeSequence::prefetch(uint32_t frame, bool withCoarser)
             const bool isCoarserWanted = withCoarser && def_.makeCoarser;
             bytes += def_.frames[wanted].bytes;
             ofLevels += isCoarserWanted ? def_.frames[wanted].coarserBytes : slot.coarserBytes;
-            const bool fits = bytes + ofLevels <= def_.memory;
-            if (k > 1 && !fits && (k > 2 || bytes > def_.memory))
+            if (k > 1 && bytes + ofLevels > def_.memory)
                 break;
             slot.lastUse = uses_ + count() - k; // the next one is needed most
-            slot.wantsCoarser = slot.wantsCoarser || (isCoarserWanted && (k < 2 || fits));
+            slot.wantsCoarser = slot.wantsCoarser || isCoarserWanted;
             if (slot.isQueued || !slot.isIncomplete())
                 continue;
             slot.isQueued = true;
@@ -149,6 +148,7 @@ Result<VolumeSequence::Volume> VolumeSequence::wait(uint32_t frame)
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !slots_[frame].isReading; });
     slots_[frame].lastUse = ++uses_;
+    shown_ = frame;
     if (slots_[frame].volume)
         return slots_[frame].volume;
     return readInto(frame, lock);

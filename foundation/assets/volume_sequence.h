@@ -46,8 +46,8 @@ public:
         glm::vec3 origin{0.0f};    ///< [m] center of the voxel (0, 0, 0) of all frames
         bool hasVelocities = true; ///< false: a frame has none
         /// [byte] upper bound of the voxels of all frames that are held, with their coarser levels. Those of
-        /// the two frames that are shown and the voxels of the next one are held even if they do not fit with
-        /// levels.
+        /// the two frames that are shown are held even if they do not fit. If those of three frames do not
+        /// fit with the levels that are needed, the next frame is not read ahead.
         uint64_t memory = 0;
         std::vector<Frame> frames;
         std::vector<Volume> held; ///< of the first frames; together at most `memory`
@@ -131,7 +131,7 @@ private:
     std::deque<uint32_t> queue_; ///< to be read
     Counts counts_;
     uint64_t uses_ = 0;
-    uint32_t shown_ = 0; ///< frame of the last prefetch()
+    uint32_t shown_ = 0; ///< frame of the last prefetch() or wait()
     bool isEnding_ = false, waits_ = false;
     std::thread reader_;
 };

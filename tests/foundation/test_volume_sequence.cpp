@@ -212,7 +212,7 @@ TEST(VolumeSequence, coarserLevelsOfTheFramesShownAreHeldWhateverTheMemory)
               3 * volumeOf(0)->bytes() + 2 * levelsOf(*volumeOf(0))->bytes() + kSlack);
 }
 
-TEST(VolumeSequence, framesAreReadOnceAndAheadWhereLevelsAreLargerThanVoxels)
+TEST(VolumeSequence, framesThatAreShownAreReadOnceWhereLevelsAreLargerThanVoxels)
 {
     Disk disk;
     VolumeSequence::Def def = disk.withLevels(3, [] {});
@@ -223,16 +223,8 @@ TEST(VolumeSequence, framesAreReadOnceAndAheadWhereLevelsAreLargerThanVoxels)
         sequence.prefetch(0, true);
         ASSERT_TRUE(levelsCome(sequence, 0));
         ASSERT_TRUE(levelsCome(sequence, 1));
-        ASSERT_TRUE(comes(sequence, 2)) << "it is shown next";
     }
-    EXPECT_EQ(disk.reads, 3);
-    for (uint32_t i = 1; i < kFrames; ++i) {
-        sequence.prefetch(i, true);
-        EXPECT_TRUE(sequence.find(i)) << i;
-        EXPECT_TRUE(sequence.find((i + 1) % kFrames)) << i << ": it was read ahead";
-        ASSERT_TRUE(levelsCome(sequence, (i + 1) % kFrames)) << i;
-        ASSERT_TRUE(comes(sequence, (i + 2) % kFrames)) << i;
-    }
+    EXPECT_EQ(disk.reads, 2);
 }
 
 TEST(VolumeSequence, withoutMemoryForLevelsThereAreNoneAndVoxelsStay)
