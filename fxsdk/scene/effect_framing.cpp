@@ -1,6 +1,7 @@
 #include "fxsdk/scene/effect_framing.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/block_groups.h"
 #include "foundation/snapshot/gpu_particles.h"
 #include "foundation/snapshot/particle_kind.h"
 
@@ -87,8 +88,7 @@ void EffectFraming::addParticles(const base::SnapshotGroup& group)
     namespace column = base::particle_column;
     const base::Placement& placement = group.info().placement;
     for (size_t i = 0; i < group.count(); ++i) {
-        const glm::vec3 local(group.column(column::PositionX)[i], group.column(column::PositionY)[i],
-                              group.column(column::PositionZ)[i]);
+        const glm::vec3 local = base::vectorAt(group, column::PositionX, uint32_t(i));
         const double radius = double(group.column(column::Radius)[i] * placement.scale);
         addBall({inWorld(placement, local), radius, discOf(radius)});
     }
@@ -109,8 +109,7 @@ void EffectFraming::addMedia(const base::SnapshotGroup& group)
     namespace column = base::blob_column;
     const base::Placement& placement = group.info().placement;
     for (size_t i = 0; i < group.count(); ++i) {
-        const glm::vec3 local(group.column(column::PositionX)[i], group.column(column::PositionY)[i],
-                              group.column(column::PositionZ)[i]);
+        const glm::vec3 local = base::vectorAt(group, column::PositionX, uint32_t(i));
         const double radius = double(group.column(column::Radius)[i] * placement.scale);
         const double section =
             double(group.column(column::CrossSection)[i]) * double(placement.scale) * double(placement.scale);

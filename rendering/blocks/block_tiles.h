@@ -85,8 +85,8 @@ public:
 
     void begin(const TileSettings& settings);
     /// The tile that shows the content best. Tiles that do not exist yet are made in this frame, see jobs();
-    /// if a tile of a direction and distance nearby exists and many tiles are to be made, or there is no
-    /// room, that one is given instead.
+    /// if a tile of a neighboring direction exists and many tiles are to be made, that one is given instead.
+    /// Where there is no room, a tile of another distance or fineness may be given.
     /// @return no value if there is no room, the content has too many balls, or many tiles are to be made and
     /// this one is optional
     std::optional<Tile> find(const TileRequest& request);
