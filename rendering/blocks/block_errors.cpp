@@ -97,10 +97,13 @@ TileChoice chooseTile(const TileError& error, const TileSource& source, const Ti
     const auto ofTexels = [&](size_t size) {
         return squareOf(color) + squareOf(source.value * wider * of(error.texels[size]));
     };
+    size_t finest = kTileSizes - 1;
+    while (finest > 0 && kMinTile << finest > view.finest)
+        --finest;
     TileChoice choice;
-    choice.least = kSafety * std::sqrt(ofTexels(kTileSizes - 1) + squareOf(shift * kFinestAngle));
+    choice.least = kSafety * std::sqrt(ofTexels(finest) + squareOf(shift * kFinestAngle));
     size_t size = 0;
-    while (size + 1 < kTileSizes && ofTexels(size) > 0.5f * most)
+    while (size < finest && ofTexels(size) > 0.5f * most)
         ++size;
     choice.texels = kMinTile << size;
     const float rest = std::sqrt(std::max(most - ofTexels(size), 0.0f));

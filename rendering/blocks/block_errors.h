@@ -30,13 +30,14 @@ struct TileChoice
 {
     int texels = kMinTile; ///< side of the tile
     float angle = 0.0f;    ///< [rad] largest difference of directions
-    float least = 0.0f;    ///< [1] predicted error of the finest tile, in units of white
+    float least = 0.0f;    ///< [1] predicted error of the finest tile that it may have, in units of white
 };
 /// How a block is seen.
 struct TileView
 {
     float pixels = 96.0f;  ///< [pixel] diameter on the picture
     float nearness = 0.0f; ///< [1] radius over distance
+    int finest = kMaxTile; ///< [texel] largest side of its tile
 };
 /// @param limit [1] in units of white, > 0
 TileChoice chooseTile(const TileError& error, const TileSource& source, const TileView& view, float limit);

@@ -14,7 +14,10 @@ constexpr uint32_t kSlotsOfPage = (kMaxTile / kMinTile) * (kMaxTile / kMinTile);
 constexpr uint32_t kMaxPages = kTilePageColumns * kMaxTilePageRows;
 /// Balls times 8 x 8 texels that the jobs of a frame may have beyond the tiles that neither others nor balls
 /// can replace.
-constexpr uint64_t kWorkOfFrame = uint64_t(1) << 20;
+constexpr uint64_t kWorkOfFrame = uint64_t(1) << 22;
+/// [1] Tiles become finer again where there is room for so many times the blocks, so that they do not become
+/// finer and coarser in turn.
+constexpr float kRoomAgain = 1.25f;
 
 /// At least 4: kMaxNearness is one of them, and a tile of an eye in the block has no size.
 constexpr int kMinNearnessSteps = 4, kMaxNearnessSteps = 4096;
@@ -60,6 +63,7 @@ void BlockTiles::begin(const TileSettings& settings)
     ++frame_;
     work_ = 0;
     deferred_ = 0;
+    blocks_ = 0;
 }
 
 void BlockTiles::forget()
@@ -70,6 +74,17 @@ void BlockTiles::forget()
     jobs_.clear();
     classes_ = {};
     deferred_ = 0;
+}
+
+void BlockTiles::chooseFinest()
+{
+    const auto fits = [&](int size, float blocks) {
+        return blocks * float(size) * float(size) <= float(kMaxPages) * float(kMaxTile) * float(kMaxTile);
+    };
+    while (finest_ > kMinTile && !fits(finest_, float(blocks_)))
+        finest_ /= 2;
+    while (finest_ < kMaxTile && fits(2 * finest_, kRoomAgain * float(blocks_)))
+        finest_ *= 2;
 }
 
 int BlockTiles::pageRows() const

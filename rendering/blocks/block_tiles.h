@@ -91,6 +91,14 @@ public:
     /// this one is optional
     std::optional<Tile> find(const TileRequest& request);
 
+    /// Counts a block whose error is limited.
+    void countBlock() { ++blocks_; }
+    /// [texel] Largest side of tiles that are finer than the picture because of their error, at which the
+    /// atlas has room for one tile of each block that was counted.
+    int finest() const { return finest_; }
+    /// Chooses finest() of the next frame by the blocks that were counted since begin().
+    void chooseFinest();
+
     std::span<const TileJob> jobs() const { return jobs_; }
     uint32_t deferred() const
     {
@@ -159,6 +167,8 @@ private:
     uint64_t frame_ = 0;
     uint64_t work_ = 0; ///< of the jobs of this frame
     uint32_t deferred_ = 0;
+    uint32_t blocks_ = 0; ///< that were counted in this frame
+    int finest_ = kMaxTile;
 };
 
 } // namespace fx::render

@@ -157,12 +157,13 @@ float BlockWalk::shareByError(const BlockFrame& frame, TileRequest& io) const
     const BlockContent& content = *io.content;
     if (!settings_->errors || !(settings_->error > 0.0f) || !hasTiles(content))
         return 1.0f;
+    tiles_.countBlock();
     const TileErrors* const errors = settings_->errors->find(io.variant, *contents_, seconds_);
     if (!errors)
         return io.isOptional ? 0.0f : 1.0f;
     const TileChoice choice =
         chooseTile(errorAt(*errors, frame.density), sourceOf(content, settings_->exposure),
-                   {io.pixels, io.nearness}, settings_->error);
+                   {io.pixels, io.nearness, tiles_.finest()}, settings_->error);
     io.texels = choice.texels;
     io.angle = choice.angle;
     return io.isOptional ? 1.0f - glm::smoothstep(kFadeError, 1.0f, choice.least / settings_->error) : 1.0f;

@@ -85,6 +85,7 @@ base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
         return {};
     isPending_ = true;
     walk(in);
+    tiles_.chooseFinest();
     if (tiles_.pageRows() > rows_) {
         // A larger atlas is empty: all tiles are drawn anew.
         rows_ = tiles_.pageRows();

@@ -256,6 +256,10 @@ TEST(TileChoices, areTheCoarsestWithinTheLimit)
     // Few pixels may be those of the largest errors.
     EXPECT_GT(render::chooseTile(error, source, {6.0f, 0.0f}, 0.1f).least,
               1.1f * render::chooseTile(error, source, {}, 0.1f).least);
+    // Tiles are no finer than they may be, which the error that is left tells.
+    const render::TileChoice coarse = render::chooseTile(error, source, {96.0f, 0.0f, 32}, 0.005f);
+    EXPECT_EQ(coarse.texels, 32);
+    EXPECT_GT(coarse.least, 0.01f);
     error.light = {0.01f, 0.01f};
     EXPECT_GE(render::chooseTile(error, {2.0f, 1.0f}, {}, 0.1f).least, 0.02f);
 }

@@ -185,6 +185,47 @@ TEST_F(TileCache, whereThereIsNoRoomATileOfAnotherFinenessIsGiven)
     EXPECT_FALSE(find(contentOf(1000), {0, 0, -1}, 60.0f)); // of other content there is none
 }
 
+TEST_F(TileCache, hasRoomForATileOfTheFinestSideOfEachBlock)
+{
+    settings_.isSpread = false;
+    int last = 2 * render::kMaxTile;
+    for (const uint32_t blocks : {128u, 512u, 2000u, 8192u}) {
+        tiles_.begin(settings_);
+        for (uint32_t i = 0; i < blocks; ++i)
+            tiles_.countBlock();
+        tiles_.chooseFinest();
+        EXPECT_LT(tiles_.finest(), last) << blocks;
+        last = tiles_.finest();
+        tiles_.begin(settings_);
+        for (uint32_t i = 0; i < blocks; ++i) {
+            const render::BlockContent content = contentOf(i);
+            render::TileRequest request{0, &content, {0.0f, 0.0f, 1.0f}, 8.0f};
+            request.texels = tiles_.finest();
+            const auto tile = tiles_.find(request);
+            ASSERT_TRUE(tile.has_value()) << i << " of " << blocks;
+            ASSERT_EQ(tile->size, tiles_.finest());
+        }
+    }
+    EXPECT_EQ(last, render::kMinTile);
+}
+
+TEST_F(TileCache, tilesBecomeFinerAgainWhereThereIsRoomToSpare)
+{
+    const auto finestOf = [&](uint32_t blocks) {
+        tiles_.begin(settings_);
+        for (uint32_t i = 0; i < blocks; ++i)
+            tiles_.countBlock();
+        tiles_.chooseFinest();
+        return tiles_.finest();
+    };
+    EXPECT_EQ(finestOf(128), render::kMaxTile);
+    EXPECT_EQ(finestOf(129), render::kMaxTile / 2);
+    EXPECT_EQ(finestOf(128), render::kMaxTile / 2); // not in turn
+    EXPECT_EQ(finestOf(100), render::kMaxTile);
+    EXPECT_EQ(finestOf(1'000'000), render::kMinTile);
+    EXPECT_EQ(finestOf(0), render::kMaxTile);
+}
+
 TEST_F(TileCache, spreadsOverFramesWhatANeighborCanReplace)
 {
     const render::BlockContent content = contentOf(1, 60'000);
