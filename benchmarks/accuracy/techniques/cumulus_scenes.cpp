@@ -19,7 +19,9 @@ base::Result<nlohmann::json> cumulusPreset()
     const auto text = asset::AssetResolver("", preset::libraryFiles()).read(kName, preset::kPresetBytes);
     if (!text.ok())
         return text.status();
-    return nlohmann::json::parse(*text);
+    auto preset = nlohmann::json::parse(*text);
+    preset["scattering"] = "closed_form"; // the light of a network follows with a delay of frames
+    return preset;
 }
 
 base::Result<scene_file::SceneFile> sceneOf(const nlohmann::json& preset)
