@@ -109,17 +109,20 @@ private:
         giveBack();
         const uint64_t capacity = pool_.entries_.capacity();
         const uint64_t wanted = std::max<uint64_t>(kBlock, (entries + kLanes - 1) / kLanes * kLanes);
-        next_ = std::min(pool_.used_.fetch_add(wanted, std::memory_order_relaxed), capacity);
+        next_ = std::min(pool_.used_.fetch_add(wanted, std::memory_order_acquire), capacity);
         end_ = std::min(next_ + wanted, capacity);
         exhausted_ = end_ - next_ < entries;
         return !exhausted_;
     }
     /// Returns the unused part of the block to the pool, unless another writer has taken the next block.
+    /// Writers also write to places behind their last list, which lie in that part: they have done so before
+    /// the next writer takes it.
     void giveBack()
     {
         uint64_t expected = end_;
         if (end_ > next_)
-            pool_.used_.compare_exchange_strong(expected, next_, std::memory_order_relaxed);
+            pool_.used_.compare_exchange_strong(expected, next_, std::memory_order_release,
+                                                std::memory_order_relaxed);
         end_ = next_;
     }
 
