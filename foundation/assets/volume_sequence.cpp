@@ -36,6 +36,10 @@ VolumeSequence::VolumeSequence(Def def) : def_(std::move(def)), slots_(def_.fram
     }
     counts_.peakBytes = counts_.bytes;
     def_.held = {};
+    for (uint32_t i = 0; i < count(); ++i) {
+        hasOneLattice_ = hasOneLattice_ && !def_.frames[i].lattice;
+        largestSide_ = std::max(largestSide_, lattice(i).side);
+    }
 }
 
 VolumeSequence::~VolumeSequence()

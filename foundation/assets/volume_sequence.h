@@ -6,6 +6,7 @@
 /// the coarser levels of frames that are drawn small. Threads: any.
 #pragma once
 
+#include "foundation/assets/volume_lattice.h"
 #include "foundation/assets/volume_levels.h"
 #include "foundation/assets/voxel_volume.h"
 #include "foundation/result/status.h"
@@ -16,12 +17,15 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
 namespace fx::base {
 
 constexpr uint32_t kMaxSequenceFrames = 4096;
+/// [1] of sides of voxels of two frames: with it, a frame needs 3.4 times its bricks on the finer lattice.
+constexpr double kMostSideRatio = 1.5;
 
 class VolumeSequence
 {
@@ -38,12 +42,15 @@ public:
         std::vector<VolumeCells> cells; ///< volumeCells() of the voxels
         uint64_t bytes = 0;             ///< [byte] VoxelVolume::bytes()
         uint64_t coarserBytes = 0;      ///< [byte] upper bound of its coarser levels
+        /// Of its voxels, which has room for the bricks of the frames before and behind, see isNear(). Empty:
+        /// that of all frames.
+        std::optional<VolumeLattice> lattice = {};
     };
 
     struct Def
     {
-        float side = 1.0f;         ///< [m] of the voxels of all frames
-        glm::vec3 origin{0.0f};    ///< [m] center of the voxel (0, 0, 0) of all frames
+        float side = 1.0f;         ///< [m] of the voxels of all frames without a lattice of their own
+        glm::vec3 origin{0.0f};    ///< [m] center of the voxel (0, 0, 0), likewise
         bool hasVelocities = true; ///< false: a frame has none
         /// [byte] upper bound of the voxels of all frames that are held, with their coarser levels. Those of
         /// the two frames that are shown are held even if they do not fit. If those of three frames do not
@@ -72,8 +79,18 @@ public:
     uint32_t count() const { return uint32_t(def_.frames.size()); }
     const std::vector<VolumeCells>& cells(uint32_t frame) const { return def_.frames[frame].cells; }
     uint64_t bytes(uint32_t frame) const { return def_.frames[frame].bytes; } ///< [byte] of the voxels
-    float side() const { return def_.side; }
-    const glm::vec3& origin() const { return def_.origin; }
+    VolumeLattice lattice(uint32_t frame) const
+    {
+        return def_.frames[frame].lattice.value_or(VolumeLattice{glm::dvec3(def_.origin), double(def_.side)});
+    }
+    bool hasOneLattice() const { return hasOneLattice_; }
+    double largestSide() const { return largestSide_; } ///< [m] of a voxel
+    /// Whether a frame is shown on the lattice of another: voxels may be larger than there, but not so much
+    /// that too many bricks would be needed.
+    static bool isNear(const VolumeLattice& lattice, const VolumeLattice& frame)
+    {
+        return frame.side <= kMostSideRatio * lattice.side;
+    }
     bool hasVelocities() const { return def_.hasVelocities; }
     uint64_t memory() const { return def_.memory; }
     /// [byte] Memory below which no frame can be read ahead: that of the largest three successive frames.
@@ -124,7 +141,9 @@ private:
     Result<Volume> readInto(uint32_t frame, std::unique_lock<std::mutex>& lock);
     void makeRoom(uint64_t bytes);
 
-    Def def_;                  ///< constant after construction
+    Def def_; ///< constant after construction
+    bool hasOneLattice_ = true;
+    double largestSide_ = 0.0;
     mutable std::mutex mutex_; ///< guards everything below
     std::condition_variable changed_;
     std::vector<Slot> slots_;

@@ -1,10 +1,11 @@
 #include "foundation/assets/voxel_volume.h"
 
+#include "foundation/assets/volume_lattice.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 
 namespace fx::base {
 
@@ -61,11 +62,6 @@ CellSums sumsOf(const VoxelVolume& volume, const BrickIndex& index, const glm::i
                 addSample(volume, {voxel, shareAlong(x) * shareAlong(y) * shareAlong(z)}, sums);
             }
     return sums;
-}
-
-bool isBefore(const glm::ivec3& a, const glm::ivec3& b)
-{
-    return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
 }
 
 /// Bricks whose cells reach stored voxels: the stored bricks and those before them, ascending.

@@ -7,8 +7,8 @@
 /// cells contain medium: up to eight for a stored brick, see VolumeCells. The ball has the cross section of
 /// the cells, is concentric with the brick, and contains the brick. Readers that know this kind replace the
 /// balls by the voxels. Other readers, and compositions without voxels, use the balls. The balls of a
-/// sequence are those of all frames that are shown between the previous snapshot and this one; their cross
-/// sections are interpolated between the frames, and may be as good as 0.
+/// sequence are those of all frames that are shown between the previous snapshot and this one, on the lattice
+/// of one of them; their cross sections are interpolated between the frames, and may be as good as 0.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -30,6 +30,7 @@ enum : size_t
     /// the sequence, which has begun again.
     FrameBefore,
     FrameSeconds, ///< [s] from a frame to the next; 0: the asset is a single volume
+    Lattice,      ///< [1] of a sequence: the frame whose voxels have this origin and side
     Count
 };
 }
@@ -42,7 +43,7 @@ constexpr float kVolumeCasterRadius = 4.0f;
 
 inline constexpr ColumnDesc kVolumeConstants[volume_constant::Count] = {
     {"asset", "1"},   {"originX", "m"}, {"originY", "m"},     {"originZ", "m"},      {"side", "m"},
-    {"density", "1"}, {"frame", "1"},   {"frameBefore", "1"}, {"frameSeconds", "s"},
+    {"density", "1"}, {"frame", "1"},   {"frameBefore", "1"}, {"frameSeconds", "s"}, {"lattice", "1"},
 };
 
 inline constexpr KindDesc kVolumeKind{"volume", {}, kVolumeConstants, false};

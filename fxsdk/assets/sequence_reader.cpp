@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fx::asset {
 
@@ -19,6 +20,7 @@ using base::Status;
 
 constexpr double kSameSide = 1e-5;  // relative difference of sides that counts as rounding
 constexpr double kOnLattice = 1e-2; // [voxel] of origins, likewise
+constexpr double kFarthest = 1e6;   // [brick]
 constexpr uint64_t kMebibyte = 1 << 20;
 
 Status inFile(std::string_view name, const Status& why)
@@ -26,31 +28,50 @@ Status inFile(std::string_view name, const Status& why)
     return {why.code(), "asset \"" + std::string(name) + "\": " + why.message()};
 }
 
-/// A lattice of bricks, and a frame's place on it.
-struct Lattice
+/// [brick] From the voxel (0, 0, 0) of the lattice to that of another; nothing if it is no whole number, or
+/// if voxels have another side.
+std::optional<glm::ivec3> offsetOf(const base::VolumeLattice& own, const base::VolumeLattice& lattice)
 {
-    double side = 0.0;      // [m] of a voxel; 0: not known yet
-    glm::dvec3 origin{0.0}; // [m] center of the voxel (0, 0, 0) of the first frame
-};
-
-/// [brick] From the voxel (0, 0, 0) of the lattice to that of the volume.
-base::Result<glm::ivec3> offsetOf(const base::VoxelVolume& volume, const Lattice& lattice)
-{
-    const auto side = double(volume.side);
-    if (!(std::abs(side - lattice.side) <= kSameSide * lattice.side))
-        return Status(Code::Schema,
-                      "voxels have another side than in the first frame; export all frames with "
-                      "the same voxel size");
-    const glm::dvec3 bricks =
-        (glm::dvec3(volume.origin) - lattice.origin) / (lattice.side * base::kVolumeBrickSide);
+    if (!(std::abs(own.side - lattice.side) <= kSameSide * lattice.side))
+        return std::nullopt;
+    const glm::dvec3 bricks = (own.origin - lattice.origin) / (lattice.side * base::kVolumeBrickSide);
     const glm::dvec3 whole = glm::round(bricks);
     for (int a = 0; a < 3; ++a)
         if (!(std::abs(bricks[a] - whole[a]) * base::kVolumeBrickSide <= kOnLattice) ||
-            !(std::abs(whole[a]) < 1e6))
-            return Status(Code::Schema,
-                          "voxels are not on the lattice of the first frame; export all frames with the same "
-                          "transform");
+            !(std::abs(whole[a]) < kFarthest))
+            return std::nullopt;
     return glm::ivec3(whole);
+}
+
+/// [brick] A box of bricks, both ends included.
+struct BrickBox
+{
+    glm::ivec3 low{0}, high{0};
+
+    void add(const BrickBox& other)
+    {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+};
+
+BrickBox boxOf(const base::VoxelVolume& volume)
+{
+    BrickBox box{volume.bricks.front(), volume.bricks.front()};
+    for (const glm::ivec3& brick : volume.bricks)
+        box.add({brick, brick});
+    return box;
+}
+
+/// The bricks whose cells have medium of a box of bricks of another lattice, see base::cellsOn().
+BrickBox cellsBoxOn(const base::VolumeLattice& to, const BrickBox& box, const base::VolumeLattice& from)
+{
+    constexpr double kBrick = base::kVolumeBrickSide;
+    const base::LatticeMap map(from, to);
+    const glm::dvec3 low = map(kBrick * glm::dvec3(box.low - 1)) / kBrick;
+    const glm::dvec3 high = map(kBrick * glm::dvec3(box.high + 1)) / kBrick;
+    return {glm::ivec3(glm::floor(glm::clamp(low, -kFarthest, kFarthest))),
+            glm::ivec3(glm::floor(glm::clamp(high, -kFarthest, kFarthest)))};
 }
 
 /// What is known of a file after its first reading.
@@ -58,7 +79,7 @@ struct KnownFile
 {
     std::string name;
     uint64_t hash = 0;
-    glm::ivec3 offset{0}; // [brick] of the frame, such that all bricks are in range
+    glm::ivec3 offset{0}; // [brick] from the file to the lattice on which all bricks are in range
 };
 
 base::Result<base::VoxelVolume> parseFrame(const std::string& bytes, const KnownFile& file)
@@ -82,37 +103,19 @@ public:
             base::Result<base::VoxelVolume> volume = readFrame(i);
             if (!volume)
                 return volume.status();
-            if (i == 0)
-                lattice_ = {double(volume->side), glm::dvec3(volume->origin)};
-            const base::Result<glm::ivec3> offset = offsetOf(*volume, lattice_);
-            if (!offset)
-                return inFile(known_[i].name, offset.status());
-            known_[i].offset = *offset;
             hasVelocities_ = hasVelocities_ && !volume->velocity.empty();
-            const auto [low, high] = boxOf(*volume);
-            low_ = i == 0 ? low + *offset : glm::min(low_, low + *offset);
-            high_ = i == 0 ? high + *offset : glm::max(high_, high + *offset);
-            for (int a = 0; a < 3; ++a)
-                if (high_[a] - low_[a] >= base::kMaxVolumeBricksPerAxis - 1)
-                    return inFile(
-                        known_[i].name,
-                        {Code::TooLarge, "the frames together have more than " +
-                                             std::to_string((base::kMaxVolumeBricksPerAxis - 1) * 8) +
-                                             " voxels along an axis: use larger voxels"});
+            lattices_.push_back({glm::dvec3(volume->origin), double(volume->side)});
+            boxes_.push_back(boxOf(*volume));
             take(i, *volume);
         }
-        return {};
+        return placeOnOneLattice() ? placeAll() : placeEach();
     }
 
     base::Result<std::shared_ptr<base::VolumeSequence>> finish(ReadBytes readAgain)
     {
         base::VolumeSequence::Def def;
-        const glm::ivec3 shift = 1 - low_;
-        for (KnownFile& file : known_)
-            file.offset += shift;
-        def.side = float(lattice_.side);
-        def.origin =
-            glm::vec3(lattice_.origin - lattice_.side * double(base::kVolumeBrickSide) * glm::dvec3(shift));
+        def.side = float(lattices_[0].side);
+        def.origin = glm::vec3(lattices_[0].origin);
         def.hasVelocities = hasVelocities_;
         def.memory = files_.memory;
         def.makeCoarser = render::coarserLevels;
@@ -120,6 +123,8 @@ public:
         for (uint32_t i = 0; i < files_.count; ++i) {
             base::VolumeSequence::Frame& frame = frames_[i];
             all += frame.bytes;
+            if (!hasOneLattice_)
+                frame.lattice = lattices_[i];
             for (base::VolumeCells& cells : frame.cells)
                 cells.brick += known_[i].offset;
             for (glm::ivec3& brick : bricks_[i])
@@ -161,14 +166,67 @@ public:
     uint64_t hash() const { return hash_; }
 
 private:
-    static std::pair<glm::ivec3, glm::ivec3> boxOf(const base::VoxelVolume& volume)
+    /// Finds the bricks of all frames on the lattice of the first, if they are on it.
+    bool placeOnOneLattice()
     {
-        glm::ivec3 low = volume.bricks.front(), high = low;
-        for (const glm::ivec3& brick : volume.bricks) {
-            low = glm::min(low, brick);
-            high = glm::max(high, brick);
+        for (uint32_t i = 0; i < files_.count && hasOneLattice_; ++i) {
+            const std::optional<glm::ivec3> offset = offsetOf(lattices_[i], lattices_[0]);
+            hasOneLattice_ = offset.has_value();
+            known_[i].offset = offset.value_or(glm::ivec3(0));
         }
-        return {low, high};
+        return hasOneLattice_;
+    }
+
+    /// Moves all frames together, such that their bricks are in range.
+    Status placeAll()
+    {
+        BrickBox all;
+        for (uint32_t i = 0; i < files_.count; ++i) {
+            const glm::ivec3 offset = known_[i].offset;
+            const BrickBox own{boxes_[i].low + offset, boxes_[i].high + offset};
+            i == 0 ? void(all = own) : all.add(own);
+            for (int a = 0; a < 3; ++a)
+                if (all.high[a] - all.low[a] >= base::kMaxVolumeBricksPerAxis - 1)
+                    return inFile(known_[i].name, tooWide("the frames together"));
+        }
+        for (KnownFile& file : known_)
+            file.offset += 1 - all.low;
+        shift(lattices_[0], 1 - all.low);
+        return {};
+    }
+
+    /// Moves the bricks of each frame, such that also those of the frames that are shown with it are in
+    /// range.
+    Status placeEach()
+    {
+        const uint32_t count = files_.count;
+        std::vector<base::VolumeLattice> shifted = lattices_;
+        for (uint32_t i = 0; i < count; ++i) {
+            BrickBox box{boxes_[i].low - 1, boxes_[i].high};
+            for (const uint32_t other : {(i + count - 1) % count, (i + 1) % count})
+                if (base::VolumeSequence::isNear(lattices_[i], lattices_[other]))
+                    box.add(cellsBoxOn(lattices_[i], boxes_[other], lattices_[other]));
+            for (int a = 0; a < 3; ++a)
+                if (box.high[a] - box.low[a] >= base::kMaxVolumeBricksPerAxis)
+                    return inFile(known_[i].name, tooWide("the frame and those beside it"));
+            known_[i].offset = -box.low;
+            shift(shifted[i], known_[i].offset);
+        }
+        lattices_ = std::move(shifted);
+        return {};
+    }
+
+    static Status tooWide(const std::string& frames)
+    {
+        return {Code::TooLarge, frames + " have more than " +
+                                    std::to_string((base::kMaxVolumeBricksPerAxis - 1) * 8) +
+                                    " voxels along an axis: use larger voxels"};
+    }
+
+    /// @param way [brick] that bricks move
+    static void shift(base::VolumeLattice& io, const glm::ivec3& way)
+    {
+        io.origin -= io.side * double(base::kVolumeBrickSide) * glm::dvec3(way);
     }
 
     base::Result<base::VoxelVolume> readFrame(uint32_t i)
@@ -198,8 +256,9 @@ private:
 
     const SequenceFiles& files_;
     const ReadBytes& read_;
-    Lattice lattice_;
-    glm::ivec3 low_{0}, high_{0}; // [brick] box of all frames, from the voxel (0, 0, 0) of the lattice
+    std::vector<base::VolumeLattice> lattices_; // of each frame
+    std::vector<BrickBox> boxes_;               // of each frame, as in its file
+    bool hasOneLattice_ = true;                 // false: each frame is on its own
     bool hasVelocities_ = true;
     std::vector<KnownFile> known_;
     std::vector<base::VolumeSequence::Frame> frames_;

@@ -23,11 +23,12 @@ struct SequenceFiles
 /// Reads bytes by name. It is called again by the thread of the sequence if `isLasting`.
 using ReadBytes = std::function<base::Result<std::string>(std::string_view name)>;
 
-/// Reads all files once, and keeps as many of the first ones as the memory holds. All frames must have voxels
-/// of the same side on one lattice. A file that has another content when it is read again is an error.
+/// Reads all files once, and keeps as many of the first ones as the memory holds. Frames whose
+/// voxels all have one side and are on one lattice share it; otherwise each has its own. A file that has
+/// another content when it is read again is an error.
 /// @param read for this call  @param readAgain for later; empty: all voxels have to fit into the memory
 /// @param outHash receives a hash of the contents of all files
-/// @return errors of `read` and parseVolume(), TooLarge, Schema for another lattice; they name the file
+/// @return errors of `read` and parseVolume(), TooLarge; they name the file
 base::Result<std::shared_ptr<base::VolumeSequence>>
 readSequence(const SequenceFiles& files, const ReadBytes& read, ReadBytes readAgain, uint64_t& outHash);
 

@@ -5,6 +5,7 @@
 #include "rendering/volumes/volume_levels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace fx::render {
@@ -70,7 +71,7 @@ std::optional<ShownVoxels> VolumeVoxels::find(const base::AssetTable* assets, co
         const FramePair pair = framePair(volume, sequence->count());
         shown.first.frame = pair.first;
         shown.second.frame = pair.second;
-        shown.moment = {pair.part, sequence->hasVelocities() ? volume.frameSeconds : 0.0};
+        shown.moment = momentOf(volume, pair, *sequence);
         sequence->prefetch(pair.first, std::ranges::count(small_, volume.asset, &SmallSequence::asset) > 0);
     }
     for (const VoxelsName name : {shown.first, shown.second}) {
@@ -175,6 +176,8 @@ void VolumeVoxels::import(FrameGraph& graph, const ShownVoxels& voxels, int leve
         block.low = glm::ivec4(held.low, int(held.bricks));
         block.size = glm::ivec4(held.size, 0);
         block.light = glm::vec4(held.brightest, 0.0f, 0.0f, 0.0f);
+        const base::LatticeMap& map = k == 0 ? voxels.moment.toFirst : voxels.moment.toSecond;
+        block.place = glm::vec4(glm::vec3(map.offset * std::ldexp(1.0, -level)), float(map.scale));
     }
     const double seconds = voxels.moment.seconds;
     io.block.moment = glm::vec4(float(voxels.moment.part), float(voxels.moment.part * seconds),

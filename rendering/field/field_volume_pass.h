@@ -19,6 +19,8 @@ struct FieldVolumeBlock
         glm::ivec4 low;  ///< xyz [brick] lower corner of the box of the index; w number of bricks
         glm::ivec4 size; ///< xyz [brick] size of the box of the index
         glm::vec4 light; ///< x [cd/m3] light that is stored as 1
+        /// From voxels of the field's lattice to those of the volume: w times the place, plus xyz [voxel].
+        glm::vec4 place{0.0f, 0.0f, 0.0f, 1.0f};
     };
     glm::vec4 rows[3]; ///< from a place [m] relative to the eye to voxels: dot(xyz, p) + w
     Frame frames[2];
@@ -28,7 +30,7 @@ struct FieldVolumeBlock
     glm::vec4 moment;  ///< x share of the second frame; y, z [s] since the first and until the second frame
     glm::ivec4 first;  ///< x first brick of the field
 };
-static_assert(sizeof(FieldVolumeBlock) == 224);
+static_assert(sizeof(FieldVolumeBlock) == 256);
 
 /// Writes extinction, emitted light, albedo and phase function of the volume at the samples of the bricks.
 ///

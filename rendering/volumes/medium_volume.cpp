@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <tuple>
 
 namespace fx::render {
 
@@ -24,11 +23,6 @@ constexpr size_t kVoxels = base::kVolumeBrickVoxels;
 glm::ivec3 voxelInBrick(size_t v)
 {
     return {int(v % 8), int(v / 8 % 8), int(v / 64)};
-}
-
-bool isBefore(const glm::ivec3& a, const glm::ivec3& b)
-{
-    return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
 }
 
 glm::dvec3 velocityOr(const glm::dvec3& momentum, double weight, const glm::dvec3& other)
@@ -152,7 +146,7 @@ MediumVolume MediumVolume::halved() const
                 bricks.push_back({last.x >> 4, last.y >> 4, last.z >> 4});
             }
     }
-    std::ranges::sort(bricks, isBefore);
+    std::ranges::sort(bricks, base::isBefore);
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
     MediumVolume half(std::move(bricks), 2.0f * side_, base::hashWord(hash_, 2));
     const size_t voxels = half.bricks_.size() * kVoxels;
@@ -256,17 +250,27 @@ MediumVolume::Flow MediumVolume::flowAt(const glm::dvec3& place) const
     return flow;
 }
 
+MediumVolume::Flow MediumVolume::flowAt(const glm::dvec3& place, const base::LatticeMap& toOwn) const
+{
+    Flow flow = flowAt(toOwn(place));
+    flow.momentum /= toOwn.scale;
+    return flow;
+}
+
 MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume& second,
                                    const Moment& moment)
 {
-    std::vector<glm::ivec3> bricks = first.bricks_;
-    bricks.insert(bricks.end(), second.bricks_.begin(), second.bricks_.end());
-    std::ranges::sort(bricks, isBefore);
+    const base::LatticeMap &toFirst = moment.toFirst, &toSecond = moment.toSecond;
+    std::vector<glm::ivec3> bricks = base::bricksReached(first.bricks_, toFirst);
+    const std::vector<glm::ivec3> more = base::bricksReached(second.bricks_, toSecond);
+    bricks.insert(bricks.end(), more.begin(), more.end());
+    std::ranges::sort(bricks, base::isBefore);
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
     uint64_t hash = base::hashWord(first.hash_, second.hash_);
-    for (const double number : {moment.part, moment.seconds})
+    for (const double number :
+         {moment.part, moment.seconds, toFirst.scale, toFirst.offset.x, toFirst.offset.y, toFirst.offset.z})
         hash = base::hashWord(hash, std::bit_cast<uint64_t>(number));
-    MediumVolume out(std::move(bricks), first.side_, hash);
+    MediumVolume out(std::move(bricks), float(double(first.side_) * toFirst.scale), hash);
     const size_t voxels = out.bricks_.size() * kVoxels;
     const bool emits = !first.emitted_.empty() || !second.emitted_.empty();
     const bool moves = moment.seconds > 0.0 && first.hasVelocities() && second.hasVelocities();
@@ -282,17 +286,17 @@ MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume
             const auto mix = [&](const auto& a, const auto& b) {
                 return (1.0 - moment.part) * a + moment.part * b;
             };
-            const Flow a = first.flowAt(here), b = second.flowAt(here);
+            const Flow a = first.flowAt(here, toFirst), b = second.flowAt(here, toSecond);
             const glm::dvec3 mixed =
                 velocityOr(mix(a.momentum, b.momentum), mix(a.weight, b.weight), glm::dvec3(0.0));
-            const Flow from = first.flowAt(here - since * mixed);
-            const Flow to = second.flowAt(here + until * mixed);
+            const Flow from = first.flowAt(here - since * mixed, toFirst);
+            const Flow to = second.flowAt(here + until * mixed, toSecond);
             before -= since * velocityOr(from.momentum, from.weight, mixed); // (2)
             after += until * velocityOr(to.momentum, to.weight, mixed);      // (3)
             left = densityOf(since, from.growth, from.weight);
             arrived = densityOf(-until, to.growth, to.weight);
         }
-        const Sample a = first.at(before), b = second.at(after);
+        const Sample a = first.at(toFirst(before)), b = second.at(toSecond(after));
         const double p = moment.part;
         out.extinction_[v] = float((1.0 - p) * left * a.extinction + p * arrived * b.extinction); // (5)
         out.scattered_[v] = glm::vec3((1.0 - p) * left * a.scattered + p * arrived * b.scattered);

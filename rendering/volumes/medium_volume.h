@@ -5,6 +5,7 @@
 /// centers of voxels. Places are given in voxels: the center of voxel (i, j, k) is at (i, j, k).
 #pragma once
 
+#include "foundation/assets/volume_lattice.h"
 #include "foundation/assets/volume_levels.h"
 #include "foundation/assets/voxel_volume.h"
 
@@ -65,11 +66,12 @@ public:
     std::vector<Packed> packedWithVelocities() const;
     float brightest() const { return brightest_; } ///< [cd/m3] largest component of emitted light, or 1
 
-    /// A moment between two volumes on the same lattice.
+    /// A moment between two volumes.
     struct Moment
     {
         double part = 0.0;    ///< [1] 0: the first volume, 1: the second
         double seconds = 0.0; ///< [s] between the volumes; 0: the medium does not move, so that it is faded
+        base::LatticeMap toFirst{}, toSecond{}; ///< from the voxels of the moment to those of the volumes
     };
     /// The medium at a moment between `first` and `second`, by formula volume-advection. At the centers of
     /// voxels it has the values of the GPU.
@@ -84,6 +86,7 @@ private:
         double growth = 0.0;      ///< weight times divergence [1/s]
     };
     Flow flowAt(const glm::dvec3& place) const;
+    Flow flowAt(const glm::dvec3& place, const base::LatticeMap& toOwn) const; ///< both in voxels of the map
     std::vector<float> sharesOfLight() const;
     template <class Add>
     void addCorners(const glm::dvec3& place, const Add& add) const;

@@ -1,20 +1,16 @@
 #include "rendering/volumes/volume_levels.h"
 
+#include "foundation/assets/volume_lattice.h"
+
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
-#include <tuple>
 #include <vector>
 
 namespace fx::render {
 
 namespace {
-
-bool isBefore(const glm::ivec3& a, const glm::ivec3& b)
-{
-    return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
-}
 
 /// The bricks that those of the next finer level may reach: a voxel belongs to the coarser ones around it.
 /// @param last [voxel] of the coarser level, behind which there is no medium
@@ -29,7 +25,7 @@ std::vector<glm::ivec3> coarserBricks(const std::vector<glm::ivec3>& finer, cons
             if (glm::all(glm::lessThanEqual(base::kVolumeBrickSide * reached, last)))
                 bricks.push_back(reached);
         }
-    std::ranges::sort(bricks, isBefore);
+    std::ranges::sort(bricks, base::isBefore);
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
     return bricks;
 }

@@ -50,6 +50,7 @@ GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGr
     out.asset = uint32_t(constants[c::Asset]);
     out.frame = glm::mix(double(constants[c::FrameBefore]), double(constants[c::Frame]), t);
     out.frameSeconds = double(constants[c::FrameSeconds]);
+    out.lattice = uint32_t(constants[c::Lattice]);
     out.side = own * scale;
     out.density = double(constants[c::Density]) / scale;
     const glm::dquat rotation(place.rotation);
@@ -74,6 +75,18 @@ FramePair framePair(const GroupVolume& volume, uint32_t count)
     pair.part = std::clamp(frame - double(pair.first), 0.0, 1.0);
     pair.second = pair.part > 0.0 ? (pair.first + 1) % count : pair.first;
     return pair;
+}
+
+MediumVolume::Moment momentOf(const GroupVolume& volume, const FramePair& pair,
+                              const base::VolumeSequence& sequence)
+{
+    const base::VolumeLattice shown = sequence.lattice(volume.lattice);
+    const auto mapTo = [&](uint32_t frame) {
+        const base::VolumeLattice own = sequence.lattice(frame);
+        return own == shown ? base::LatticeMap() : base::LatticeMap(shown, own);
+    };
+    return {pair.part, sequence.hasVelocities() ? volume.frameSeconds : 0.0, mapTo(pair.first),
+            mapTo(pair.second)};
 }
 
 } // namespace fx::render

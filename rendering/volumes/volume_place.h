@@ -2,7 +2,9 @@
 /// Volumes of a snapshot: which groups have one, and where it is.
 #pragma once
 
+#include "foundation/assets/volume_sequence.h"
 #include "foundation/snapshot/frame_snapshot.h"
+#include "rendering/volumes/medium_volume.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -20,6 +22,7 @@ struct GroupVolume
     /// to the next frame; after the last one follows the first one.
     double frame = 0.0;
     double frameSeconds = 0.0; ///< [s] from a frame to the next; 0: the asset is a single volume
+    uint32_t lattice = 0;      ///< frame of a sequence whose lattice the voxels below have
     /// From a place p [m] in the axes of the world to voxels: toVoxels p + first. p is relative to the origin
     /// of the placement's position.
     glm::dmat3 toVoxels{1.0};
@@ -53,5 +56,9 @@ struct FramePair
 };
 /// @param count number of frames of the sequence, > 0
 FramePair framePair(const GroupVolume& volume, uint32_t count);
+
+/// The moment of a sequence, on the lattice of the volume.
+MediumVolume::Moment momentOf(const GroupVolume& volume, const FramePair& pair,
+                              const base::VolumeSequence& sequence);
 
 } // namespace fx::render

@@ -37,6 +37,7 @@ struct VolumeFrame
     ivec4 low;  // xyz [brick] lower corner of the box; w number of bricks
     ivec4 size; // xyz [brick] of the box
     vec4 light; // x of light that is stored as 1
+    vec4 place; // from voxels of the field's lattice to those of the frame: w times the place, plus xyz
 };
 layout(std140, binding = 0) uniform FieldVolumeBlock
 {
@@ -93,8 +94,10 @@ void addVoxel(int frame, uint at, float weight, inout VolumeSample io)
     io.scattered += weight * extinction * albedo;
 }
 
+// Places and velocities are in voxels of the field's lattice.
 VolumeSample mediumAt(int frame, vec3 place)
 {
+    place = frames[frame].place.w * place + frames[frame].place.xyz;
     const float kOnVoxel = 1e-3; // [voxel] what places are rounded by
     vec3 nearest = floor(place + 0.5);
     place = mix(place, nearest, lessThan(abs(place - nearest), vec3(kOnVoxel)));
@@ -121,6 +124,7 @@ struct Flow
 
 Flow flowAt(int frame, vec3 place)
 {
+    place = frames[frame].place.w * place + frames[frame].place.xyz;
     vec3 first = floor(place);
     vec3 part = place - first;
     uint velocities = 512u * uint(frames[frame].low.w); // behind the voxels
@@ -139,6 +143,7 @@ Flow flowAt(int frame, vec3 place)
             flow.growth += weight * z.y;
         }
     }
+    flow.momentum.xyz /= frames[frame].place.w;
     return flow;
 }
 

@@ -11,10 +11,14 @@ namespace blob = base::blob_column;
 
 constexpr float kAir = 293.0f; ///< [K] a temperature that does not glow
 
-uint64_t idOf(const glm::ivec3& brick)
+/// [s] Older than any step: a brick that the snapshot before does not have is shown at once.
+constexpr float kBorn = 1.0f;
+
+uint64_t idOf(const glm::ivec3& brick, uint32_t lattice)
 {
     constexpr auto kSide = uint64_t(base::kMaxVolumeBricksPerAxis);
-    return uint64_t(brick.x) + kSide * (uint64_t(brick.y) + kSide * uint64_t(brick.z));
+    return uint64_t(brick.x) +
+           kSide * (uint64_t(brick.y) + kSide * (uint64_t(brick.z) + kSide * uint64_t(lattice)));
 }
 
 } // namespace
@@ -28,8 +32,9 @@ VolumeKinds::VolumeKinds(const base::SnapshotSchema& schema)
 void BrickBalls::addCoordinates(base::KindId kind, base::FrameSnapshot& snapshot) const
 {
     DetailGenerations generations;
+    const float side = detailSide > 0.0f ? detailSide : place.side;
     for (size_t g = 0; g < 2; ++g)
-        generations.radius[g] = generations.radiusNow[g] = base::kVolumeBallRadius * place.side;
+        generations.radius[g] = generations.radiusNow[g] = base::kVolumeBallRadius * side;
     base::SnapshotGroup& group = addMaterial(detail, generations, kind, capacity, snapshot);
     group.editConstants()[base::material_constant::Lossy] = 1.0f; // balls are too coarse to find the factor
     const base::SnapshotGroup& balls = snapshot.editGroup(snapshot.addedCount() - 2);
@@ -46,6 +51,7 @@ void BrickBalls::publish(const base::GroupInfo& base, const VolumeKinds& kinds,
     const auto count = uint32_t(cells.size());
     BlobWriter writer(snapshot, base, kinds.blobs, count, capacity);
     StillMediumSolver::writeShared(def, writer);
+    writer.fill(blob::Age, kBorn);
     writer.fill(blob::Radius, base::kVolumeBallRadius * place.side);
     for (uint32_t i = 0; i < count; ++i) {
         const base::VolumeCells& own = cells[i];
@@ -57,7 +63,7 @@ void BrickBalls::publish(const base::GroupInfo& base, const VolumeKinds& kinds,
         }
         writer.column(blob::CrossSection)[i] = def.sectionScale() * own.crossSection;
         writer.column(blob::Temperature)[i] = std::max(own.temperature, kAir);
-        writer.ids()[i] = blobId(base.solver, idOf(own.brick));
+        writer.ids()[i] = blobId(base.solver, idOf(own.brick, lattice));
     }
     writer.closeBounds();
     const base::Bounds bounds = writer.bounds();
@@ -81,6 +87,7 @@ void BrickBalls::publish(const base::GroupInfo& base, const VolumeKinds& kinds,
     constants[c::Frame] = frame;
     constants[c::FrameBefore] = frameBefore;
     constants[c::FrameSeconds] = frameSeconds;
+    constants[c::Lattice] = float(lattice);
 }
 
 } // namespace fx::sim

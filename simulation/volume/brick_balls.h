@@ -56,9 +56,11 @@ struct BrickBalls
     const FieldDetail& detail;                ///< its coordinates are places in the volume
     float frame = 0.0f, frameBefore = 0.0f;   ///< see volume_constant
     float frameSeconds = 0.0f;                ///< [s]
+    uint32_t lattice = 0;                     ///< see volume_constant
+    float detailSide = 0.0f;                  ///< [m] of voxels for which detail is; 0: of `place`
 
     /// Adds a group of balls, their noise coordinates if there is detail, and one of the volume, each if its
-    /// kind is known. A ball has the same id wherever its brick is.
+    /// kind is known. A brick has its own id on each lattice.
     void publish(const base::GroupInfo& base, const VolumeKinds& kinds, base::FrameSnapshot& snapshot) const;
 
 private:

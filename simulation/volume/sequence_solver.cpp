@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <map>
+#include <utility>
 
 namespace fx::sim {
 namespace {
@@ -16,14 +17,13 @@ namespace {
 /// renderers need them to find the bricks.
 constexpr float kLeastShare = 1e-6f;
 
-BrickPlace placeOf(const SequenceDef& def)
-{
-    return {def, def.sequence->origin(), def.sequence->side()};
-}
+/// [1] Frames nearer to a whole number are that frame.
+constexpr double kWhole = 1e-6;
 
-bool isBefore(const base::VolumeCells& a, const base::VolumeCells& b)
+BrickPlace placeOf(const SequenceDef& def, uint32_t lattice)
 {
-    return std::tuple(a.brick.z, a.brick.y, a.brick.x) < std::tuple(b.brick.z, b.brick.y, b.brick.x);
+    const base::VolumeLattice own = def.sequence->lattice(lattice);
+    return {def, glm::vec3(own.origin), float(own.side)};
 }
 
 /// A frame and its share of what is shown.
@@ -33,27 +33,17 @@ struct Part
     float share;
 };
 
-/// Adds to cells the share of others of the same brick.
-void blendInto(base::VolumeCells& io, const base::VolumeCells& more, float share)
-{
-    const float own = share * more.crossSection, sum = io.crossSection + own;
-    const float part = sum > 0.0f ? own / sum : 0.0f;
-    io.crossSection = sum;
-    io.temperature += part * (more.temperature - io.temperature);
-    io.albedo += part * (more.albedo - io.albedo);
-    io.emission += part * (more.emission - io.emission);
-}
-
-/// Cells of all bricks of a few frames, blended, in the order of VolumeCells.
-std::vector<base::VolumeCells> blend(const base::VolumeSequence& sequence, std::span<const Part> parts)
+/// Cells of several frames on one lattice, blended, in the order of VolumeCells.
+std::vector<base::VolumeCells> blend(std::span<const Part> parts,
+                                     std::span<const std::vector<base::VolumeCells>* const> cellsOf)
 {
     std::vector<base::VolumeCells> out;
     std::vector<size_t> at(parts.size());
     for (;;) {
         const base::VolumeCells* first = nullptr;
         for (size_t p = 0; p < parts.size(); ++p) {
-            const std::vector<base::VolumeCells>& cells = sequence.cells(parts[p].frame);
-            if (at[p] < cells.size() && (!first || isBefore(cells[at[p]], *first)))
+            const std::vector<base::VolumeCells>& cells = *cellsOf[p];
+            if (at[p] < cells.size() && (!first || base::isBefore(cells[at[p]].brick, first->brick)))
                 first = &cells[at[p]];
         }
         if (!first)
@@ -61,9 +51,9 @@ std::vector<base::VolumeCells> blend(const base::VolumeSequence& sequence, std::
         base::VolumeCells& io = out.emplace_back();
         io.brick = first->brick;
         for (size_t p = 0; p < parts.size(); ++p) {
-            const std::vector<base::VolumeCells>& cells = sequence.cells(parts[p].frame);
+            const std::vector<base::VolumeCells>& cells = *cellsOf[p];
             if (at[p] < cells.size() && cells[at[p]].brick == io.brick)
-                blendInto(io, cells[at[p]++], std::max(parts[p].share, kLeastShare));
+                base::blendInto(io, cells[at[p]++], std::max(parts[p].share, kLeastShare));
         }
     }
 }
@@ -83,11 +73,60 @@ std::vector<Part> partsOf(double before, double frame, uint32_t count)
     return parts;
 }
 
+/// The frame on whose lattice a step is shown: a whole frame on its own, and a moment between two on that
+/// with the smaller voxels, unless those of the others are too large for it.
+uint32_t latticeOf(const base::VolumeSequence& sequence, double before, double frame,
+                   std::span<const Part> parts)
+{
+    if (sequence.hasOneLattice())
+        return 0;
+    const uint32_t count = sequence.count();
+    const auto whole = int64_t(std::floor(frame + kWhole));
+    const auto first = uint32_t((whole + int64_t(count)) % int64_t(count)), next = (first + 1) % count;
+    const bool isBetween = double(whole) <= before && frame - double(whole) > kWhole;
+    uint32_t lattice = isBetween && sequence.lattice(next).side < sequence.lattice(first).side ? next : first;
+    for (const Part& part : parts)
+        if (!base::VolumeSequence::isNear(sequence.lattice(lattice), sequence.lattice(part.frame)))
+            lattice = part.frame;
+    return lattice;
+}
+
+/// Cells of frames on lattices of others, of the frames that were shown last.
+class CellsOnLattices
+{
+public:
+    explicit CellsOnLattices(const base::VolumeSequence& sequence) : sequence_(sequence) {}
+
+    std::vector<base::VolumeCells> blended(std::span<const Part> parts, uint32_t lattice)
+    {
+        std::map<std::pair<uint32_t, uint32_t>, std::vector<base::VolumeCells>> kept;
+        std::vector<const std::vector<base::VolumeCells>*> cells;
+        for (const Part& part : parts) {
+            const base::VolumeLattice own = sequence_.lattice(part.frame), shown = sequence_.lattice(lattice);
+            if (own == shown) {
+                cells.push_back(&sequence_.cells(part.frame));
+                continue;
+            }
+            const auto name = std::pair(part.frame, lattice);
+            const auto found = known_.find(name);
+            cells.push_back(&(kept[name] = found != known_.end()
+                                               ? std::move(found->second)
+                                               : base::cellsOn(shown, sequence_.cells(part.frame), own)));
+        }
+        known_ = std::move(kept); // its elements stay where they are
+        return blend(parts, cells);
+    }
+
+private:
+    const base::VolumeSequence& sequence_;
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<base::VolumeCells>> known_; ///< by frame and lattice
+};
+
 class SequenceSolver final : public SequencePlayer
 {
 public:
     SequenceSolver(const SequenceDef& def, const base::SnapshotSchema& schema)
-        : SequencePlayer(def.time()), def_(def), kinds_(schema)
+        : SequencePlayer(def.time()), def_(def), kinds_(schema), cells_(*def.sequence)
     {}
 
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
@@ -98,16 +137,20 @@ public:
         double before = def_.frameAt(now() - snapshot.step());
         if (before > frame())
             before -= double(count);
-        const std::vector<base::VolumeCells> cells = blend(*def_.sequence, partsOf(before, frame(), count));
+        const std::vector<Part> parts = partsOf(before, frame(), count);
+        const uint32_t lattice = latticeOf(*def_.sequence, before, frame(), parts);
+        const std::vector<base::VolumeCells> cells = cells_.blended(parts, lattice);
         BrickBalls{def_,
-                   placeOf(def_),
+                   placeOf(def_, lattice),
                    cells,
                    std::max(def_.capacity(), uint32_t(cells.size())),
                    def_.asset,
                    def_.detail,
                    float(frame()),
                    float(before),
-                   1.0f / def_.framesPerSecond}
+                   1.0f / def_.framesPerSecond,
+                   lattice,
+                   def_.scale * float(def_.sequence->largestSide())}
             .publish(base, kinds_, snapshot);
     }
 
@@ -119,6 +162,7 @@ public:
 private:
     const SequenceDef& def_;
     VolumeKinds kinds_;
+    mutable CellsOnLattices cells_; ///< what publish() need not compute again
 };
 
 } // namespace
@@ -128,8 +172,12 @@ void SequenceDef::setSequence(std::shared_ptr<base::VolumeSequence> frames)
     sequence = std::move(frames);
     mostCells = 0;
     const uint32_t count = sequence->count();
-    for (uint32_t i = 0; i < count; ++i) // a step begins and ends between frames
-        mostCells = std::max(mostCells, uint32_t(blend(*sequence, partsOf(i, i + 1.5, count)).size()));
+    CellsOnLattices cells(*sequence);
+    for (uint32_t i = 0; i < count; ++i) { // a step begins and ends between frames
+        const std::vector<Part> parts = partsOf(i, i + 1.5, count);
+        const uint32_t lattice = latticeOf(*sequence, i, i + 1.5, parts);
+        mostCells = std::max(mostCells, uint32_t(cells.blended(parts, lattice).size()));
+    }
 }
 
 std::unique_ptr<Solver> SequenceDef::create(const base::SnapshotSchema& schema, const Quality&,
@@ -162,7 +210,7 @@ float SequenceDef::reach(float, float, float) const
     float farthest = 0.0f;
     for (uint32_t i = 0; sequence && i < sequence->count(); ++i)
         for (const base::VolumeCells& own : sequence->cells(i))
-            farthest = std::max(farthest, placeOf(*this).reachOf(own.brick));
+            farthest = std::max(farthest, placeOf(*this, i).reachOf(own.brick));
     return farthest;
 }
 

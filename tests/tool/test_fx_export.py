@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """fx export: OpenVDB files, read back with OpenVDB's own Python module where one is installed (python3-openvdb)."""
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -135,16 +136,36 @@ class Export(FxTest):
         self.assertEqual(outcome.code, 1)
         self.assertIn("there is no folder", outcome.err)
 
-    def test_a_sequence_has_one_lattice_and_the_values_of_single_files(self):
+    def test_each_frame_of_a_sequence_has_its_own_voxels_and_the_values_of_single_files(self):
         reports = self.export("library:dust-burst", "-o", self.folder / "a.%03d.vdb", "--frames", "3:5", "--fps", 10, "--voxels", 50000)
         self.assertEqual(self.names(), ["a.003.vdb", "a.004.vdb", "a.005.vdb"])
         self.assertEqual([pathlib.Path(report["file"]).name for report in reports], self.names())
-        size, = {report["voxel_size"] for report in reports}
-        self.assertGreater(max(report["voxels"] for report in reports), 10000)
-        single, = self.export("library:dust-burst", "-o", self.folder / "b.vdb", "--time", 0.4, "--voxel-size", repr(size))
+        sizes = [report["voxel_size"] for report in reports]
+        self.assertGreater(sizes[2], 1.02 * sizes[0]) # the dust spreads
+        for before, behind in zip(sizes, sizes[1:]):
+            self.assertLess(abs(math.log(behind / before)), math.log(1.2501))
+        for report, size in zip(reports, sizes):
+            single, = self.export("library:dust-burst", "-o", self.folder / "b.vdb", "--time", report["time"], "--voxels", 50000)
+            self.assertGreater(size, 0.98 * single["voxel_size"]) # keeps to the budget
+        self.assertLess(sizes[2], 1.02 * single["voxel_size"])
+        single, = self.export("library:dust-burst", "-o", self.folder / "b.vdb", "--time", 0.4, "--voxel-size", repr(sizes[1]))
         for name in ("time", "voxels", "blobs", "cross_section", "density_volume", "density_max"):
             self.assertEqual(single[name], reports[1][name], name)
-        self.assertGreater(single["voxels"], 0)
+        self.assertGreater(single["voxels"], 10000)
+
+    def test_one_voxel_size_is_that_of_all_frames(self):
+        reports = self.export("library:dust-burst", "-o", self.folder / "a.%03d.vdb", "--frames", "3:5", "--fps", 10, "--voxel-size", 0.4)
+        self.assertEqual({report["voxel_size"] for report in reports}, {0.4})
+
+    def test_points_are_the_same_balls_in_all_frames(self):
+        reports = self.export("library:explosion", "-o", self.folder / "a.%03d.vdb", "--frames", "3:9", "--fps", 24, "--voxels", 60000,
+                              "--balls-below", 2)
+        sizes = [report["voxel_size"] for report in reports]
+        self.assertLess(sizes[0], 0.9 * sizes[-1])
+        for report, size in zip(reports, sizes):
+            single, = self.export("library:explosion", "-o", self.folder / "b.vdb", "--time", report["time"], "--voxel-size", repr(size),
+                                  "--voxels", 60000, "--balls-below", repr(2 * max(sizes) / size))
+            self.assertEqual(single["balls"], report["balls"])
 
     def test_effects_without_media_give_empty_grids(self):
         sprites = {"maxParticles": 20, "emission": {"rate": 40}, "lifetime": 1, "radius": 0.3, "speed": 1,

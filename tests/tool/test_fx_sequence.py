@@ -12,6 +12,7 @@ HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
 # for the figures of docs/howto/volumes.md see there
 FRAMES = os.environ.get("FX_FRAMES", "14:17")
 VOXELS = os.environ.get("FX_VOXELS", "400000")
+VOXEL_SIZE = os.environ.get("FX_VOXEL_SIZE", "") # [m] of all frames; empty: of each its own
 SIZE = os.environ.get("FX_SIZE", "64x48")
 MEMORY = int(os.environ.get("FX_MEMORY", "42")) # [MiB] less than all frames need
 SHOWN = [int(n) for n in os.environ.get("FX_SHOWN", "15").split(",")]
@@ -68,8 +69,10 @@ class Sequence(FxTest):
         return means(planes, width, height, side) if side > 1 else planes
 
     def sequence(self, source, frames, *arguments):
-        outcome = fx("export", source, "-o", self.folder / "a.%04d.vdb", "--frames", frames, "--fps", FPS, "--balls-below", BALLS_BELOW, *arguments)
+        outcome = fx("export", source, "-o", self.folder / "a.%04d.vdb", "--frames", frames, "--fps", FPS, "--balls-below", BALLS_BELOW,
+                     "--json", *arguments)
         self.assertEqual(outcome.code, 0, outcome.err)
+        self.exported = [json.loads(line) for line in outcome.out.splitlines()]
         outcome = fx("import", self.folder / "a.%04d.vdb", "-o", self.folder / "a.fx.json", "--fps", FPS, "--memory",
                      MEMORY, "--json")
         self.assertEqual(outcome.code, 0, outcome.err)
@@ -77,7 +80,11 @@ class Sequence(FxTest):
 
     def test_an_exported_effect_is_played_as_it_was(self):
         first = int(FRAMES.split(":")[0])
-        line = self.sequence("library:explosion", FRAMES, "--voxels", VOXELS)
+        line = self.sequence("library:explosion", FRAMES, "--voxels", VOXELS, *(("--voxel-size", VOXEL_SIZE) if VOXEL_SIZE else ()))
+        sides = [frame["voxel_size"] for frame in self.exported]
+        self.assertAlmostEqual(line["voxel_side"], max(sides), delta=1e-5)
+        self.assertAlmostEqual(line["voxel_side_least"], min(sides), delta=1e-5)
+        balls_below = float(BALLS_BELOW) * max(sides) # [m]
         self.assertTrue(line["velocities"])
         self.assertEqual(line["balls_beside"] > 0, float(BALLS_BELOW) > 0)
         camera = {"position": [0, 6, 30], "target": [0, 5, 0], "fovYDegrees": 40}
@@ -90,14 +97,15 @@ class Sequence(FxTest):
                 wanted = self.planes(original, time, rays=RAYS)
                 opacity, light = error_of(found, wanted)
                 sums = [sum(sum(p[c]) for c in "RGB") for p in (found, wanted)]
+                side = min(sides[frame - first:frame - first + (2 if part > 0 else 1)]) # on which the moment is shown
                 outcome = fx("export", "library:explosion", "-o", self.folder / "own.vdb", "--time", time, "--voxel-size",
-                             line["voxel_side"], "--balls-below", BALLS_BELOW)
+                             side, "--balls-below", balls_below / side)
                 self.assertEqual(outcome.code, 0, outcome.err)
                 outcome = fx("import", self.folder / "own.vdb", "-o", self.folder / "own.fx.json", "--bricks")
                 self.assertEqual(outcome.code, 0, outcome.err)
                 own = error_of(found, self.planes(self.scene("own.scene.json", {"preset": "own.fx.json"}, camera), time, rays=RAYS))
                 drawn, _ = error_of(self.planes(played, time, "gl"), found)
-                print(f"frame {frame + part}: opacity {opacity:.4f}, light {light:.4f} and its sum {sums[0] / sums[1]:.3f}; against voxels of the moment itself {own[0]:.4f}, "
+                print(f"frame {frame + part}: {side:.4f} m, opacity {opacity:.4f}, light {light:.4f} and its sum {sums[0] / sums[1]:.3f}; against voxels of the moment itself {own[0]:.4f}, "
                       f"light {own[1]:.4f}; opacity of GL against the reference {drawn:.4f}", flush=True)
                 with self.subTest(frame=frame + part):
                     self.assertLess(opacity, allowed)
@@ -112,7 +120,7 @@ class Sequence(FxTest):
         counts = [json.loads(text) for text in (self.folder / "s.json").read_text().splitlines()]
         peak, reads = max(c["volume_bytes_peak"] for c in counts), counts[-1]["volume_reads"]
         late = counts[-1]["volume_late"]
-        print(f"{line['voxel_side']:.4f} m; {len(counts)} pictures: {reads} frames read while playing, {late} late, at most {peak / 2**20:.1f} MiB of "
+        print(f"{min(sides):.4f} m to {max(sides):.4f} m; {line['bytes'] / 2**20:.0f} MiB of files, at most {line['balls_beside']} balls; {len(counts)} pictures: {reads} frames read while playing, {late} late, at most {peak / 2**20:.1f} MiB of "
               f"{MEMORY} MiB", flush=True)
         self.assertLessEqual(peak, MEMORY * 2**20)
         self.assertGreater(reads, 0)

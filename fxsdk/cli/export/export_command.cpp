@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace fx::cli {
 namespace {
@@ -26,6 +27,8 @@ namespace {
 constexpr uint64_t kBytesPerVoxel =
     72; // values of all grids, their copy in the file, and what is around them
 constexpr double kEmptyVoxelSize = 0.1; // [m] of files without any medium
+/// [1] Of successive frames: a moment between them is shown on the voxels of the finer one.
+constexpr double kMostGrowth = 1.25;
 
 EffectSceneOptions optionsOf(const ExportArguments& arguments)
 {
@@ -57,56 +60,65 @@ public:
                                               std::to_string(plan_.maxVoxels * kBytesPerVoxel >> 20) +
                                               " MiB, more than this machine has; give at most " +
                                               std::to_string(affordable)};
-        options_ = {arguments_.voxelSize.value_or(0.0),
-                    std::min(plan_.maxVoxels, affordable),
-                    arguments_.half,
-                    arguments_.points,
-                    arguments_.detail,
-                    arguments_.ballsBelow};
+        options_ = {
+            0.0, std::min(plan_.maxVoxels, affordable), arguments_.half, arguments_.points, arguments_.detail,
+            0.0};
+        voxelSizes_.assign(plan_.frames.size(), arguments_.voxelSize.value_or(0.0));
         if (!arguments_.voxelSize)
-            if (base::Status status = chooseVoxelSize(); !status)
+            if (base::Status status = chooseVoxelSizes(); !status)
                 return status;
+        options_.pointsBelow = arguments_.ballsBelow * largestVoxelSize();
         return writeFrames();
     }
 
-    double voxelSize() const { return options_.voxelSize; }
+    double smallestVoxelSize() const { return *std::ranges::min_element(voxelSizes_); }
+    double largestVoxelSize() const { return *std::ranges::max_element(voxelSizes_); }
     uint64_t mostVoxels() const { return mostVoxels_; }
     uint64_t nonFinite() const { return nonFinite_; }
 
 private:
-    /// The smallest at which all frames, with small balls as voxels too, keep to the budget; a sequence is
-    /// simulated once more for that.
-    base::Status chooseVoxelSize()
+    /// Of each frame the smallest at which it, with small balls as voxels too, keeps to the budget; a
+    /// sequence is simulated once more for that.
+    base::Status chooseVoxelSizes()
     {
         auto source = file_.start(optionsOf(arguments_));
         if (!source.ok())
             return source.status();
         Progress progress("measuring frame", plan_.frames.size(), !arguments_.json);
-        uint64_t done = 0;
-        for (const ExportPlan::Frame& frame : plan_.frames) {
-            progress.update(done++);
+        for (size_t i = 0; i < plan_.frames.size(); ++i) {
+            progress.update(i);
             if (interruptRequested())
                 return interruptedStatus();
-            auto moment = (*source)->at(frame.tick);
+            auto moment = (*source)->at(plan_.frames[i].tick);
             if (!moment.ok())
                 return moment.status();
-            if (!render::BlockPlan::create(moment->balls, std::max(options_.voxelSize, 1e-9),
-                                           options_.maxVoxels))
-                options_.voxelSize =
-                    render::voxelSizeFor(moment->balls, options_.maxVoxels, options_.voxelSize);
+            if (!moment->balls.empty())
+                voxelSizes_[i] = render::voxelSizeFor(moment->balls, options_.maxVoxels);
             if (plan_.frames.size() == 1)
                 only_ = std::move(*moment);
         }
-        if (!(options_.voxelSize > 0.0))
-            options_.voxelSize = kEmptyVoxelSize;
+        limitGrowth();
         return {};
+    }
+
+    /// Makes voxels of frames larger whose successor or predecessor has far larger ones. Frames without
+    /// medium have those of their neighbors.
+    void limitGrowth()
+    {
+        std::vector<double>& sizes = voxelSizes_;
+        for (size_t i = 1; i < sizes.size(); ++i)
+            sizes[i] = std::max(sizes[i], sizes[i - 1] / kMostGrowth);
+        for (size_t i = sizes.size() - 1; i > 0; --i)
+            sizes[i - 1] = std::max(sizes[i - 1], sizes[i] / kMostGrowth);
+        for (double& size : sizes)
+            size = size > 0.0 ? size : kEmptyVoxelSize;
     }
 
     base::Status writeFrames()
     {
         const bool isSequence = plan_.frames.size() > 1;
         if (only_)
-            return writeFrame(plan_.frames[0], *only_, true);
+            return writeFrame(0, *only_, true);
         auto source = file_.start(optionsOf(arguments_));
         if (!source.ok())
             return source.status();
@@ -119,15 +131,20 @@ private:
             const auto moment = (*source)->at(frame.tick);
             if (!moment.ok())
                 return moment.status();
-            if (base::Status status = writeFrame(frame, *moment, !isSequence); !status)
+            if (base::Status status = writeFrame(done, *moment, !isSequence); !status)
                 return status;
             frames.update(++done);
         }
         return {};
     }
 
-    base::Status writeFrame(const ExportPlan::Frame& frame, const MomentBalls& moment, bool showBlocks)
+    base::Status writeFrame(size_t number, const MomentBalls& moment, bool showBlocks)
     {
+        const ExportPlan::Frame& frame = plan_.frames[number];
+        options_.voxelSize = voxelSizes_[number];
+        if (!arguments_.voxelSize && !moment.balls.empty() && // limitGrowth() has changed it
+            !render::BlockPlan::create(moment.balls, options_.voxelSize, options_.maxVoxels))
+            options_.voxelSize = render::voxelSizeFor(moment.balls, options_.maxVoxels, options_.voxelSize);
         std::unique_ptr<Progress> blocks;
         const auto report =
             writeVolume(moment, options_, metadataOf(frame), plan_.output.frame(frame.number), *tasks_,
@@ -189,10 +206,21 @@ private:
     Machine machine_ = readMachine();
     std::unique_ptr<base::TaskRunner> tasks_ = base::makeTbbRunner();
     VolumeOptions options_;
+    std::vector<double> voxelSizes_;  ///< [m] of each frame
     std::optional<MomentBalls> only_; ///< of one file, where it is known already
     uint64_t mostVoxels_ = 0;
     uint64_t nonFinite_ = 0;
 };
+
+std::string sizesText(double smallest, double largest)
+{
+    char text[64];
+    if (smallest == largest)
+        std::snprintf(text, sizeof text, "%.4g", smallest);
+    else
+        std::snprintf(text, sizeof text, "%.4g to %.4g", smallest, largest);
+    return text;
+}
 
 int failed(const base::Status& status)
 {
@@ -226,8 +254,9 @@ int runExport(const ExportArguments& arguments)
         std::fprintf(stderr, "warning: %llu balls were left out because a number was not finite\n",
                      static_cast<unsigned long long>(job.nonFinite()));
     if (!arguments.json)
-        std::printf("%s: %zu %s with voxels of %.4g m, at most %llu\n", arguments.output.c_str(),
-                    plan->frames.size(), plan->frames.size() == 1 ? "file" : "files", job.voxelSize(),
+        std::printf("%s: %zu %s with voxels of %s m, at most %llu\n", arguments.output.c_str(),
+                    plan->frames.size(), plan->frames.size() == 1 ? "file" : "files",
+                    sizesText(job.smallestVoxelSize(), job.largestVoxelSize()).c_str(),
                     static_cast<unsigned long long>(job.mostVoxels()));
     return kSuccess;
 }

@@ -58,7 +58,8 @@ void addExportOptions(CLI::App& command, ExportArguments& arguments)
         ->capture_default_str();
     command
         .add_option("--voxel-size", arguments.voxelSize,
-                    "[m] Side of a voxel (default: the smallest that --voxels allows in all frames)")
+                    "[m] Side of a voxel in all frames (default: of each frame the smallest that --voxels "
+                    "allows)")
         ->check(CLI::Range(kLeastVoxelSize, kMostVoxelSize));
     command
         .add_option("--voxels", arguments.voxels,
@@ -74,7 +75,8 @@ void addExportOptions(CLI::App& command, ExportArguments& arguments)
                          "Also the balls of medium as points, with id, instance, velocity and radius");
     command
         .add_option("--balls-below", arguments.ballsBelow,
-                    "[voxel] Balls with a smaller radius, such as sparks, are points instead of voxels")
+                    "[voxel] Balls with a smaller radius, such as sparks, are points instead of voxels; in "
+                    "the largest voxels of a sequence")
         ->check(CLI::Range(0.0, kMostBallsBelow))
         ->excludes(points)
         ->capture_default_str();

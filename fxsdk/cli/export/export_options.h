@@ -27,10 +27,11 @@ struct ExportArguments
     double framesPerSecond = 30.0;
     std::optional<double> time;      ///< [s] time of a single file; empty: the time of the preset's preview,
                                      ///< or 0.5 s
-    std::optional<double> voxelSize; ///< [m] side of a voxel; empty: the smallest side that `voxels` allows
+    std::optional<double> voxelSize; ///< [m] side of all voxels; empty: the smallest that `voxels` allows
     std::optional<uint64_t> voxels;  ///< maximum number of voxels of a frame; empty: the default
     std::optional<uint64_t> seed;
-    double ballsBelow = 0.0; ///< [voxel] radius below which balls are points; 0: none
+    /// [voxel] Radius below which balls are points; 0: none. Of the largest voxels of a sequence.
+    double ballsBelow = 0.0;
     bool detail = false;
     bool half = false;
     bool points = false;

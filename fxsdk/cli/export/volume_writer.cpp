@@ -52,7 +52,6 @@ struct SplitBalls
 
 SplitBalls split(const MomentBalls& moment, const VolumeOptions& options)
 {
-    const double least = options.ballsBelow * options.voxelSize;
     const bool hasDetails = moment.details.isGiven();
     SplitBalls out;
     out.voxels.details.groups = moment.details.groups;
@@ -60,7 +59,8 @@ SplitBalls split(const MomentBalls& moment, const VolumeOptions& options)
     std::vector<render::VoxelBall> small;
     for (size_t i = 0; i < moment.balls.size(); ++i) {
         const bool isDetailed = options.detail && hasDetails && moment.details.balls[i].group >= 0;
-        if (moment.balls[i].radius < least && !isDetailed) { // the detail of points would be lost
+        if (moment.balls[i].radius < options.pointsBelow && !isDetailed)
+        { // the detail of points would be lost
             small.push_back(moment.balls[i]);
             continue;
         }
@@ -100,7 +100,7 @@ base::Result<VolumeReport> writeSplit(const MomentBalls& moment, std::span<const
     }
     if (options.points)
         volume.addPoints(balls);
-    if (options.ballsBelow > 0.0)
+    if (options.pointsBelow > 0.0)
         volume.addPoints(points, true);
     const auto bytes = volume.encode(metadata, options.half);
     if (!bytes.ok())
@@ -124,7 +124,7 @@ base::Result<VolumeReport> writeVolume(const MomentBalls& moment, const VolumeOp
                                        base::TaskRunner& tasks,
                                        const std::function<void(uint64_t, uint64_t)>& progress)
 {
-    if (!(options.ballsBelow > 0.0))
+    if (!(options.pointsBelow > 0.0))
         return writeSplit(moment, {}, options, metadata, file, tasks, progress);
     const SplitBalls parts = split(moment, options);
     if (parts.points.size() > render::kMostGridBalls)

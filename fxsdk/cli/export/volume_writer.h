@@ -20,8 +20,8 @@ struct VolumeOptions
     uint64_t maxVoxels = 0; ///< maximum number of voxels; each block counts with all of its voxels
     bool half = false;
     bool points = false;
-    bool detail = false;     ///< of fields
-    double ballsBelow = 0.0; ///< [voxel] balls of a smaller radius are points instead of voxels
+    bool detail = false;      ///< of fields
+    double pointsBelow = 0.0; ///< [m] balls of a smaller radius are points instead of voxels
 };
 
 struct VolumeReport

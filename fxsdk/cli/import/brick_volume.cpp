@@ -453,7 +453,9 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
         report.massError = std::max(report.massError, std::abs(massOf(*readBack) - mass) / mass);
         report.mostBricks = std::max(report.mostBricks, volume->bricks.size());
         report.bytes += bytes->size();
-        report.side = double(volume->side);
+        const auto side = double(volume->side);
+        report.leastSide = i == 0 ? side : std::min(report.leastSide, side);
+        report.side = std::max(report.side, side);
         report.hasVelocities = report.hasVelocities && !volume->velocity.empty();
         report.isResampled = report.isResampled || !isStraight(*grid);
         balls.push_back(movingBallsOf(*grid));

@@ -49,7 +49,8 @@ struct SequenceReport
 {
     size_t mostBricks = 0;       ///< of a frame
     uint64_t bytes = 0;          ///< [byte] of all files
-    double side = 0.0;           ///< [m] of a voxel
+    double leastSide = 0.0;      ///< [m] of a voxel, in the frame with the smallest
+    double side = 0.0;           ///< [m] of a voxel, in the frame with the largest
     double massError = 0.0;      ///< [1] largest of a frame
     bool hasVelocities = true;   ///< of all frames
     bool isResampled = false;    ///< of a frame

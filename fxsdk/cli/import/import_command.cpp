@@ -245,15 +245,16 @@ int importSequence(ImportArguments& arguments, const NumberedFile& input)
                                    {"balls_beside", written->mostBalls},
                                    {"bytes", written->bytes},
                                    {"voxel_side", written->side},
+                                   {"voxel_side_least", written->leastSide},
                                    {"velocities", written->hasVelocities},
                                    {"resampled", written->isResampled},
                                    {"mass_error", written->massError}},
                                   readMachine()));
     else
-        std::printf("%s: %u frames from %u, at most %zu bricks of voxels of %.4g m in %s, %.1f MiB together, "
-                    "mass within %.2g %%\n",
+        std::printf("%s: %u frames from %u, at most %zu bricks of voxels of %.4g m to %.4g m in %s, %.1f MiB "
+                    "together, mass within %.2g %%\n",
                     arguments.output.c_str(), arguments.play.count, arguments.play.first, written->mostBricks,
-                    written->side, written->files.string().c_str(),
+                    written->leastSide, written->side, written->files.string().c_str(),
                     double(written->bytes) / double(kMebibyte), 100.0 * written->massError);
     return kSuccess;
 }

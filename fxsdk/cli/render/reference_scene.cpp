@@ -100,11 +100,11 @@ std::shared_ptr<const render::MediumVolume> ReferenceSceneSource::volumeOf(const
         }
         ends[k] = keep(volume.asset, frame, **voxels);
     }
-    if (pair.first == pair.second)
+    const render::MediumVolume::Moment moment = render::momentOf(volume, pair, *sequence);
+    if (pair.first == pair.second && moment.toFirst.isSame())
         return ends[0];
-    const double seconds = sequence->hasVelocities() ? volume.frameSeconds : 0.0;
     return std::make_shared<const render::MediumVolume>(
-        render::MediumVolume::between(*ends[0], *ends[1], {pair.part, seconds}));
+        render::MediumVolume::between(*ends[0], *ends[1], moment));
 }
 
 base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)

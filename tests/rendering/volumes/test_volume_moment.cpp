@@ -192,6 +192,34 @@ TEST(VolumeMoment, coarserVoxelsMoveAsFarInTheWorld)
     }
 }
 
+/// The second volume has voxels 1.25 times as wide, which are on no voxels of the first.
+TEST(VolumeMoment, voxelsOfDifferentSidesMoveInTheWorldAndKeepTheirMass)
+{
+    constexpr double kWider = 1.25;
+    const glm::dvec3 way(6.0, -3.0, 2.0), offset(0.3, -0.4, 0.2); // in voxels of the first
+    const base::LatticeMap toSecond({glm::dvec3(0.0), 1.0}, {kMiddle * (1.0 - kWider) + offset, kWider});
+    const auto inFirst = [&](const glm::dvec3& p) { return kMiddle * (1.0 - kWider) + offset + kWider * p; };
+    const auto first = volumeOf([&](const glm::dvec3& p) { return lump(p, kMiddle - 0.5 * way, 4.0); },
+                                [&](const glm::dvec3&) { return way / kSeconds; });
+    auto second = volumeOf([&](const glm::dvec3& p) { return lump(inFirst(p), kMiddle + 0.5 * way, 4.0); },
+                           [&](const glm::dvec3&) { return way / kSeconds; });
+    second.side *= float(kWider); // velocities are in meters
+    const auto between = render::MediumVolume::between(
+        render::MediumVolume(first), render::MediumVolume(second), {0.5, kSeconds, {}, toSecond});
+    const Density wanted = [](const glm::dvec3& p) { return lump(p, kMiddle, 4.0); };
+    EXPECT_LT(errorOf(between, wanted), 0.02);
+    double mass = 0.0, all = 0.0;
+    for (int v = 0; v < 40 * 40 * 40; ++v) {
+        const glm::dvec3 place(8 + v % 40, 8 + v / 40 % 40, 8 + v / 1600);
+        mass += between.at(place).extinction;
+        all += wanted(place);
+    }
+    EXPECT_NEAR(mass / all, 1.0, 1e-3);
+    const auto fixed = render::MediumVolume::between(render::MediumVolume(first),
+                                                     render::MediumVolume(second), {0.5, 0.0, {}, toSecond});
+    EXPECT_GT(errorOf(fixed, wanted), 0.3) << "a cross-fade shows two lumps";
+}
+
 TEST(FramePair, countsBackFromTheEndBeforeALoopBegins)
 {
     render::GroupVolume volume;
