@@ -76,15 +76,18 @@ void BlockTiles::forget()
     deferred_ = 0;
 }
 
-void BlockTiles::chooseFinest()
+bool BlockTiles::chooseFinest()
 {
     const auto fits = [&](int size, float blocks) {
         return blocks * float(size) * float(size) <= float(kMaxPages) * float(kMaxTile) * float(kMaxTile);
     };
+    const int before = finest_;
+    const float more = settings_.isSpread ? kRoomAgain : 1.0f;
     while (finest_ > kMinTile && !fits(finest_, float(blocks_)))
         finest_ /= 2;
-    while (finest_ < kMaxTile && fits(2 * finest_, kRoomAgain * float(blocks_)))
+    while (finest_ < kMaxTile && fits(2 * finest_, more * float(blocks_)))
         finest_ *= 2;
+    return finest_ != before;
 }
 
 int BlockTiles::pageRows() const

@@ -96,8 +96,9 @@ public:
     /// [texel] Largest side of tiles that are finer than the picture because of their error, at which the
     /// atlas has room for one tile of each block that was counted.
     int finest() const { return finest_; }
-    /// Chooses finest() of the next frame by the blocks that were counted since begin().
-    void chooseFinest();
+    /// Chooses finest() by the blocks that were counted since begin(), for what is found from now on.
+    /// @return true if it has changed
+    bool chooseFinest();
 
     std::span<const TileJob> jobs() const { return jobs_; }
     uint32_t deferred() const

@@ -85,10 +85,11 @@ base::Status BlockView::gather(const GatherInputs& in, GatheredFrame& io)
         return {};
     isPending_ = true;
     walk(in);
-    tiles_.chooseFinest();
-    if (tiles_.pageRows() > rows_) {
+    // Without a history nothing depends on the frames before.
+    const bool isWalkedAgain = tiles_.chooseFinest() && in.request->resetHistory;
+    if (isWalkedAgain || tiles_.pageRows() > rows_) {
         // A larger atlas is empty: all tiles are drawn anew.
-        rows_ = tiles_.pageRows();
+        rows_ = std::max(rows_, tiles_.pageRows());
         tiles_.forget();
         gathered_.clear();
         casters_.clear();

@@ -224,6 +224,9 @@ TEST_F(TileCache, tilesBecomeFinerAgainWhereThereIsRoomToSpare)
     EXPECT_EQ(finestOf(100), render::kMaxTile);
     EXPECT_EQ(finestOf(1'000'000), render::kMinTile);
     EXPECT_EQ(finestOf(0), render::kMaxTile);
+    settings_.isSpread = false; // nothing depends on what was seen before
+    EXPECT_EQ(finestOf(129), render::kMaxTile / 2);
+    EXPECT_EQ(finestOf(128), render::kMaxTile);
 }
 
 TEST_F(TileCache, spreadsOverFramesWhatANeighborCanReplace)
