@@ -37,7 +37,7 @@ VolumeSequence::VolumeSequence(Def def) : def_(std::move(def)), slots_(def_.fram
     counts_.peakBytes = counts_.bytes;
     def_.held = {};
     for (uint32_t i = 0; i < count(); ++i) {
-        hasOneLattice_ = hasOneLattice_ && !def_.frames[i].lattice;
+        hasOneLattice_ = hasOneLattice_ && lattice(i) == lattice(0);
         largestSide_ = std::max(largestSide_, lattice(i).side);
     }
 }

@@ -17,7 +17,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -42,15 +41,12 @@ public:
         std::vector<VolumeCells> cells; ///< volumeCells() of the voxels
         uint64_t bytes = 0;             ///< [byte] VoxelVolume::bytes()
         uint64_t coarserBytes = 0;      ///< [byte] upper bound of its coarser levels
-        /// Of its voxels, which has room for the bricks of the frames before and behind, see isNear(). Empty:
-        /// that of all frames.
-        std::optional<VolumeLattice> lattice = {};
+        /// Of its voxels. It has room for the bricks of the frames before and behind, see isNear().
+        VolumeLattice lattice = {};
     };
 
     struct Def
     {
-        float side = 1.0f;         ///< [m] of the voxels of all frames without a lattice of their own
-        glm::vec3 origin{0.0f};    ///< [m] center of the voxel (0, 0, 0), likewise
         bool hasVelocities = true; ///< false: a frame has none
         /// [byte] upper bound of the voxels of all frames that are held, with their coarser levels. Those of
         /// the two frames that are shown are held even if they do not fit. If those of three frames do not
@@ -79,10 +75,7 @@ public:
     uint32_t count() const { return uint32_t(def_.frames.size()); }
     const std::vector<VolumeCells>& cells(uint32_t frame) const { return def_.frames[frame].cells; }
     uint64_t bytes(uint32_t frame) const { return def_.frames[frame].bytes; } ///< [byte] of the voxels
-    VolumeLattice lattice(uint32_t frame) const
-    {
-        return def_.frames[frame].lattice.value_or(VolumeLattice{glm::dvec3(def_.origin), double(def_.side)});
-    }
+    const VolumeLattice& lattice(uint32_t frame) const { return def_.frames[frame].lattice; }
     bool hasOneLattice() const { return hasOneLattice_; }
     double largestSide() const { return largestSide_; } ///< [m] of a voxel
     /// Whether a frame is shown on the lattice of another: voxels may be larger than there, but not so much

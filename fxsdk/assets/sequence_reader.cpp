@@ -114,8 +114,6 @@ public:
     base::Result<std::shared_ptr<base::VolumeSequence>> finish(ReadBytes readAgain)
     {
         base::VolumeSequence::Def def;
-        def.side = float(lattices_[0].side);
-        def.origin = glm::vec3(lattices_[0].origin);
         def.hasVelocities = hasVelocities_;
         def.memory = files_.memory;
         def.makeCoarser = render::coarserLevels;
@@ -123,8 +121,7 @@ public:
         for (uint32_t i = 0; i < files_.count; ++i) {
             base::VolumeSequence::Frame& frame = frames_[i];
             all += frame.bytes;
-            if (!hasOneLattice_)
-                frame.lattice = lattices_[i];
+            frame.lattice = lattices_[i];
             for (base::VolumeCells& cells : frame.cells)
                 cells.brick += known_[i].offset;
             for (glm::ivec3& brick : bricks_[i])
@@ -169,12 +166,13 @@ private:
     /// Finds the bricks of all frames on the lattice of the first, if they are on it.
     bool placeOnOneLattice()
     {
-        for (uint32_t i = 0; i < files_.count && hasOneLattice_; ++i) {
+        for (uint32_t i = 0; i < files_.count; ++i) {
             const std::optional<glm::ivec3> offset = offsetOf(lattices_[i], lattices_[0]);
-            hasOneLattice_ = offset.has_value();
-            known_[i].offset = offset.value_or(glm::ivec3(0));
+            if (!offset)
+                return false;
+            known_[i].offset = *offset;
         }
-        return hasOneLattice_;
+        return true;
     }
 
     /// Moves all frames together, such that their bricks are in range.
@@ -192,6 +190,7 @@ private:
         for (KnownFile& file : known_)
             file.offset += 1 - all.low;
         shift(lattices_[0], 1 - all.low);
+        std::ranges::fill(lattices_, base::VolumeLattice(lattices_[0]));
         return {};
     }
 
@@ -258,7 +257,6 @@ private:
     const ReadBytes& read_;
     std::vector<base::VolumeLattice> lattices_; // of each frame
     std::vector<BrickBox> boxes_;               // of each frame, as in its file
-    bool hasOneLattice_ = true;                 // false: each frame is on its own
     bool hasVelocities_ = true;
     std::vector<KnownFile> known_;
     std::vector<base::VolumeSequence::Frame> frames_;

@@ -267,9 +267,11 @@ MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume
     std::ranges::sort(bricks, base::isBefore);
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
     uint64_t hash = base::hashWord(first.hash_, second.hash_);
-    for (const double number :
-         {moment.part, moment.seconds, toFirst.scale, toFirst.offset.x, toFirst.offset.y, toFirst.offset.z})
+    for (const double number : {moment.part, moment.seconds})
         hash = base::hashWord(hash, std::bit_cast<uint64_t>(number));
+    for (const base::LatticeMap* map : {&toFirst, &toSecond})
+        for (const double number : {map->scale, map->offset.x, map->offset.y, map->offset.z})
+            hash = base::hashWord(hash, std::bit_cast<uint64_t>(number));
     MediumVolume out(std::move(bricks), float(double(first.side_) * toFirst.scale), hash);
     const size_t voxels = out.bricks_.size() * kVoxels;
     const bool emits = !first.emitted_.empty() || !second.emitted_.empty();

@@ -59,8 +59,8 @@ SplitBalls split(const MomentBalls& moment, const VolumeOptions& options)
     std::vector<render::VoxelBall> small;
     for (size_t i = 0; i < moment.balls.size(); ++i) {
         const bool isDetailed = options.detail && hasDetails && moment.details.balls[i].group >= 0;
-        if (moment.balls[i].radius < options.pointsBelow && !isDetailed)
-        { // the detail of points would be lost
+        // The detail of points would be lost.
+        if (moment.balls[i].radius < options.pointsBelow && !isDetailed) {
             small.push_back(moment.balls[i]);
             continue;
         }

@@ -126,18 +126,11 @@ protected:
                                        base::Ticks tick)
     {
         base::VolumeSequence::Def def;
-        def.side = frames[0].side;
-        def.origin = frames[0].origin;
-        const auto isOther = [&](const auto& frame) {
-            return frame.side != def.side || frame.origin != def.origin;
-        };
-        const bool hasLattices = std::ranges::any_of(frames, isOther);
         def.memory = memory * frames[0].bytes();
         for (const base::VoxelVolume& frame : frames) {
             def.frames.push_back({base::volumeCells(frame), frame.bytes(),
-                                  render::mostCoarserBytes(frame.bricks, !frame.velocity.empty())});
-            if (hasLattices)
-                def.frames.back().lattice = latticeOf(frame);
+                                  render::mostCoarserBytes(frame.bricks, !frame.velocity.empty()),
+                                  latticeOf(frame)});
             if (def.held.size() < memory)
                 def.held.push_back(std::make_shared<const base::VoxelVolume>(frame));
             def.hasVelocities = def.hasVelocities && !frame.velocity.empty();
