@@ -9,6 +9,7 @@
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_texture.h"
 #include "rendering/network/network_passes.h"
+#include "rendering/passes/blob_light_pass.h"
 
 #include <array>
 #include <span>
@@ -38,11 +39,11 @@ public:
 
     bool isEmpty() const { return grids_.empty(); }
     bool isSettled() const { return settled_ >= kSettledSweeps; } ///< true if no more sweeps are needed
-    int block() const { return block_.x; } ///< [texel] size of a block of moments along x
-    /// Moments of the light in this frame; invalid without grids.
-    ResourceId moments() const { return textures_.moments; }
-    ResourceId buffer() const { return gridsId_; } ///< buffer of FieldGlowBlock
-    int gridCount() const { return int(grids_.size()); }
+    /// The light in this frame; invalid without grids.
+    BlobLightPass::Networks bindings() const
+    {
+        return {textures_.moments, gridsId_, block_.x, int(grids_.size())};
+    }
     void release();
     uint64_t bytes() const;
 

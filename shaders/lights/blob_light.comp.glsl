@@ -6,6 +6,7 @@
 #include "shared/light_slices.glsl"
 #include "shared/scattered_light.glsl"
 #include "shared/sky_light.glsl"
+#include "shared/smooth_light.glsl"
 #if FX_NETWORK
 #include "formulas/network_cell.fx.h"
 #include "field/field_glow.glsl"
@@ -28,21 +29,6 @@ layout(std140, binding = 0) uniform BlobLightBlock
     ivec4 blobCount; // x; y [texel] of a block of moments along x; z number of networks
     vec4 viewAxis; // xyz in which the eye looks; w 1 orthographic
 };
-
-vec3 smoothLight(vec3 p, vec3 toEye, vec3 albedo, float g, vec2 towardsSun)
-{
-    vec3 sum = skySource(p, toEye, albedo, g) + scatteredOfPoints(p, toEye, albedo, g);
-    return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g, towardsSun) : sum;
-}
-
-#if FX_NETWORK
-vec3 lightInNetwork(int network, vec3 p, vec3 toEye, vec3 albedo, float g)
-{
-    GlowBox box = GlowBox(glows[network].corner.xyz, glows[network].corner.w * vec3(glows[network].cells.xyz), 0.0);
-    return networkScattered(network, blobCount.y, p, toEye, albedo, g) +
-           albedo * networkPointsOnce(vec3(0.0), p, toEye, networkStraight(albedo, g), g, box);
-}
-#endif
 
 // Optical depth towards the sun of the blob alone.
 float ownDepth(BlobInstance blob, vec3 fromCenter)
@@ -78,7 +64,7 @@ void main()
         if (network < 0)
             source = smoothLight(blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w, towardsSun);
         else
-            source = lightInNetwork(network, blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w);
+            source = lightInNetwork(network, blobCount.y, blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w);
 #else
         vec3 source = smoothLight(blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w, towardsSun);
 #endif

@@ -43,6 +43,14 @@ vec3 networkScatteredOnce(vec3 p, vec3 toEye, vec3 albedo, float g, GlowBox box)
     return albedo * networkPointsOnce(sun, p, toEye, straight, g, box);
 }
 
+// What changes little within a ball of medium: the light of a network, and of points.
+vec3 lightInNetwork(int network, int block, vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    GlowBox box = GlowBox(glows[network].corner.xyz, glows[network].corner.w * vec3(glows[network].cells.xyz), 0.0);
+    return networkScattered(network, block, p, toEye, albedo, g) +
+           albedo * networkPointsOnce(vec3(0.0), p, toEye, networkStraight(albedo, g), g, box);
+}
+
 // Number of the grid in which a place lies, of `count`; -1: none.
 int networkAt(vec3 p, int count)
 {

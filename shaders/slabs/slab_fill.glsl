@@ -52,9 +52,6 @@ BallLight lightOf(SlabRay ray, Chord chord, uint ball)
     scatter.rgb = isColored ? chord.block.color.rgb : scatter.rgb;
     light.emitted = isColored ? chord.block.light : light.emitted;
     light.isAlongRay = chord.isBlock;
-#if FX_NETWORK
-    light.isAlongRay = light.isAlongRay && smoothly.w < 0.5;
-#endif
     light.tint = scatter.rgb / max(blockScatter.rgb, vec3(1e-6));
 #endif
     light.base = 1.0 + dot(slope, chord.across);
@@ -224,14 +221,16 @@ BallPart partOf(Chord chord, BallLight light, float near, float far, vec3 sun, i
 // A block is large: the light that changes little within a ball, see lights/blob_light.comp.glsl, is looked up along the ray.
 vec3 smoothAt(SlabRay ray, float t)
 {
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < (blockScatter.w > 0.0 ? 1 : 0); ++i) { // software renderers skip a loop without turns
-        vec3 p = ray.origin + t * ray.direction, toEye = -ray.direction;
-        vec2 towardsSun = sunDepth(p);
-        sum = skySource(p, toEye, blockScatter.rgb, blockPhase) + scatteredOfPoints(p, toEye, blockScatter.rgb, blockPhase);
-        if (lightOfSky.w > 0.5)
-            sum += sunScatteredAgain(p, toEye, blockScatter.rgb, blockPhase, towardsSun);
-    }
+    vec3 sum = vec3(0.0), p = ray.origin + t * ray.direction, toEye = -ray.direction;
+    int turns = blockScatter.w > 0.0 ? 1 : 0; // software renderers skip a loop without turns
+#if FX_NETWORK
+    int network = networkAt(p, turns * int(pass.w));
+    for (int i = 0; i < (network < 0 ? 0 : 1); ++i)
+        sum = lightInNetwork(network, int(pass.z), p, toEye, blockScatter.rgb, blockPhase);
+    turns = network < 0 ? turns : 0;
+#endif
+    for (int i = 0; i < turns; ++i)
+        sum = smoothLight(p, toEye, blockScatter.rgb, blockPhase, sunDepth(p));
     return sum;
 }
 #define FX_SMOOTH(k) , 0.5 * (smoothly[k] + smoothly[k + 1])

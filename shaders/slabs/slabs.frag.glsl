@@ -14,6 +14,12 @@
 #include "formulas/multiple_scattering.fx.h"
 #include "shared/scattered_light.glsl"
 #include "shared/sky_light.glsl"
+#include "shared/smooth_light.glsl"
+#if FX_NETWORK
+#include "field/field_glow.glsl"
+#include "network/network_grid.glsl"
+#include "network/network_gather.glsl"
+#endif
 #endif
 #include "slabs/slab_balls.glsl"
 #include "slabs/slab_ray.glsl"

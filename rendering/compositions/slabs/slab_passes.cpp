@@ -1,7 +1,6 @@
 #include "rendering/compositions/slabs/slab_passes.h"
 
 #include "rendering/field/field_texels.h"
-#include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/output_marks.h"
 
 #include <algorithm>
@@ -43,10 +42,12 @@ constexpr ProgramDesc kBallPrograms[] = {
     {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=1 FX_BLOCKS=1"},
 };
 
-constexpr uint32_t kLumpUnit = 10;       ///< as in shaders/field/field_detail.glsl
-constexpr uint32_t kRecordBinding = 7;   ///< as in shaders/slabs/slab_balls.comp.glsl
-constexpr uint32_t kAtlasUnit = 12;      ///< as in shaders/blocks/block_chord.glsl
-constexpr uint32_t kMaterialBinding = 4; ///< as in shaders/slabs/slab_balls.comp.glsl
+constexpr uint32_t kLumpUnit = 10;          ///< as in shaders/field/field_detail.glsl
+constexpr uint32_t kRecordBinding = 7;      ///< as in shaders/slabs/slab_balls.comp.glsl
+constexpr uint32_t kAtlasUnit = 12;         ///< as in shaders/blocks/block_chord.glsl
+constexpr uint32_t kMaterialBinding = 4;    ///< as in shaders/slabs/slab_balls.comp.glsl
+constexpr uint32_t kNetworkUnit = 3;        ///< as in shaders/network/network_gather.glsl
+constexpr uint32_t kNetworkGridBinding = 3; ///< as in shaders/field/field_glow.glsl
 constexpr size_t kCardBytes = 32;
 constexpr size_t kTileBytes = 16;
 constexpr uint32_t kBallColumns = 2048; ///< as in shaders/slabs/slab_balls.glsl
@@ -262,8 +263,12 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
     MediaPass::Outputs out = under;
     graph.addPass("slabs", [&](FrameGraph::Builder& builder) {
         const MediaPass::Inputs& media = *in.media;
-        for (const ResourceId id : {in.balls, in.blocks.atlas, in.cards.heads, in.cards.nodes,
-                                    in.fieldDetail.texels, in.fieldDetail.lumpTile})
+        const bool hasNetworks = in.networks.moments.valid();
+        // light along rays is that of balls with tiles only
+        const BlobLightPass::Networks networks = in.blocks.valid() ? in.networks : BlobLightPass::Networks{};
+        for (const ResourceId id :
+             {in.balls, in.blocks.atlas, in.cards.heads, in.cards.nodes, in.fieldDetail.texels,
+              in.fieldDetail.lumpTile, networks.moments, networks.grids})
             if (id.valid())
                 builder.read(id);
         builder.read(in.tiles.tiles);
@@ -274,17 +279,22 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
         out = targets.outputs();
         return [view = media.view, distance = media.distance, lights = media.lights, balls = in.balls,
                 cards = in.cards, tiles = in.tiles, detail = in.fieldDetail, atlas = in.blocks.atlas,
-                program = &slabProgram(in.slabs, in.detail, media.layers, in.network, in.blocks.valid()),
+                networks,
+                program = &slabProgram(in.slabs, in.detail, media.layers, hasNetworks, in.blocks.valid()),
                 targets](Backend& backend) {
             targets.clear(backend);
             ViewBlock block = view;
             block.pass.y = cards.valid() ? 1.0f : 0.0f;
-            TextureBinding textures[8] = {{0, distance}, {9, tiles.lists}};
+            block.pass.z = float(networks.block);
+            block.pass.w = float(networks.gridCount);
+            TextureBinding textures[9] = {{0, distance}, {9, tiles.lists}};
             size_t textureCount = 2;
             if (balls.valid())
                 textures[textureCount++] = {8, balls};
             if (atlas.valid())
                 textures[textureCount++] = {kAtlasUnit, atlas, Sampling::Linear};
+            if (networks.moments.valid())
+                textures[textureCount++] = {kNetworkUnit, networks.moments, Sampling::Linear};
             if (lights.planes.valid())
                 textures[textureCount++] = lights.textureBinding();
             if (lights.hostShadow.valid())
@@ -294,12 +304,14 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
                 textures[textureCount++] = {kLumpUnit, detail.lumpTile, Sampling::LinearRepeat};
             }
             const auto orTiles = [&](ResourceId id) { return id.valid() ? id : tiles.tiles; }; // never read
-            BufferBinding buffers[4] = {{2, tiles.tiles},
+            BufferBinding buffers[5] = {{2, tiles.tiles},
                                         {kCardHeadBinding, orTiles(cards.heads)},
                                         {kCardNodeBinding, orTiles(cards.nodes)}};
             size_t bufferCount = 3;
             if (lights.lights.valid())
                 buffers[bufferCount++] = lights.bufferBinding();
+            if (networks.grids.valid())
+                buffers[bufferCount++] = {kNetworkGridBinding, networks.grids};
             DrawCall call;
             call.program = program;
             call.targets = targets.all();

@@ -4,6 +4,7 @@
 
 #include "rendering/compositions/slabs/slab_tiles.h"
 #include "rendering/field/field_blocks.h"
+#include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/media_pass.h"
 
 namespace fx::render {
@@ -143,6 +144,7 @@ static_assert(sizeof(SlabTileCounts) == 32);
 ///
 /// reads   the results of SlabBallPass, SlabTilePass and SlabCardPass
 ///         distance  [m] along the ray to opaque geometry
+///         networks  illumination networks
 /// writes  media     targets of MediaPass, drawn over `under`
 /// No work is done for tiles without balls and cards. The pass keeps no state between frames.
 class SlabPass
@@ -158,8 +160,9 @@ public:
         CardLists cards;
         BlockTileBindings blocks; ///< tiles of balls; invalid: no ball has a tile
         int slabs;                ///< number of slabs: 6 or 16
-        /// True: the lights of balls are those of illumination networks, see BlobLightPass.
-        bool network = false;
+        /// Invalid moments: none. Otherwise lights of balls are those of networks, see BlobLightPass, and
+        /// that of balls with tiles is looked up along rays.
+        BlobLightPass::Networks networks = {};
     };
     /// Returns the largest SlabTilePass::Inputs::maxOfTile with which the loops over the balls of a tile and
     /// over their fields take at most kMaxLoopTurns iterations.

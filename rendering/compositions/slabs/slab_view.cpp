@@ -1,7 +1,5 @@
 #include "rendering/compositions/slabs/slab_view.h"
 
-#include "rendering/passes/blob_light_pass.h"
-
 #include <bit>
 
 namespace fx::render {
@@ -60,22 +58,17 @@ void SlabView::addNetwork(FrameGraph& graph, const PassFrame& frame)
     const size_t count = balls.instances.size();
     ResourceId lights =
         graph.importBuffer({"network blob lights", std::bit_ceil(count * kBlobLightBytes)}, lights_.name());
+    network_.importAll(graph);
     const bool sweeps = !network_.isSettled() && !frame.request->range.isContinued;
     if (!isKept_ || sweeps || frame.mayShadowChange()) {
         fields_.importAll(graph);
-        network_.importAll(graph);
         if (!isKept_) {
             fields_.upload(graph);
             fields_.fill(graph, frame.blobs);
         }
         network_.addPasses(graph, fields_.sources(), frame.lights, isKept_);
-        lights = BlobLightPass::addTo(
-                     graph, {balls.balls,
-                             lights,
-                             frame.lights,
-                             &frame.view,
-                             uint32_t(count),
-                             {network_.moments(), network_.buffer(), network_.block(), network_.gridCount()}})
+        lights = BlobLightPass::addTo(graph, {balls.balls, lights, frame.lights, &frame.view, uint32_t(count),
+                                              network_.bindings()})
                      .blobLights;
     }
     media_.setLights(lights);
@@ -87,7 +80,8 @@ MediaPass::Outputs SlabView::compose(FrameGraph& graph, const MediaPass::Inputs&
     const SlabMedia::Lists lists =
         media_.list(graph, in, {0, {}, false, {materials_, details_, lumps_}, slabs_});
     SlabPass::Inputs slabs = lists.inSlabs(in, slabs_);
-    slabs.network = hasNetwork_;
+    if (hasNetwork_)
+        slabs.networks = network_.bindings();
     return SlabPass::addTo(graph, slabs, under);
 }
 

@@ -165,9 +165,10 @@ void VolumeView::addFieldLight(FrameGraph& graph, const PassFrame& frame)
                                  &frame.view,
                                  uint32_t(fields_.plan().bricks().size())};
     light.glow = glow_.light();
-    light.network = network_.moments();
-    light.networkBlock = network_.block();
-    light.grids = network_.isEmpty() ? glow_.grids() : network_.buffer();
+    const BlobLightPass::Networks networks = network_.bindings();
+    light.network = networks.moments;
+    light.networkBlock = networks.block;
+    light.grids = network_.isEmpty() ? glow_.grids() : networks.grids;
     fields_.setTextures(FieldLightPass::addTo(graph, light).textures);
     if (fields_.plan().near().hasDetailed())
         takeNearOut(graph, frame.blobs, true);

@@ -133,6 +133,20 @@ TEST_F(BlockImpostors, areLitAsTheirBallsAre)
     EXPECT_GE(rmsDifference(drawUpTo(kAll, blocks, eye), impostors), 0.06);
 }
 
+// A network has other light in front of a block than in its middle: one number and a slope for a block do not
+// tell.
+TEST_F(BlockImpostors, areLitByNetworksAsTheirBallsAre)
+{
+    sim::BlocksDef def = threeBlocks();
+    view_->settings().slices.network = true;
+    for (const float density : {0.5f, 1.0f}) {
+        def.density = density;
+        const base::FrameSnapshot blocks = published(def);
+        for (const glm::dvec3& eye : {glm::dvec3(0.0, 2.0, 8.0), glm::dvec3(6.0, -2.0, -5.0)})
+            EXPECT_LE(rmsDifference(drawUpTo(kAll, blocks, eye), drawBalls(blocks, eye)), 0.035 * density);
+    }
+}
+
 TEST_F(BlockImpostors, areThereWhereTheyAreSmallerThanAPixel)
 {
     glowAlone();
