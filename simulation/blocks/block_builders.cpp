@@ -76,6 +76,16 @@ public:
         return bare < -build_.noise ? bare : std::min(bare + build_.noise * noise_.at(p), 1.0f);
     }
 
+    /// Of a lump. With an exponent of radii, those above a flat foot do not reach far below it; without,
+    /// forms stay as they were.
+    float radiusAt(const glm::vec3& p, float depth) const
+    {
+        const float grown = (build_.largest - build_.smallest) * std::min(2.0f * depth, 1.0f);
+        const float cut = build_.base * build_.size.y;
+        const bool isFlat = build_.radiusExponent > 0.0f && cut > 0.0f;
+        return build_.smallest + (isFlat ? std::min(grown, std::max(p.y - cut, 0.0f)) : grown);
+    }
+
 private:
     bool hasFoot() const { return build_.form != BlockForm::Nebula; }
     glm::vec3 width() const
@@ -190,7 +200,11 @@ std::vector<BlockLump> buildLumps(const BlockBuild& build)
         const float depth = form.depthAt(place);
         if (!(depth > 0.0f))
             continue;
-        const float radius = build.smallest + (build.largest - build.smallest) * std::min(2.0f * depth, 1.0f);
+        const float radius = form.radiusAt(place, depth);
+        if (build.radiusExponent > 0.0f &&
+            double(randomUnit4(build.seed, 0, trial, RandomPurpose::Attributes)[0]) >=
+                base::power(double(build.smallest / radius), double(build.radiusExponent)))
+            continue;
         lumps.push_back({build.position + place, radius * (0.8f + 0.4f * u[3]), depth});
     }
     return lumps;

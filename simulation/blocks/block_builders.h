@@ -3,7 +3,8 @@
 ///
 /// A form is the region where a function of the position is above 0. Its value is the depth below the outline
 /// in units of the form's own thickness, up to 1; noise moves the outline. Lumps are placed at random in the
-/// region, evenly in volume. Equal settings give equal lumps on all machines.
+/// region, evenly in volume or more of them where they are small. Equal settings give equal lumps on all
+/// machines.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -30,6 +31,9 @@ struct BlockBuild
     glm::vec3 size{10.0f};    ///< [m] full extents of the form without noise, > 0
     float smallest = 0.5f;    ///< [m] radius of lumps at the outline, > 0
     float largest = 1.5f;     ///< [m] radius of lumps in the depth, at least `smallest`
+    /// [1] Power of the radius with which the number of lumps in a volume falls, 0..6: with 0 small and large
+    /// lumps are equally many in equal volumes, with 3 they fill as much of it.
+    float radiusExponent = 0.0f;
     float noise = 0.3f;       ///< [1] by which the outline is moved, in units of the form's thickness, 0..1
     float noiseLength = 4.0f; ///< [m] of the largest lumps of the outline, > 0
     uint32_t octaves = 3;     ///< of the noise, 1..8

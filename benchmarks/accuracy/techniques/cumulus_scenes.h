@@ -1,5 +1,6 @@
 /// @file cumulus_scenes.h
-/// Clouds of blocks for measurements of impostors, made from the blocks of library:cumulus.
+/// Clouds of blocks for measurements of impostors. They do not follow presets of the library, which change
+/// with what looks best.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -9,10 +10,10 @@
 
 namespace fx::cli {
 
-/// A cloud as it stands in the light of the library's preview.
+/// A cloud in the light of the sun from the side.
 struct Cumulus
 {
-    bool isSmall;      ///< 60 blocks in a form 26 m wide; else those of library:cumulus, 360 of 60 m
+    bool isSmall;      ///< 60 blocks in a form 26 m wide; else 360 in one of 60 m
     glm::dvec3 middle; ///< [m]
     double radius;     ///< [m] of most of the cloud
 };

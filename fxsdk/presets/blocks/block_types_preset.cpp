@@ -87,6 +87,7 @@ sim::BlockBuild readBuild(const PresetValue& builder)
     builder.read("radius", radius);
     build.smallest = radius.min;
     build.largest = radius.max;
+    builder.read("radiusExponent", build.radiusExponent);
     builder.read("noise", build.noise);
     builder.read("noiseLength", build.noiseLength);
     builder.read("octaves", build.octaves);

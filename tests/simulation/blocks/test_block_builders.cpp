@@ -69,15 +69,46 @@ TEST(BlockBuilders, lumpsHaveTheirRadiiAndLieWithinTheForm)
     }
 }
 
+TEST(BlockBuilders, smallLumpsAreMoreByThePowerOfTheirRadius)
+{
+    for (const sim::BlockForm form : kForms) {
+        sim::BlockBuild build = buildOf(form);
+        build.count = 20000;
+        build.smallest = 0.5f;
+        build.largest = 2.0f;
+        const auto radiusOf = [&](const sim::BlockLump& lump) {
+            return build.smallest + (build.largest - build.smallest) * std::min(2.0f * lump.depth, 1.0f);
+        };
+        constexpr double kExponent = 2.5;
+        double all = 0.0, large = 0.0; // what is to be of an even filling
+        for (const sim::BlockLump& lump : sim::buildLumps(build)) {
+            const double weight = std::pow(double(radiusOf(lump)), -kExponent);
+            all += weight;
+            large += radiusOf(lump) > 1.0f ? weight : 0.0;
+        }
+        build.radiusExponent = float(kExponent);
+        const auto lumps = sim::buildLumps(build);
+        const auto count =
+            std::ranges::count_if(lumps, [&](const auto& lump) { return radiusOf(lump) > 1.0f; });
+        ASSERT_GT(lumps.size(), 1000u);
+        EXPECT_NEAR(double(count) / double(lumps.size()), large / all, 0.02) << int(form);
+    }
+}
+
 TEST(BlockBuilders, theBaseOfACloudIsFlat)
 {
     sim::BlockBuild build = buildOf(sim::BlockForm::Cloud);
     build.base = 0.25f;
-    float lowest = 1e9f;
-    for (const sim::BlockLump& lump : sim::buildLumps(build))
+    build.radiusExponent = 0.5f;
+    float lowest = 1e9f, reach = 1e9f;
+    for (const sim::BlockLump& lump : sim::buildLumps(build)) {
         lowest = std::min(lowest, lump.position.y);
+        const float varied = 0.2f * (build.smallest + lump.position.y - 3.0f); // of radii
+        reach = std::min(reach, lump.position.y - lump.radius + varied);
+    }
     EXPECT_GE(lowest, 3.0f);
     EXPECT_LE(lowest, 3.1f);
+    EXPECT_GE(reach, 3.0f - build.smallest - 1e-5f);
 }
 
 TEST(BlockBuilders, anAnvilSpreadsTheTop)
