@@ -25,12 +25,14 @@ enum : size_t
     OriginZ,
     Side,    ///< [m] side of a voxel, along the axes of the local space
     Density, ///< [1] factor of the extinction and of the emission, per length of the local space
-    Frame,   ///< [1] of a sequence: frame that is shown, from 0; a fraction leads from one frame to the next
-    /// [1] The same at the previous snapshot, at most `Frame`. A negative number counts back from the end of
-    /// the sequence, which has begun again.
-    FrameBefore,
+    /// [1] Of a sequence: frame that is shown, from 0; a fraction leads from one frame to the next. From the
+    /// number of frames on, the sequence has begun again if it loops; above the last frame, another one
+    /// shows that frame. Below 0, which is before the start of the instance, the first frame is shown.
+    Frame,
+    FrameBefore,  ///< [1] the same at the previous snapshot, at most `Frame`
     FrameSeconds, ///< [s] from a frame to the next; 0: the asset is a single volume
     Lattice,      ///< [1] of a sequence: the frame whose voxels have this origin and side
+    Loops,        ///< [1] of a sequence: 1 if the first frame follows the last one, otherwise 0
     Count
 };
 }
@@ -42,8 +44,9 @@ constexpr float kVolumeBallRadius = 8.0f;
 constexpr float kVolumeCasterRadius = 4.0f;
 
 inline constexpr ColumnDesc kVolumeConstants[volume_constant::Count] = {
-    {"asset", "1"},   {"originX", "m"}, {"originY", "m"},     {"originZ", "m"},      {"side", "m"},
-    {"density", "1"}, {"frame", "1"},   {"frameBefore", "1"}, {"frameSeconds", "s"}, {"lattice", "1"},
+    {"asset", "1"},        {"originX", "m"}, {"originY", "m"}, {"originZ", "m"},
+    {"side", "m"},         {"density", "1"}, {"frame", "1"},   {"frameBefore", "1"},
+    {"frameSeconds", "s"}, {"lattice", "1"}, {"loops", "1"},
 };
 
 inline constexpr KindDesc kVolumeKind{"volume", {}, kVolumeConstants, false};

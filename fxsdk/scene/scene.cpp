@@ -147,6 +147,7 @@ void Scene::enterWorld(uint32_t index)
     instance.slot = world_.add(instance.setup.effect, startOf(instances_, index));
     instance.state = InstanceState::Active;
     active_.insert(instance.serial, index, instance.slot);
+    hasStarted_ = hasStarted_ || instance.setup.effect->startsInMotion();
 }
 
 sim::InstanceStart Scene::startOf(const IdTable<Instance>& instances, uint32_t index)
@@ -241,7 +242,8 @@ bool Scene::proceedPublication(base::Ticks tick, double interpolation)
     return true;
 }
 
-/// Publishes the last step again, with the instances that have come back since: views interpolate from it.
+/// Publishes the last step again, with the instances that have come back or started since: views interpolate
+/// from it.
 /// Where that takes too much work, these instances appear a step later.
 void Scene::stageReturned(base::Ticks tick)
 {

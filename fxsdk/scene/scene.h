@@ -271,7 +271,7 @@ private:
     void prepareSteps(const base::StepPlan& plan);
     void postpone(uint32_t steps);
     void countDropped(base::Ticks ticks);
-    inline void beginStep(base::Ticks from);
+    inline void beginStep(base::Ticks from, bool isLast);
     inline void endStep(base::Ticks to);
     inline bool proceed();
     bool isShort() const;
@@ -411,6 +411,9 @@ private:
     /// true: instances have another effect than in the last published step, which views must not
     /// interpolate from
     bool replaced_ = false;
+    /// true: an instance has entered the world since the last step whose elements views interpolate from its
+    /// start on, see sim::SolverDef::startsInMotion()
+    bool hasStarted_ = false;
     UpdateCounters update_;
     /// Number of empty publications after which a further empty publication has no effect.
     static constexpr uint32_t kMaxEmptyPublications = 2;

@@ -478,7 +478,7 @@ void Scene::take(Restored& state)
         events_->clear();
     arrived_.clear();
     seeks_.clear();
-    replaced_ = false;
+    replaced_ = hasStarted_ = false;
     std::swap(moved_, state.moved);
     {
         std::lock_guard lock(presentation_);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <utility>
 
 namespace fx::scene {
 
@@ -61,7 +62,7 @@ bool Scene::update(double dt)
             if (begins && !motions_.empty())
                 followMotions(from + clock_.stepTicks());
             if (begins)
-                beginStep(from);
+                beginStep(from, taken + 1 == plan.steps);
             const base::Ticks to = from + clock_.stepTicks();
             const double moment = taken + 1 == plan.steps ? clock_.interpolation() : 0.0;
             if (!world_.isPublishing()) {
@@ -149,7 +150,7 @@ bool Scene::isShort() const
     return work_.left() / 2 < stepWork_ + shownWork_;
 }
 
-[[gnu::always_inline]] inline void Scene::beginStep(base::Ticks from)
+[[gnu::always_inline]] inline void Scene::beginStep(base::Ticks from, bool isLast)
 {
     const base::Ticks to = from + clock_.stepTicks();
     if (memoryFailed_ && events_) // the step before was dropped with the events that it has recorded
@@ -162,6 +163,8 @@ bool Scene::isShort() const
         ringAlarms(to);
     if (!arrived_.empty())
         letArrive();
+    if (std::exchange(hasStarted_, false) && isLast)
+        stageReturned(from);
     if (active_.size() > 0)
         world_.beginStep(active_.slots(), from, clock_.stepTicks());
     else

@@ -49,6 +49,7 @@ GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGr
     GroupVolume out;
     out.asset = uint32_t(constants[c::Asset]);
     out.frame = glm::mix(double(constants[c::FrameBefore]), double(constants[c::Frame]), t);
+    out.loops = constants[c::Loops] > 0.0f;
     out.frameSeconds = double(constants[c::FrameSeconds]);
     out.lattice = uint32_t(constants[c::Lattice]);
     out.side = own * scale;
@@ -69,10 +70,13 @@ GroupVolume groupVolume(const base::SnapshotGroup& blobs, const base::SnapshotGr
 
 FramePair framePair(const GroupVolume& volume, uint32_t count)
 {
-    const double frame = volume.frame < 0.0 ? volume.frame + double(count) : volume.frame;
+    const double begun = volume.loops ? std::floor(volume.frame / double(count)) * double(count) : 0.0;
+    const double frame = std::max(volume.frame, 0.0) - std::max(begun, 0.0);
+    const auto last = double(count - 1);
     FramePair pair;
-    pair.first = uint32_t(std::clamp(frame, 0.0, double(count) - 1.0));
-    pair.part = std::clamp(frame - double(pair.first), 0.0, 1.0);
+    pair.first = uint32_t(std::min(frame, last));
+    pair.part =
+        pair.first == count - 1 && !volume.loops ? 0.0 : std::clamp(frame - double(pair.first), 0.0, 1.0);
     pair.second = pair.part > 0.0 ? (pair.first + 1) % count : pair.first;
     return pair;
 }

@@ -18,9 +18,8 @@ namespace fx::render {
 struct GroupVolume
 {
     uint32_t asset = 0; ///< id in the asset table
-    /// [1] Frame that is shown, if the asset is a sequence: 0 to below the number of frames. A fraction leads
-    /// to the next frame; after the last one follows the first one.
-    double frame = 0.0;
+    double frame = 0.0; ///< [1] frame that is shown, if the asset is a sequence, see volume_constant::Frame
+    bool loops = false; ///< after the last frame follows the first one
     double frameSeconds = 0.0; ///< [s] from a frame to the next; 0: the asset is a single volume
     uint32_t lattice = 0;      ///< frame of a sequence whose lattice the voxels below have
     /// From a place p [m] in the axes of the world to voxels: toVoxels p + first. p is relative to the origin

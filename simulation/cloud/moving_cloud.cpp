@@ -161,13 +161,15 @@ public:
         StillMediumSolver::writeShared(def_, writer);
         writer.constant(base::blob_constant::Shutter) = def_.shutter;
         writer.fill(blob::Age, kBorn);
+        const float early = // [s] before the start
+            std::clamp(float(base::toSeconds(now())), -1.0f / def_.framesPerSecond, 0.0f);
         uint32_t i = 0;
         def_.forEachAt(frame(), [&](const MovingBall& moving, uint32_t id) {
             const ListedBall& ball = moving.ball;
             const glm::vec3 velocity = def_.shutter > 0.0f ? moving.streak / def_.shutter : moving.velocity;
             for (int k = 0; k < 3; ++k) {
                 writer.column(blob::PositionX + size_t(k))[i] =
-                    def_.position[k] + def_.scale * ball.center[k];
+                    def_.position[k] + def_.scale * (ball.center[k] + early * moving.velocity[k]);
                 writer.column(blob::VelocityX + size_t(k))[i] = def_.scale * velocity[k];
                 writer.column(blob::AlbedoR + size_t(k))[i] = ball.albedo[k];
                 writer.column(blob::EmissionR + size_t(k))[i] = ball.emission[k];

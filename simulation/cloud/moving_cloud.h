@@ -61,6 +61,7 @@ struct MovingCloudDef final : StillMediumDef
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return mostBalls; }
+    bool startsInMotion() const override { return true; }
     bool publishes(const base::KindDesc& kind) const override { return kind == base::kBlobKind; }
     uint64_t bytes() const override;
     float reach(float gravity, float wind, float seconds) const override;

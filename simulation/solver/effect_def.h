@@ -76,6 +76,13 @@ struct EffectDef
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->bendsLight(); });
     }
 
+    /// See SolverDef::startsInMotion().
+    bool startsInMotion() const
+    {
+        return std::any_of(solvers.begin(), solvers.end(),
+                           [](const auto& def) { return def->startsInMotion(); });
+    }
+
     /// Sum of the influences of all solvers. The influences are added, because solvers may cause births in
     /// each other.
     Influence influence() const

@@ -23,7 +23,7 @@ public:
     SeekableSolver* seekable() final { return this; }
 
 protected:
-    base::Ticks now() const { return tick_; }
+    base::Ticks now() const { return tick_; } ///< below 0 before the start
     /// The frame that is shown now, see SequenceTime::frameAt().
     double frame() const { return time_.frameAt(tick_); }
 

@@ -20,6 +20,18 @@ double SequenceTime::frameAt(base::Ticks tick) const
     return std::min(std::fmod(frame, frames), std::nextafter(frames, 0.0));
 }
 
+SequenceTime::Way SequenceTime::wayTo(base::Ticks tick, base::Ticks step) const
+{
+    const auto since = [&](base::Ticks t) { return base::toSeconds(t) * double(framesPerSecond); };
+    const double before = since(tick - step), frame = since(tick);
+    if (end == SequenceEnd::Hold) {
+        const auto last = double(count - 1);
+        return before < last ? Way{before, frame} : Way{last, last};
+    }
+    const double begun = before > 0.0 ? std::floor(before / double(count)) * double(count) : 0.0;
+    return {before - begun, frame - begun};
+}
+
 base::Ticks SequenceTime::restsUntil(base::Ticks tick) const
 {
     const bool isOver = end == SequenceEnd::Hold && frameAt(tick - kLongestStep) >= double(count - 1);

@@ -288,6 +288,9 @@ public:
     virtual Influence influence() const { return {.seconds = std::numeric_limits<float>::infinity()}; }
     /// [byte] maximum memory of a solver, at medium quality.
     virtual uint64_t bytes() const { return 0; }
+    /// True if the solvers have elements at the start of an instance, before the first step, and move them.
+    /// Such solvers are seekable, also to times before the start.
+    virtual bool startsInMotion() const { return false; }
     /// True if the solvers depend on StepContext::collider.
     virtual bool collides() const { return false; }
     /// True if the solvers depend on StepContext::placement.

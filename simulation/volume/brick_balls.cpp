@@ -88,6 +88,7 @@ void BrickBalls::publish(const base::GroupInfo& base, const VolumeKinds& kinds,
     constants[c::FrameBefore] = frameBefore;
     constants[c::FrameSeconds] = frameSeconds;
     constants[c::Lattice] = float(lattice);
+    constants[c::Loops] = loops ? 1.0f : 0.0f;
 }
 
 } // namespace fx::sim

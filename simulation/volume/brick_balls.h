@@ -57,6 +57,7 @@ struct BrickBalls
     float frame = 0.0f, frameBefore = 0.0f;   ///< see volume_constant
     float frameSeconds = 0.0f;                ///< [s]
     uint32_t lattice = 0;                     ///< see volume_constant
+    bool loops = false;                       ///< see volume_constant
     float detailSide = 0.0f;                  ///< [m] of voxels for which detail is; 0: of `place`
 
     /// Adds a group of balls, their noise coordinates if there is detail, and one of the volume, each if its

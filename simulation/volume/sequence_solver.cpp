@@ -59,7 +59,7 @@ std::vector<base::VolumeCells> blend(std::span<const Part> parts,
 }
 
 /// All frames from `before` to `frame`, of which the two around `frame` have a share.
-/// @param before at most `frame`; may be negative, see volume_constant
+/// @param before at least 0  @param frame at least `before`; of a loop, may be `count` and above
 std::vector<Part> partsOf(double before, double frame, uint32_t count)
 {
     const auto first = int64_t(std::floor(before)), shown = int64_t(std::floor(frame));
@@ -67,9 +67,9 @@ std::vector<Part> partsOf(double before, double frame, uint32_t count)
     const int64_t last = part > 0.0f ? shown + 1 : shown;
     std::vector<Part> parts;
     for (int64_t i = std::max(first, last - int64_t(count) + 1); i <= last; ++i)
-        parts.push_back({uint32_t((i + 2 * int64_t(count)) % int64_t(count)), i == shown       ? 1.0f - part
-                                                                              : i == shown + 1 ? part
-                                                                                               : 0.0f});
+        parts.push_back({uint32_t(i % int64_t(count)), i == shown       ? 1.0f - part
+                                                       : i == shown + 1 ? part
+                                                                        : 0.0f});
     return parts;
 }
 
@@ -82,7 +82,7 @@ uint32_t latticeOf(const base::VolumeSequence& sequence, double before, double f
         return 0;
     const uint32_t count = sequence.count();
     const auto whole = int64_t(std::floor(frame + kWhole));
-    const auto first = uint32_t((whole + int64_t(count)) % int64_t(count)), next = (first + 1) % count;
+    const auto first = uint32_t(whole % int64_t(count)), next = (first + 1) % count;
     const bool isBetween = double(whole) <= before && frame - double(whole) > kWhole;
     uint32_t lattice = isBetween && sequence.lattice(next).side < sequence.lattice(first).side ? next : first;
     for (const Part& part : parts)
@@ -134,11 +134,12 @@ public:
         if (kinds_.blobs == base::kNoKind)
             return;
         const uint32_t count = def_.sequence->count();
-        double before = def_.frameAt(now() - snapshot.step());
-        if (before > frame())
-            before -= double(count);
-        const std::vector<Part> parts = partsOf(before, frame(), count);
-        const uint32_t lattice = latticeOf(*def_.sequence, before, frame(), parts);
+        const bool loops = def_.end == SequenceEnd::Loop;
+        const SequenceTime::Way way = def_.time().wayTo(now(), snapshot.step());
+        const double last = loops ? INFINITY : double(count - 1);
+        const double before = std::max(way.before, 0.0), frame = std::clamp(way.frame, before, last);
+        const std::vector<Part> parts = partsOf(before, frame, count);
+        const uint32_t lattice = latticeOf(*def_.sequence, before, frame, parts);
         const std::vector<base::VolumeCells> cells = cells_.blended(parts, lattice);
         BrickBalls{def_,
                    placeOf(def_, lattice),
@@ -146,10 +147,11 @@ public:
                    std::max(def_.capacity(), uint32_t(cells.size())),
                    def_.asset,
                    def_.detail,
-                   float(frame()),
-                   float(before),
+                   float(way.frame),
+                   float(way.before),
                    1.0f / def_.framesPerSecond,
                    lattice,
+                   loops,
                    def_.scale * float(def_.sequence->largestSide())}
             .publish(base, kinds_, snapshot);
     }

@@ -27,12 +27,11 @@ struct SequenceDef final : StillMediumDef
 
     /// With a sequence only.
     SequenceTime time() const { return {sequence->count(), framesPerSecond, end}; }
-    /// See SequenceTime.
-    double frameAt(base::Ticks tick) const { return time().frameAt(tick); }
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return mostCells; }
+    bool startsInMotion() const override { return true; }
     bool publishes(const base::KindDesc& kind) const override;
     uint64_t bytes() const override; ///< with the voxels that are held
     float reach(float gravity, float wind, float seconds) const override;

@@ -35,11 +35,29 @@ Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& st
         const Slot slot = takeSlot(start, simulation);
         if (hidden)
             hide(slot);
+        else if (effect->startsInMotion())
+            standBeforeStart(simulation);
         return slot;
     } catch (...) {
         simulations_.leave(simulation);
         throw;
     }
+}
+
+/// Of an instance that starts within a step: what is published of the time at which the step begins.
+void World::standBeforeStart(SimulationIndex index)
+{
+    const base::Ticks local = simulations_.at(index).conditions.clock.toLocal(now_);
+    if (local >= 0)
+        return;
+    StepCounters uncounted;
+    withContext(index, uncounted, [&](StepContext& context, const SharedSimulation& simulation) {
+        for (uint32_t i = 0; i < simulation.solvers.size(); ++i) {
+            context.solverIndex = i;
+            if (simulation.effect->solvers[i]->startsInMotion())
+                simulation.solvers[i]->seekable()->seek(context, local);
+        }
+    });
 }
 
 void World::rehearse(const std::shared_ptr<const EffectDef>& effect, QualityLevel level)

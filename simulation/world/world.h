@@ -434,6 +434,7 @@ private:
     bool replayPart(SimulationIndex index, base::WorkBudget& work, StepCounters& counters);
     void closeSimulation(SimulationIndex index);
     bool jump(SimulationIndex index, base::Ticks from, base::Ticks to, StepCounters& counters);
+    void standBeforeStart(SimulationIndex index);
     bool playTo(SimulationIndex index, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
                 base::WorkBudget& work);
     static void restoreSolvers(SharedSimulation& simulation, const StateBuffer& state);

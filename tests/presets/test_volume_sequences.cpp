@@ -296,7 +296,26 @@ TEST(VolumeSequences, holdTheLastFrameOrBeginAgain)
     EXPECT_EQ(seekable.restsUntil(base::toTicks(0.1)), base::toTicks(0.1));
 }
 
-TEST(VolumeSequences, theFrameBeforeALoopIsBelowZero)
+TEST(VolumeSequences, aStepIsLinearInTimeAlsoWhereItBeginsBeforeTheStartOrEndsAfterTheEnd)
+{
+    using sim::SequenceTime;
+    const SequenceTime held{4, 24.0f, sim::SequenceEnd::Hold}, looped{4, 24.0f, sim::SequenceEnd::Loop};
+    for (const SequenceTime& time : {held, looped}) {
+        const SequenceTime::Way first = time.wayTo(kStep / 2, kStep); // starts in the middle of a step
+        EXPECT_NEAR(first.before, -0.2, 1e-9);
+        EXPECT_NEAR(first.frame, 0.2, 1e-9);
+    }
+    const SequenceTime::Way end = held.wayTo(8 * kStep, kStep); // the last frame is at 7.5 steps
+    EXPECT_NEAR(end.before, 2.8, 1e-9);
+    EXPECT_NEAR(end.frame, 3.2, 1e-9);
+    EXPECT_EQ(held.wayTo(9 * kStep, kStep).before, 3.0);
+    EXPECT_EQ(held.wayTo(9 * kStep, kStep).frame, 3.0);
+    const SequenceTime::Way seam = looped.wayTo(21 * kStep, kStep); // begins again at 20 steps
+    EXPECT_NEAR(seam.frame - seam.before, 0.4, 1e-9);
+    EXPECT_NEAR(std::fmod(seam.frame, 4.0), 0.4, 1e-9);
+}
+
+TEST(VolumeSequences, aLoopBeginsAgainAboveTheNumberOfFrames)
 {
     const Folder folder;
     const auto loaded = folder.load(R"(, "end": "loop", "framesPerSecond": 24)");
@@ -305,8 +324,9 @@ TEST(VolumeSequences, theFrameBeforeALoopIsBelowZero)
     Player player(*looped);
     player.stepTo(15 * kStep); // frame 5 is frame 0
     namespace c = base::volume_constant;
-    EXPECT_NEAR(player.constant(c::Frame), 0.0f, 1e-5f);
-    EXPECT_NEAR(player.constant(c::FrameBefore), -1.0f / 3.0f, 1e-5f);
+    EXPECT_NEAR(player.constant(c::Frame), 5.0f, 1e-5f);
+    EXPECT_NEAR(player.constant(c::FrameBefore), 14.0f / 3.0f, 1e-5f);
+    EXPECT_EQ(player.constant(c::Loops), 1.0f);
 }
 
 TEST(VolumeSequences, seekingAndRestoringIsAsPlaying)

@@ -126,6 +126,28 @@ class Sequence(FxTest):
         self.assertGreater(reads, 0)
         self.assertEqual(late, 0)
 
+    def test_the_first_and_the_last_frame_are_shown_at_their_moments(self):
+        camera = {"position": [0, 2, 6], "target": [0, 2, 0], "fovYDegrees": 40}
+        for spark in ("", "0,3,0,0.05,0.02,0.5,9000,9000,9000\n"):
+            name = "s" if spark else "n"
+            for number, x in enumerate((-0.5, 0.5)): # without velocities, voxels are cross-faded
+                balls = self.write("a.blobs.csv", f"{HEADER}\n{x},2,0,0.5,2,0.5,900,900,900\n{spark.replace('0,', f'{x},', 1)}")
+                file = self.folder / f"{name}.{number:04}.vdb"
+                outcome = fx("export", balls, "-o", file, "--voxel-size", "0.1", "--balls-below", "2")
+                self.assertEqual(outcome.code, 0, outcome.err)
+                outcome = fx("import", file, "-o", self.folder / f"{name}{number}.fx.json", "--bricks")
+                self.assertEqual(outcome.code, 0, outcome.err)
+            outcome = fx("import", self.folder / f"{name}.%04d.vdb", "-o", self.folder / f"{name}.fx.json", "--fps", 24)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            for start in (0.0, 0.05) if spark else (0.0, 0.05, 2.5 / 60): # between two steps of a 60th of a second, too
+                for number in (0,) if spark else (0, 1):
+                    wanted = self.planes(self.scene("w.scene.json", {"preset": f"{name}{number}.fx.json"}, camera), 1.0)
+                    scene = self.scene("f.scene.json", {"preset": f"{name}.fx.json", "start": start}, camera)
+                    found = self.planes(scene, start + number / 24)
+                    with self.subTest(spark=bool(spark), start=start, number=number):
+                        for error in error_of(found, wanted):
+                            self.assertLess(error, 1e-3)
+
     def test_a_gap_is_named(self):
         balls = self.write("a.blobs.csv", f"{HEADER}\n0,2,0,0.5,2,0,0,0,0\n")
         for number in (3, 4, 6):

@@ -220,14 +220,24 @@ TEST(VolumeMoment, voxelsOfDifferentSidesMoveInTheWorldAndKeepTheirMass)
     EXPECT_GT(errorOf(fixed, wanted), 0.3) << "a cross-fade shows two lumps";
 }
 
-TEST(FramePair, countsBackFromTheEndBeforeALoopBegins)
+TEST(FramePair, goesOnAfterTheEndOfALoopAndStaysAtTheEndOtherwise)
 {
     render::GroupVolume volume;
-    volume.frame = -0.25;
-    const render::FramePair back = render::framePair(volume, 10);
-    EXPECT_EQ(back.first, 9u);
-    EXPECT_EQ(back.second, 0u);
-    EXPECT_DOUBLE_EQ(back.part, 0.75);
+    for (const bool loops : {false, true}) {
+        volume.loops = loops;
+        volume.frame = 9.75;
+        const render::FramePair end = render::framePair(volume, 10);
+        EXPECT_EQ(end.first, 9u);
+        EXPECT_EQ(end.second, loops ? 0u : 9u);
+        EXPECT_DOUBLE_EQ(end.part, loops ? 0.75 : 0.0);
+        volume.frame = 12.25;
+        const render::FramePair after = render::framePair(volume, 10);
+        EXPECT_EQ(after.first, loops ? 2u : 9u);
+        EXPECT_DOUBLE_EQ(after.part, loops ? 0.25 : 0.0);
+        volume.frame = -0.25; // before the start
+        EXPECT_EQ(render::framePair(volume, 10).first, 0u);
+        EXPECT_EQ(render::framePair(volume, 10).second, 0u);
+    }
     volume.frame = 9.0;
     const render::FramePair last = render::framePair(volume, 10);
     EXPECT_EQ(last.first, 9u);
