@@ -6,7 +6,11 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <span>
 
 namespace fx::sim {
 namespace {
@@ -92,7 +96,6 @@ void MovingCloudDef::setFrames(std::vector<std::shared_ptr<const MovingBalls>> b
                 shutter = kDefaultShutter;
         }
         forEachPair(*frames[i], *frames[(i + 1) % frames.size()], [&](size_t, size_t) { ++counts_[i]; });
-        mostBalls = std::max(mostBalls, counts_[i]);
     }
     std::ranges::sort(numbers);
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -104,38 +107,79 @@ void MovingCloudDef::setFrames(std::vector<std::shared_ptr<const MovingBalls>> b
             ids_[i].push_back(uint32_t(found - numbers.begin()));
         }
     }
+    for (size_t i = 0; i < frames.size(); ++i) { // a step begins and ends between frames
+        uint32_t count = 0;
+        const auto frame = double(i);
+        forEachIn({frame, frame + 0.5, frame + 1.5}, [&](const MovingBall&, uint32_t) { ++count; });
+        mostBalls = std::max(mostBalls, count);
+    }
 }
 
 template <class Visit>
-void MovingCloudDef::forEachAt(double frame, const Visit& visit) const
+void MovingCloudDef::forEachIn(const Steps& steps, const Visit& visit) const
 {
-    const auto i = size_t(frame);
-    const auto share = float(frame - double(i));
-    const MovingBalls& first = *frames[i];
-    if (!(share > 0.0f) || frames.size() == 1) { // a single frame does not move
-        for (size_t k = 0; k < first.size(); ++k)
-            visit(first[k], ids_[i][k]);
-        return;
-    }
-    const size_t next = (i + 1) % frames.size();
-    const MovingBalls& second = *frames[next];
-    const Moment moment{share, 1.0f / framesPerSecond};
-    const float since = share * moment.seconds, until = (1.0f - share) * moment.seconds;
-    forEachPair(first, second, [&](size_t a, size_t b) {
-        if (b == kNoBall)
-            visit(alone(first[a], since, 1.0f - share), ids_[i][a]);
-        else if (a == kNoBall)
-            visit(alone(second[b], -until, share), ids_[next][b]);
+    constexpr size_t kMostFrames = 6; // two around each of three moments
+    struct Cursor
+    {
+        int64_t frame = 0; ///< without the frames of the times that a loop has been played before
+        size_t list = 0, at = 0;
+    };
+    std::array<Cursor, kMostFrames> cursors;
+    size_t used = 0;
+    for (const double moment : {steps.before, steps.frame, steps.after})
+        for (auto k = int64_t(std::floor(moment)); double(k) < moment + 1.0; ++k)
+            if (used == 0 || k > cursors[used - 1].frame)
+                cursors[used++] = {k, size_t(k) % frames.size(), 0};
+    const auto first = int64_t(std::floor(steps.frame));
+    const Moment moment{float(steps.frame - double(first)), 1.0f / framesPerSecond};
+    for (;;) {
+        uint64_t number = std::numeric_limits<uint64_t>::max();
+        bool isOver = true;
+        for (const Cursor& cursor : std::span(cursors).first(used))
+            if (const MovingBalls& balls = *frames[cursor.list]; cursor.at < balls.size()) {
+                number = std::min(number, balls[cursor.at].number);
+                isOver = false;
+            }
+        if (isOver)
+            return;
+        const MovingBall *earlier = nullptr, *later = nullptr, *other = nullptr;
+        double away = 0.0; // [frame] from that of `other`
+        uint32_t id = 0;
+        for (Cursor& cursor : std::span(cursors).first(used)) {
+            const MovingBalls& balls = *frames[cursor.list];
+            if (cursor.at == balls.size() || balls[cursor.at].number != number)
+                continue;
+            id = ids_[cursor.list][cursor.at];
+            const MovingBall* const ball = &balls[cursor.at++];
+            if (cursor.frame == first)
+                earlier = ball;
+            else if (cursor.frame == first + 1 && moment.share > 0.0f)
+                later = ball;
+            else if (const double here = steps.frame - double(cursor.frame);
+                     !other || std::abs(here) < std::abs(away)) {
+                other = ball;
+                away = here;
+            }
+        }
+        if (earlier && moment.share == 0.0f)
+            visit(*earlier, id);
+        else if (earlier && later)
+            visit(between(*earlier, *later, moment), id);
+        else if (earlier)
+            visit(alone(*earlier, moment.share * moment.seconds, 1.0f - moment.share), id);
+        else if (later)
+            visit(alone(*later, (moment.share - 1.0f) * moment.seconds, moment.share), id);
         else
-            visit(between(first[a], second[b], moment), ids_[i][a]);
-    });
+            visit(alone(*other, float(std::clamp(away, -1.0, 1.0)) * moment.seconds, 0.0f), id);
+    }
 }
 
 MovingBalls MovingCloudDef::at(double frame) const
 {
     MovingBalls balls;
     balls.reserve(countAt(frame));
-    forEachAt(frame, [&](const MovingBall& ball, uint32_t) { balls.push_back(ball); });
+    const double shown = frames.size() == 1 ? 0.0 : frame; // a single frame does not move
+    forEachIn({shown, shown, shown}, [&](const MovingBall& ball, uint32_t) { balls.push_back(ball); });
     return balls;
 }
 
@@ -156,7 +200,9 @@ public:
     {
         if (kind_ == base::kNoKind)
             return;
-        const uint32_t count = def_.countAt(frame());
+        const MovingCloudDef::Steps steps = stepsOf(snapshot.step());
+        uint32_t count = 0;
+        def_.forEachIn(steps, [&](const MovingBall&, uint32_t) { ++count; });
         BlobWriter writer(snapshot, base, kind_, count, std::max(def_.capacity(), count));
         StillMediumSolver::writeShared(def_, writer);
         writer.constant(base::blob_constant::Shutter) = def_.shutter;
@@ -164,7 +210,7 @@ public:
         const float early = // [s] before the start
             std::clamp(float(base::toSeconds(now())), -1.0f / def_.framesPerSecond, 0.0f);
         uint32_t i = 0;
-        def_.forEachAt(frame(), [&](const MovingBall& moving, uint32_t id) {
+        def_.forEachIn(steps, [&](const MovingBall& moving, uint32_t id) {
             const ListedBall& ball = moving.ball;
             const glm::vec3 velocity = def_.shutter > 0.0f ? moving.streak / def_.shutter : moving.velocity;
             for (int k = 0; k < 3; ++k) {
@@ -187,6 +233,15 @@ public:
     bool hasElements() const override { return true; } // of another frame
 
 private:
+    MovingCloudDef::Steps stepsOf(base::Ticks step) const
+    {
+        const SequenceTime time = def_.time();
+        const SequenceTime::Way way = time.wayTo(now(), step);
+        const double last = time.end == SequenceEnd::Loop ? INFINITY : double(time.count - 1);
+        const auto shown = [&](double frame) { return std::clamp(frame, 0.0, last); };
+        return {shown(way.before), shown(way.frame), shown(2.0 * way.frame - way.before)};
+    }
+
     const MovingCloudDef& def_;
     base::KindId kind_;
 };

@@ -29,7 +29,7 @@ constexpr size_t kMaxPlayedBalls = size_t(1) << 22; ///< of all frames together
 ///   the temperature, see volume-advection (6):
 ///       S^(1/16) = (1 - w) S1^(1/16) + w S2^(1/16)                                              (2)
 ///   A ball that only one of the frames shows has the share 1 - w or w of its cross section, and moves with
-///   its velocity.
+///   its velocity. Snapshots of the steps before and behind have it with the cross section 0.
 /// @source    textbook
 /// @deviation none
 /// @valid     balls of the same number are the same ball
@@ -40,7 +40,7 @@ struct MovingCloudDef final : StillMediumDef
     std::vector<std::shared_ptr<const MovingBalls>> frames; ///< at least one
     float framesPerSecond = 24.0f;
     SequenceEnd end = SequenceEnd::Hold;
-    uint32_t mostBalls = 0; ///< at any moment
+    uint32_t mostBalls = 0; ///< of three frames in succession
 
     /// [s] If a ball has a streak: published velocities times this are the streaks, and balls without a
     /// streak have the velocity 0. Otherwise 0, and published velocities are those of the balls.
@@ -67,9 +67,15 @@ struct MovingCloudDef final : StillMediumDef
     float reach(float gravity, float wind, float seconds) const override;
 
 private:
-    /// Calls visit(ball, id) for the balls at a moment. Allocates nothing.
+    /// A moment and the steps that end and begin with it, in frames as SequenceTime::Way has them.
+    struct Steps
+    {
+        double before, frame, after;
+    };
+    /// Calls visit(ball, id) for the balls at a moment, and for those that are shown only at another moment
+    /// of its steps, with the cross section 0. Allocates nothing.
     template <class Visit>
-    void forEachAt(double frame, const Visit& visit) const;
+    void forEachIn(const Steps& steps, const Visit& visit) const;
 
     /// Of each frame, of each ball: the index of its number among those of all frames, which is the id.
     std::vector<std::vector<uint32_t>> ids_;

@@ -6,6 +6,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 using namespace fx;
 
 namespace {
@@ -196,6 +200,58 @@ TEST(MovingCloud, publishesStreaksAndTheSameIdsInAllFrames)
     }
     EXPECT_EQ(cloud->seekable()->restsUntil(0), 0);
     EXPECT_GT(cloud->seekable()->restsUntil(base::toTicks(2.0)), base::toTicks(1e6)); // the last frame stays
+}
+
+/// [m2] Cross sections of the balls that views show at a moment of a step, by id: those of the newer
+/// snapshot, mixed with the same ones of the older.
+std::map<uint64_t, float> shownSections(const base::FrameSnapshot& older, const base::FrameSnapshot& newer,
+                                        float t)
+{
+    const auto sections = [](const base::SnapshotGroup& group) {
+        std::map<uint64_t, float> found;
+        for (uint32_t i = 0; i < group.count(); ++i)
+            found[group.ids()[i]] = group.column(base::blob_column::CrossSection)[i];
+        return found;
+    };
+    const auto before = sections(older.group(0));
+    auto shown = sections(newer.group(0));
+    for (auto& [id, section] : shown)
+        if (const auto found = before.find(id); found != before.end())
+            section = found->second + t * (section - found->second);
+    return shown;
+}
+
+TEST(MovingCloud, aBallOfOneFrameFadesInStepsThatPassAFrame)
+{
+    constexpr base::Ticks kStep = base::kTicksPerSecond / 60;
+    base::SnapshotSchema schema;
+    schema.add(base::kBlobKind);
+    sim::MovingCloudDef def;
+    def.framesPerSecond = 24.0f;
+    std::vector<std::shared_ptr<const sim::MovingBalls>> frames;
+    for (uint64_t i = 0; i < 5; ++i) // each with a ball of its own
+        frames.push_back(std::make_shared<const sim::MovingBalls>(sim::MovingBalls{thrown(0.0f, i)}));
+    def.setFrames(frames);
+    const auto cloud = def.create(schema, {}, std::pmr::get_default_resource());
+    const auto publish = [&](int step) {
+        cloud->seekable()->seek({}, step * kStep);
+        base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+        snapshot.begin(step * kStep, 1, kStep);
+        cloud->publish({}, snapshot);
+        return snapshot;
+    };
+    const float whole = thrown(0.0f, 0).ball.crossSection;
+    for (int step = 0; step < 10; ++step) {
+        const base::FrameSnapshot older = publish(step), newer = publish(step + 1);
+        ASSERT_LE(newer.group(0).count(), def.capacity());
+        for (const float t : {0.0f, 0.25f, 0.75f, 1.0f}) {
+            const float frame = (float(step) + t) * 0.4f;
+            for (const auto& [id, section] : shownSections(older, newer, t))
+                EXPECT_NEAR(section / whole, std::max(1.0f - std::abs(frame - float(id)), 0.0f),
+                            t == 0.0f || t == 1.0f ? 1e-5f : 0.21f)
+                    << "ball " << id << " at frame " << frame;
+        }
+    }
 }
 
 TEST(MovingCloud, publishesTheVelocitiesOfBallsWithoutStreaks)
