@@ -17,7 +17,6 @@ namespace {
 
 namespace blob = base::blob_column;
 
-constexpr size_t kNoBall = ~size_t(0);
 constexpr float kDefaultShutter = 1.0f / 60.0f; ///< [s]
 constexpr float kBorn = 1.0f; ///< [s] age of all balls: longer than a step, in which none is hidden
 
@@ -65,18 +64,24 @@ MovingBall between(const MovingBall& a, const MovingBall& b, const Moment& momen
     return out;
 }
 
-/// Calls visit(i, j) for each number of two frames, rising, with the indices of its balls; kNoBall: none.
-template <class Visit>
-void forEachPair(const MovingBalls& first, const MovingBalls& second, const Visit& visit)
+/// A ball in the frames around a moment, and in the nearest other frame of its steps; null: not there.
+struct Sighting
 {
-    for (size_t i = 0, j = 0; i < first.size() || j < second.size();) {
-        if (j == second.size() || (i < first.size() && first[i].number < second[j].number))
-            visit(i++, kNoBall);
-        else if (i == first.size() || second[j].number < first[i].number)
-            visit(kNoBall, j++);
-        else
-            visit(i++, j++);
-    }
+    const MovingBall *earlier = nullptr, *later = nullptr, *other = nullptr;
+    double away = 0.0; ///< [frame] from that of `other`
+};
+
+MovingBall ballAt(const Sighting& seen, const Moment& moment)
+{
+    if (seen.earlier && moment.share == 0.0f)
+        return *seen.earlier;
+    if (seen.earlier && seen.later)
+        return between(*seen.earlier, *seen.later, moment);
+    if (seen.earlier)
+        return alone(*seen.earlier, moment.share * moment.seconds, 1.0f - moment.share);
+    if (seen.later)
+        return alone(*seen.later, (moment.share - 1.0f) * moment.seconds, moment.share);
+    return alone(*seen.other, float(std::clamp(seen.away, -1.0, 1.0)) * moment.seconds, 0.0f);
 }
 
 } // namespace
@@ -95,7 +100,6 @@ void MovingCloudDef::setFrames(std::vector<std::shared_ptr<const MovingBalls>> b
             if (ball.streak != glm::vec3(0.0f))
                 shutter = kDefaultShutter;
         }
-        forEachPair(*frames[i], *frames[(i + 1) % frames.size()], [&](size_t, size_t) { ++counts_[i]; });
     }
     std::ranges::sort(numbers);
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -107,11 +111,15 @@ void MovingCloudDef::setFrames(std::vector<std::shared_ptr<const MovingBalls>> b
             ids_[i].push_back(uint32_t(found - numbers.begin()));
         }
     }
-    for (size_t i = 0; i < frames.size(); ++i) { // a step begins and ends between frames
+    const auto countIn = [&](const Steps& steps) {
         uint32_t count = 0;
-        const auto frame = double(i);
-        forEachIn({frame, frame + 0.5, frame + 1.5}, [&](const MovingBall&, uint32_t) { ++count; });
-        mostBalls = std::max(mostBalls, count);
+        forEachIn(steps, [&](const MovingBall&, uint32_t) { ++count; });
+        return count;
+    };
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const auto frame = double(i), halfway = frame + 0.5;
+        counts_[i] = countIn({halfway, halfway, halfway});
+        mostBalls = std::max(mostBalls, countIn({frame, halfway, frame + 1.5})); // a step ends between frames
     }
 }
 
@@ -142,8 +150,7 @@ void MovingCloudDef::forEachIn(const Steps& steps, const Visit& visit) const
             }
         if (isOver)
             return;
-        const MovingBall *earlier = nullptr, *later = nullptr, *other = nullptr;
-        double away = 0.0; // [frame] from that of `other`
+        Sighting seen;
         uint32_t id = 0;
         for (Cursor& cursor : std::span(cursors).first(used)) {
             const MovingBalls& balls = *frames[cursor.list];
@@ -152,25 +159,17 @@ void MovingCloudDef::forEachIn(const Steps& steps, const Visit& visit) const
             id = ids_[cursor.list][cursor.at];
             const MovingBall* const ball = &balls[cursor.at++];
             if (cursor.frame == first)
-                earlier = ball;
+                seen.earlier = ball;
             else if (cursor.frame == first + 1 && moment.share > 0.0f)
-                later = ball;
+                seen.later = ball;
             else if (const double here = steps.frame - double(cursor.frame);
-                     !other || std::abs(here) < std::abs(away)) {
-                other = ball;
-                away = here;
+                     !seen.other || std::abs(here) < std::abs(seen.away))
+            {
+                seen.other = ball;
+                seen.away = here;
             }
         }
-        if (earlier && moment.share == 0.0f)
-            visit(*earlier, id);
-        else if (earlier && later)
-            visit(between(*earlier, *later, moment), id);
-        else if (earlier)
-            visit(alone(*earlier, moment.share * moment.seconds, 1.0f - moment.share), id);
-        else if (later)
-            visit(alone(*later, (moment.share - 1.0f) * moment.seconds, moment.share), id);
-        else
-            visit(alone(*other, float(std::clamp(away, -1.0, 1.0)) * moment.seconds, 0.0f), id);
+        visit(ballAt(seen, moment), id);
     }
 }
 

@@ -44,7 +44,8 @@ Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& st
     }
 }
 
-/// Of an instance that starts within a step: what is published of the time at which the step begins.
+/// Moves the solvers of an instance that starts within a step to the begin of that step, where their elements
+/// are published as well.
 void World::standBeforeStart(SimulationIndex index)
 {
     const base::Ticks local = simulations_.at(index).conditions.clock.toLocal(now_);
