@@ -5,6 +5,7 @@
 #include "foundation/math/geometry.h"
 #include "foundation/memory/column.h"
 #include "foundation/snapshot/snapshot_schema.h"
+#include "foundation/time/ticks.h"
 
 #include <algorithm>
 #include <array>
@@ -27,6 +28,7 @@ struct GroupInfo
     uint32_t count = 0;    ///< number of elements
     Placement placement;   ///< transform from the local space, in which positions in columns are given
     Bounds bounds; ///< bounds in the local space of the placement; they contain every element with its radius
+    Ticks step = 0; ///< [tick] local time of the instance that passed in the step of the snapshot
     /// True: the snapshot's hash does not include this group, because the group may be computed on the GPU.
     bool isCosmetic = false;
     /// True: the rows are computed when they are first read, see FrameSnapshot::addLateGroup().

@@ -199,7 +199,7 @@ public:
     {
         if (kind_ == base::kNoKind)
             return;
-        const MovingCloudDef::Steps steps = stepsOf(snapshot.step());
+        const MovingCloudDef::Steps steps = stepsOf(base.step);
         uint32_t count = 0;
         def_.forEachIn(steps, [&](const MovingBall&, uint32_t) { ++count; });
         BlobWriter writer(snapshot, base, kind_, count, std::max(def_.capacity(), count));

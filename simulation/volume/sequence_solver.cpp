@@ -135,7 +135,7 @@ public:
             return;
         const uint32_t count = def_.sequence->count();
         const bool loops = def_.end == SequenceEnd::Loop;
-        const SequenceTime::Way way = def_.time().wayTo(now(), snapshot.step());
+        const SequenceTime::Way way = def_.time().wayTo(now(), base.step);
         const double last = loops ? INFINITY : double(count - 1);
         const double before = std::max(way.before, 0.0), frame = std::clamp(way.frame, before, last);
         const std::vector<Part> parts = partsOf(before, frame, count);

@@ -89,6 +89,9 @@ bool World::publishSlot(Slot slot, base::WorkBudget& work)
     base::GroupInfo info;
     info.instance = instance.start.instance;
     info.placement = instance.start.placement;
+    const InstanceClock& clock = simulation.conditions.clock;
+    info.step =
+        clock.toLocal(hand.snapshot->tick()) - clock.toLocal(hand.snapshot->tick() - hand.snapshot->step());
     const bool isTinted = instance.start.parameters.isTinted();
     for (; hand.solver < simulation.solvers.size(); ++hand.solver) {
         if (work.isSpent())

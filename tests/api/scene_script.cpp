@@ -1,6 +1,9 @@
 #include "tests/api/scene_script.h"
 
+#include "fxsdk/assets/volume_file.h"
+#include "simulation/cloud/ball_list.h"
 #include "tests/api/api_fixture.h"
+#include "tests/presets/temp_folder.h"
 
 #include <string>
 
@@ -34,6 +37,35 @@ std::string gasPreset()
         "shape": "sphere", "size": 0.5, "emission": {"rate": 40}, "lifetime": 0.3, "radius": 0.25}]})";
 }
 
+/// Voxels and balls of four frames, which are read from files, by a thread of their own too.
+FxPresetId playedPreset(FxContext* context)
+{
+    const TempFolder folder;
+    for (int frame = 0; frame < 4; ++frame) {
+        base::VoxelVolume volume;
+        volume.side = 0.25f;
+        volume.bricks = {{1 + frame % 2, 1, 1}};
+        volume.extinction.assign(base::kVolumeBrickVoxels, 0.5f);
+        volume.velocity.assign(base::kVolumeBrickVoxels, glm::vec3(20.0f, 0.0f, 0.0f));
+        folder.write("v." + std::to_string(frame) + ".fxvolume", *asset::writeVolume(volume));
+        sim::MovingBalls balls(2); // one of them is in every other frame only
+        for (size_t i = 0; i < 2; ++i) {
+            balls[i].ball.center = {float(frame) * 0.5f, float(i), 0.0f};
+            balls[i].ball.crossSection = 1.0f;
+            balls[i].velocity.x = 5.0f;
+            balls[i].number = i;
+        }
+        balls.resize(size_t(1 + frame % 2));
+        folder.write("b." + std::to_string(frame) + ".fxballs", sim::writeMovingBalls(balls));
+    }
+    const std::string path = folder.write("played.fx.json", R"({"version": 1, "name": "played",
+        "volumes": [{"file": "v.%d.fxvolume", "frames": 4, "framesPerSecond": 10, "end": "loop"}],
+        "clouds": [{"file": "b.%d.fxballs", "frames": 4, "framesPerSecond": 10}]})");
+    FxPresetId preset{};
+    EXPECT_EQ(fxLoadPresetFile(context, path.c_str(), &preset), FX_OK) << fxGetLastErrorMessage();
+    return preset;
+}
+
 FxPresetId fromLibrary(FxContext* context, const char* name)
 {
     FxPresetId preset{};
@@ -45,14 +77,15 @@ FxPresetId fromLibrary(FxContext* context, const char* name)
 
 SceneScript::SceneScript(FxContext* context, uint32_t number) : context_(context), number_(number)
 {
-    presets_ = {loadText(context, kSparks),          fromLibrary(context, "fireworks"),
-                loadText(context, kSwarm),           loadText(context, kFlakes),
-                fromLibrary(context, "magic-trail"), loadText(context, gasPreset())};
+    presets_ = {
+        loadText(context, kSparks), fromLibrary(context, "fireworks"),   loadText(context, kSwarm),
+        loadText(context, kFlakes), fromLibrary(context, "magic-trail"), loadText(context, gasPreset()),
+        playedPreset(context)};
     const FxSceneDef def = fxDefaultSceneDef();
     EXPECT_EQ(fxCreateScene(context, &def, &scene_), FX_OK) << fxGetLastErrorMessage();
     for (int i = 0; i < 5; ++i)
         add(presets_[0]);
-    add(presets_[1 + number % 5]);
+    add(presets_[1 + number % 6]);
 }
 
 void SceneScript::add(FxPresetId preset)

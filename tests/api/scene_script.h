@@ -37,7 +37,7 @@ private:
     FxContext* context_;
     FxScene* scene_ = nullptr;
     uint32_t number_;
-    std::array<FxPresetId, 6> presets_{};
+    std::array<FxPresetId, 7> presets_{};
     std::vector<FxInstanceId> instances_;
     std::vector<std::byte> state_;
     uint64_t nextSeed_ = 0;

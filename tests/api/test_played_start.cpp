@@ -49,6 +49,18 @@ std::array<float, 2> placesOf(scene::Scene& scene, scene::LocalId id)
     return places;
 }
 
+/// [tick] Local time that passed in the last step of an instance, by its first group in the newer snapshot.
+base::Ticks stepOf(scene::Scene& scene, scene::LocalId id)
+{
+    base::Ticks step = -1;
+    const scene::Presentation shown = scene.acquire();
+    for (size_t g = 0; g < shown.snapshots.newer->groupCount() && step < 0; ++g)
+        if (const base::GroupInfo& info = shown.snapshots.newer->group(g).info(); info.instance == id)
+            step = info.step;
+    scene.release(shown.snapshots);
+    return step;
+}
+
 constexpr float kWay = kSpeed / 60.0f; ///< [m] in a step
 
 } // namespace
@@ -88,5 +100,24 @@ TEST(PlayedStart, theFirstStepMayBeTheLastOfAnUpdate)
         stage.scene().update(4.0 / 60.0);
         EXPECT_NEAR(placesOf(stage.scene(), id)[0], float(3 - start) * kWay, 1e-5f) << start;
         EXPECT_NEAR(placesOf(stage.scene(), id)[1], float(4 - start) * kWay, 1e-5f) << start;
+    }
+}
+
+TEST(PlayedStart, stepsAreInTheTimeOfTheInstance)
+{
+    SightStage stage(neverCulled());
+    const auto plain = stage.add(playedBall(), kAhead), changed = stage.add(playedBall(), kAhead);
+    stage.play(2);
+    EXPECT_EQ(stepOf(stage.scene(), changed), kStep);
+    for (const uint32_t rate : {2 * sim::kNormalRate, sim::kNormalRate / 4, 0u, 0u, sim::kNormalRate}) {
+        stage.scene().setRate(changed, rate);
+        for (int i = 0; i < 3; ++i) {
+            const float from = placesOf(stage.scene(), changed)[1];
+            stage.play(1);
+            EXPECT_EQ(stepOf(stage.scene(), changed), kStep * base::Ticks(rate) / sim::kNormalRate) << rate;
+            EXPECT_NEAR(placesOf(stage.scene(), changed)[1] - from, kWay * float(rate) / sim::kNormalRate,
+                        1e-5f);
+            EXPECT_EQ(stepOf(stage.scene(), plain), kStep);
+        }
     }
 }

@@ -236,8 +236,9 @@ TEST(MovingCloud, aBallOfOneFrameFadesInStepsThatPassAFrame)
     const auto publish = [&](int step) {
         cloud->seekable()->seek({}, step * kStep);
         base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
-        snapshot.begin(step * kStep, 1, kStep);
-        cloud->publish({}, snapshot);
+        base::GroupInfo info;
+        info.step = kStep;
+        cloud->publish(info, snapshot);
         return snapshot;
     };
     const float whole = thrown(0.0f, 0).ball.crossSection;

@@ -89,11 +89,14 @@ public:
         now_ = tick;
     }
     sim::Solver& solver() { return *solver_; }
-    base::FrameSnapshot publish() const
+    /// @param step [tick] local time of an instance in the last step
+    base::FrameSnapshot publish(base::Ticks step = kStep) const
     {
         base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
         snapshot.begin(now_, 1, kStep);
-        solver_->publish({}, snapshot);
+        base::GroupInfo info;
+        info.step = step;
+        solver_->publish(info, snapshot);
         return snapshot;
     }
     float constant(size_t which) const { return publish().group(1).constants()[which]; }
@@ -254,6 +257,10 @@ TEST(VolumeSequences, areInterpolatedInTime)
     player.stepTo(base::kTicksPerSecond / 12); // frame 5/3
     EXPECT_NEAR(player.constant(c::Frame), 5.0f / 3.0f, 1e-5f);
     EXPECT_NEAR(player.constant(c::FrameBefore), 4.0f / 3.0f, 1e-5f);
+    for (const int speed : {0, 2}) // of an instance that rests, and of one that is played fast
+        EXPECT_NEAR(player.publish(speed * kStep).group(1).constants()[c::FrameBefore],
+                    player.constant(c::Frame) - float(speed) * (player.constant(c::Frame) - 4.0f / 3.0f),
+                    1e-5f);
     EXPECT_NEAR(player.constant(c::FrameSeconds), 0.05f, 1e-7f);
     EXPECT_NEAR(player.crossSection(), (2.0 / 3.0 + 8.0 / 3.0) * kBrick, 1e-4 * kBrick);
 }
