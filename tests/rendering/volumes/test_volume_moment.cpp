@@ -83,7 +83,8 @@ double errorOfMoving(const glm::dvec3& way, bool hasVelocities, double part)
     return errorOf(between, [&](const glm::dvec3& p) { return lump(p, kMiddle + (part - 0.5) * way, 3.0); });
 }
 
-TEST(VolumeMoment, matterThatCoolsGlowsHalfwayAsItsMeanTemperatureDoes)
+// dT/dt = -c T^4: T^-3 is even in time
+TEST(VolumeMoment, matterThatCoolsByRadiationGlowsBetweenAsItsTemperatureSays)
 {
     const auto lightOf = [](double temperature) {
         return double(render::blackBodyLuminance(float(temperature)).x);
@@ -91,15 +92,42 @@ TEST(VolumeMoment, matterThatCoolsGlowsHalfwayAsItsMeanTemperatureDoes)
     base::VoxelVolume first;
     first.bricks = {{1, 1, 1}};
     first.extinction.assign(512, 200.0f);
-    for (const double temperature : {1000.0, 1500.0, 2000.0, 3000.0}) {
-        base::VoxelVolume second = first;
-        first.emission.assign(512, glm::vec3(200.0f * float(lightOf(1.075 * temperature))));
-        second.emission.assign(512, glm::vec3(200.0f * float(lightOf(0.925 * temperature))));
-        const auto between = render::MediumVolume::between(render::MediumVolume(first),
-                                                           render::MediumVolume(second), {0.5, 0.0});
-        EXPECT_NEAR(between.at({11, 12, 13}).emitted.x / (200.0 * lightOf(temperature)), 1.0, 0.06)
-            << temperature;
+    for (const double temperature : {1000.0, 1500.0, 2000.0, 3000.0})
+        for (const double part : {0.25, 0.5, 0.75}) {
+            const double hot = 1.075 * temperature, cold = 0.925 * temperature;
+            base::VoxelVolume second = first;
+            first.emission.assign(512, glm::vec3(200.0f * float(lightOf(hot))));
+            second.emission.assign(512, glm::vec3(200.0f * float(lightOf(cold))));
+            const auto between = render::MediumVolume::between(render::MediumVolume(first),
+                                                               render::MediumVolume(second), {part, 0.0});
+            const double now =
+                std::pow((1.0 - part) * std::pow(hot, -3.0) + part * std::pow(cold, -3.0), -1.0 / 3.0);
+            EXPECT_NEAR(between.at({11, 12, 13}).emitted.x / (200.0 * lightOf(now)), 1.0,
+                        temperature < 1500.0 ? 0.2 : 0.06)
+                << temperature << " K, " << part;
+        }
+}
+
+TEST(VolumeMoment, whatIsColdInOneVolumeHasLightBetweenZeroAndThatOfTheOther)
+{
+    base::VoxelVolume hot;
+    hot.bricks = {{1, 1, 1}};
+    hot.extinction.assign(512, 200.0f);
+    base::VoxelVolume cold = hot;
+    hot.emission.assign(512, glm::vec3(5e6f, 1e-30f, 0.0f));
+    cold.emission.assign(512, glm::vec3(0.0f));
+    double last = 5e6;
+    for (const double part : {0.0, 1e-9, 0.01, 0.5, 0.99, 1.0}) {
+        const glm::dvec3 light =
+            render::MediumVolume::between(render::MediumVolume(hot), render::MediumVolume(cold), {part, 0.0})
+                .at({10, 10, 10})
+                .emitted;
+        EXPECT_TRUE(light.x <= last && light.x >= 0.0 && light.y >= 0.0 && light.y <= 1.001e-30 &&
+                    light.z == 0.0)
+            << part << ": " << light.x << " " << light.y << " " << light.z;
+        last = light.x;
     }
+    EXPECT_EQ(last, 0.0);
 }
 
 TEST(VolumeMoment, lightOfMatterThatOnlyOneVolumeHasIsItsOwnInItsShare)
