@@ -69,6 +69,13 @@ public:
         return text.empty() ? "none" : text;
     }
 
+    /// A number of the metadata of the file.
+    std::optional<double> number(const char* name) const
+    {
+        const auto found = file_.getMetadata()->getMetadata<openvdb::DoubleMetadata>(name);
+        return found ? std::optional(found->value()) : std::nullopt;
+    }
+
     /// @param chosen by the user; empty: the first of `usual` that is there
     /// @return null: none of `usual` is there
     openvdb::GridBase::ConstPtr find(const std::string& chosen, std::initializer_list<const char*> usual,
@@ -341,6 +348,16 @@ void readBalls(const openvdb::GridBase& grid, const VdbReadOptions& options, Med
                               " have numbers out of their range; left out");
 }
 
+double anisotropyOf(const OpenFile& file, const VdbReadOptions& options, MediumGrid& io)
+{
+    const double stated = options.anisotropy.value_or(file.number("anisotropy").value_or(0.0));
+    if (std::abs(stated) <= 1.0)
+        return std::clamp(stated, -kMostAnisotropy, kMostAnisotropy);
+    io.warnings.push_back("the anisotropy " + std::to_string(stated) +
+                          " of the file is no mean cosine; taken as 0");
+    return 0.0;
+}
+
 MediumGrid readGrids(const std::string& path, const VdbReadOptions& options)
 {
     OpenFile file(path);
@@ -351,6 +368,7 @@ MediumGrid readGrids(const std::string& path, const VdbReadOptions& options)
     const openvdb::math::Transform& lattice = density->transform();
     MediumGrid medium;
     readLattice(lattice, options.lengthScale, medium);
+    medium.anisotropy = anisotropyOf(file, options, medium);
     DensityReader(*density, options).read(medium);
     if (const auto found = file.find(options.temperature, {"temperature"}, "--temperature"))
         medium.temperature = readScalars(*file.read<openvdb::FloatGrid>(*found, options), lattice,

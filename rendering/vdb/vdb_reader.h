@@ -11,6 +11,7 @@
 #include "rendering/voxelization/medium_grid.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace fx::render {
@@ -18,15 +19,17 @@ namespace fx::render {
 /// Which grids are read, and in which units they are. A name that is empty stands for the usual ones.
 struct VdbReadOptions
 {
-    std::string density;                     ///< empty: "density"
-    std::string temperature;                 ///< empty: "temperature", if there is one
-    std::string flame;                       ///< empty: "flame", "heat" or "flames", if there is one
-    std::string color;                       ///< empty: "Cd" or "color", if there is one
-    std::string velocity;                    ///< empty: "v", "vel" or "velocity", if there is one
-    double densityScale = 1.0;               ///< [1/m] extinction of density 1, or inside of a level set
-    double temperatureScale = 1.0;           ///< [K] of temperature 1
-    double flameScale = 1.0;                 ///< [cd/m3] of flame 1
-    double lengthScale = 1.0;                ///< [m] of a unit of the file's world space
+    std::string density;           ///< empty: "density"
+    std::string temperature;       ///< empty: "temperature", if there is one
+    std::string flame;             ///< empty: "flame", "heat" or "flames", if there is one
+    std::string color;             ///< empty: "Cd" or "color", if there is one
+    std::string velocity;          ///< empty: "v", "vel" or "velocity", if there is one
+    double densityScale = 1.0;     ///< [1/m] extinction of density 1, or inside of a level set
+    double temperatureScale = 1.0; ///< [K] of temperature 1
+    double flameScale = 1.0;       ///< [cd/m3] of flame 1
+    double lengthScale = 1.0;      ///< [m] of a unit of the file's world space
+    /// [1] Mean cosine of the scattering angle; nothing: metadata "anisotropy" of the file, or 0 without them
+    std::optional<double> anisotropy;
     uint64_t maxVoxels = uint64_t(64) << 20; ///< active ones of a grid
     uint64_t maxBytes = uint64_t(2) << 30;   ///< [byte] of the result
 };

@@ -30,6 +30,7 @@ struct MediumGrid
     std::vector<float> flame;          ///< [cd/m3] luminance that a meter of the medium emits, >= 0
     std::vector<glm::vec3> albedo;     ///< [1] 0..1
     std::vector<glm::vec3> velocity;   ///< [m/s] world
+    double anisotropy = 0.0;           ///< [1] mean cosine of the scattering angle, -0.95 to 0.95
     std::vector<VoxelBall> balls;      ///< medium beside the voxels, rising by instance, then id
     std::vector<std::string> warnings; ///< what was not taken from the file as it is
 
@@ -60,6 +61,7 @@ constexpr size_t voxelInBlock(int x, int y, int z)
     return size_t((x * kBlockSide + y) * kBlockSide + z);
 }
 
+constexpr double kMostAnisotropy = 0.95; ///< as of presets
 constexpr size_t kMostGridBalls = size_t(1) << 20;
 
 /// Whether the numbers of a ball are finite and in the ranges of files of balls

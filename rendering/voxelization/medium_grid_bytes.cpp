@@ -13,7 +13,7 @@
 namespace fx::render {
 namespace {
 
-constexpr uint64_t kMark = 0x32646972676d7866; // "fxmgrid2"
+constexpr uint64_t kMark = 0x33646972676d7866; // "fxmgrid3"
 constexpr uint64_t kMostBlocks = uint64_t(1) << 24;
 constexpr uint64_t kMostWarnings = 64;
 constexpr uint64_t kMostText = 4096; // [byte] of a warning
@@ -97,7 +97,7 @@ bool isValid(const MediumGrid& grid)
             return false;
     const double volume = grid.voxelVolume();
     constexpr float kFast = 1e9f; // [m/s]
-    return std::isfinite(volume) && volume > 0.0 &&
+    return std::isfinite(volume) && volume > 0.0 && std::abs(grid.anisotropy) <= kMostAnisotropy &&
            std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z) && areInRange(grid.density) &&
            areInRange(grid.temperature) && areInRange(grid.flame) && areFinite(grid.albedo, 0.0f, 1.0f) &&
            areFinite(grid.velocity, -kFast, kFast);
@@ -123,6 +123,7 @@ std::string toBytes(const MediumGrid& grid)
     put(bytes, &kMark, 1);
     put(bytes, &grid.axes, 1);
     put(bytes, &grid.origin, 1);
+    put(bytes, &grid.anisotropy, 1);
     put(bytes, grid.blocks.data(), grid.blocks.size());
     put(bytes, grid.density.data(), grid.density.size());
     put(bytes, grid.temperature.data(), grid.temperature.size());
@@ -146,16 +147,18 @@ base::Result<MediumGrid> mediumGridFromBytes(std::string_view bytes)
     std::vector<uint64_t> mark, warnings;
     std::vector<glm::dmat3> axes;
     std::vector<glm::dvec3> origin;
+    std::vector<double> anisotropy;
     if (!parts.take(mark, 1) || mark.size() != 1 || mark[0] != kMark || !parts.take(axes, 1) ||
-        axes.size() != 1 || !parts.take(origin, 1) || origin.size() != 1 ||
-        !parts.take(grid.blocks, kMostBlocks) || !parts.take(grid.density, kMostVoxels) ||
-        !parts.take(grid.temperature, kMostVoxels) || !parts.take(grid.flame, kMostVoxels) ||
-        !parts.take(grid.albedo, kMostVoxels) || !parts.take(grid.velocity, kMostVoxels) ||
-        !parts.take(grid.balls, kMostGridBalls) || !parts.take(warnings, 1) || warnings.size() != 1 ||
-        warnings[0] > kMostWarnings)
+        axes.size() != 1 || !parts.take(origin, 1) || origin.size() != 1 || !parts.take(anisotropy, 1) ||
+        anisotropy.size() != 1 || !parts.take(grid.blocks, kMostBlocks) ||
+        !parts.take(grid.density, kMostVoxels) || !parts.take(grid.temperature, kMostVoxels) ||
+        !parts.take(grid.flame, kMostVoxels) || !parts.take(grid.albedo, kMostVoxels) ||
+        !parts.take(grid.velocity, kMostVoxels) || !parts.take(grid.balls, kMostGridBalls) ||
+        !parts.take(warnings, 1) || warnings.size() != 1 || warnings[0] > kMostWarnings)
         return damaged;
     grid.axes = axes[0];
     grid.origin = origin[0];
+    grid.anisotropy = anisotropy[0];
     for (uint64_t i = 0; i < warnings[0]; ++i) {
         std::vector<char> text;
         if (!parts.take(text, kMostText))

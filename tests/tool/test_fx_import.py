@@ -7,6 +7,7 @@ import random
 import struct
 import unittest
 
+from exr_planes import read_planes
 from fx_program import FxTest, fx
 
 HAS_OPENVDB = os.environ.get("FX_HAS_OPENVDB", "1") == "1"
@@ -73,6 +74,52 @@ class Import(FxTest):
         self.assertGreater(back["flame_volume"], 0.6 * line["flame_volume"])
         for a, b in zip(back["center"], line["center"]):
             self.assertAlmostEqual(a, b, delta=0.02)
+
+    def light(self, instance):
+        """Sum of what a picture shows of a medium that the sun lights from behind the eye."""
+        scene = self.write("l.scene.json", json.dumps({
+            "version": 1, "name": "l", "camera": {"position": [0, 0, 4], "target": [0, 0, 0], "fovYDegrees": 30},
+            "exposureEv100": 14, "lighting": {"sunDirection": [0, 0.5, 0.87], "sunIlluminance": [60000, 60000, 60000],
+                                              "skyLuminance": [0, 0, 0], "groundAlbedo": 0},
+            "instances": [{"position": [0, 0, 0], **instance}]}))
+        picture = self.folder / "l.exr"
+        outcome = fx("render", scene, "--renderer", "reference", "--size", "32x24", "--scattering", "single", "--samples", "4", "-o", picture)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        planes = read_planes(picture)[2]
+        return sum(sum(planes[c]) for c in "RGB")
+
+    def test_the_mean_cosine_of_scattering_is_kept(self):
+        rows = {g: f"0,0,0,0.5,0.2,0.8,0,0,0,{g}\n" for g in (-0.4, 0.0, 0.5)}
+        light = {}
+        for g, row in rows.items():
+            balls = self.write("a.blobs.csv", f"{HEADER},g\n{row}")
+            volume = self.export("a.vdb", balls, "--voxel-size", "0.06")
+            for kind, arguments in (("volumes", ("--bricks",)), ("clouds", ("--fit", "1"))):
+                outcome = fx("import", volume, "-o", self.folder / "a.fx.json", "--json", *arguments)
+                self.assertEqual(outcome.code, 0, outcome.err)
+                self.assertAlmostEqual(json.loads(outcome.out)["anisotropy"], g)
+                preset = json.loads((self.folder / "a.fx.json").read_text())
+                self.assertEqual(preset[kind][0].get("anisotropy", 0), g)
+                if kind == "volumes":
+                    light[g] = self.light({"preset": "a.fx.json"})
+        cosine = -0.87 # of the angle by which light is turned, that of the picture's middle
+        phase = {g: (1 - g * g) / (1 + g * g - 2 * g * cosine) ** 1.5 for g in rows}
+        for g in rows:
+            self.assertAlmostEqual(light[g] / light[0.0], phase[g], delta=0.05 * phase[g])
+        mixed = self.write("a.blobs.csv", f"{HEADER},g\n{rows[-0.4]}0,0,0,0.5,0.4,0.4,0,0,0,0.5\n")
+        outcome = fx("import", self.export("a.vdb", mixed, "--voxel-size", "0.06"), "--json")
+        self.assertAlmostEqual(json.loads(outcome.out)["anisotropy"], 0.05) # both scatter as much
+        outcome = fx("import", self.folder / "a.vdb", "--json", "--anisotropy", "0.3")
+        self.assertEqual(json.loads(outcome.out)["anisotropy"], 0.3)
+
+    def test_a_sequence_has_the_mean_of_the_cosines_of_its_frames(self):
+        for number, g in enumerate((0.2, 0.6)):
+            balls = self.write("a.blobs.csv", f"{HEADER},g\n0,0,0,0.5,0.2,0.8,0,0,0,{g}\n")
+            self.export(f"s.{number:04}.vdb", balls, "--voxel-size", "0.1")
+        outcome = fx("import", self.folder / "s.%04d.vdb", "-o", self.folder / "s.fx.json", "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertAlmostEqual(json.loads(outcome.out)["anisotropy"], 0.4)
+        self.assertEqual(json.loads((self.folder / "s.fx.json").read_text())["volumes"][0]["anisotropy"], 0.4)
 
     def small_balls(self, volume, *arguments):
         """Of the file beside the voxels that an import writes: 18 numbers a ball and its number, by the numbers."""

@@ -18,6 +18,7 @@ MomentBalls ballsOf(const std::vector<render::MediumBlob>& blobs, const render::
     moment.balls.reserve(blobs.size());
     moment.details.groups = details.groups;
     moment.details.octaves = details.octaves;
+    double scattered = 0.0; // [m2]
     for (size_t i = 0; i < blobs.size(); ++i) {
         const render::MediumBlob& blob = blobs[i];
         if (!base::isFinite(blob.velocity.x + blob.velocity.y + blob.velocity.z)) {
@@ -36,9 +37,13 @@ MomentBalls ballsOf(const std::vector<render::MediumBlob>& blobs, const render::
         ball.albedo = blob.albedo;
         ball.id = blob.id;
         ball.instance = blob.instance;
+        const double scatters = blob.crossSection * glm::dot(blob.albedo, glm::dvec3(1.0 / 3.0));
+        scattered += scatters;
+        moment.anisotropy += scatters * blob.anisotropy;
         if (details.isGiven())
             moment.details.balls.push_back(details.balls[i]);
     }
+    moment.anisotropy = scattered > 0.0 ? moment.anisotropy / scattered : 0.0;
     return moment;
 }
 

@@ -21,7 +21,8 @@ struct MomentBalls
 {
     std::vector<render::VoxelBall> balls;
     render::MediumDetails details; ///< of `balls`; without groups: none
-    uint32_t nonFinite = 0;        ///< number of balls omitted because a value was not finite
+    double anisotropy = 0.0; ///< [1] mean cosine of the scattering angle, weighted with what balls scatter
+    uint32_t nonFinite = 0;  ///< number of balls omitted because a value was not finite
 };
 
 constexpr glm::dvec3 kLuminance{0.2126, 0.7152,

@@ -147,8 +147,8 @@ private:
             options_.voxelSize = render::voxelSizeFor(moment.balls, options_.maxVoxels, options_.voxelSize);
         std::unique_ptr<Progress> blocks;
         const auto report =
-            writeVolume(moment, options_, metadataOf(frame), plan_.output.frame(frame.number), *tasks_,
-                        [&](uint64_t done, uint64_t total) {
+            writeVolume(moment, options_, metadataOf(frame, moment), plan_.output.frame(frame.number),
+                        *tasks_, [&](uint64_t done, uint64_t total) {
                             if (showBlocks && !blocks)
                                 blocks = std::make_unique<Progress>("block", total, !arguments_.json);
                             if (blocks)
@@ -182,13 +182,14 @@ private:
         return arguments_.input + time;
     }
 
-    render::VdbMetadata metadataOf(const ExportPlan::Frame& frame) const
+    render::VdbMetadata metadataOf(const ExportPlan::Frame& frame, const MomentBalls& moment) const
     {
         render::VdbMetadata metadata{{"creator", std::string("fx " FXSDK_VERSION)},
                                      {"fxsdk_version", std::string(FXSDK_VERSION)},
                                      {"source", arguments_.input},
                                      {"time", base::toSeconds(frame.tick)},
                                      {"voxel_size", options_.voxelSize},
+                                     {"anisotropy", moment.anisotropy},
                                      {"length_unit", std::string("m")},
                                      {"up_axis", std::string("+Y")}};
         if (plan_.output.isSequence()) {

@@ -397,6 +397,7 @@ base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, doub
         if (!written)
             return written.status();
     }
+    setAnisotropy(grid.anisotropy, text);
     if (base::Status status = writePresetFiles(preset, text, report.file, *bytes); !status)
         return status;
     return report;
@@ -458,6 +459,7 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
         report.side = std::max(report.side, side);
         report.hasVelocities = report.hasVelocities && !volume->velocity.empty();
         report.isResampled = report.isResampled || !isStraight(*grid);
+        report.anisotropy += grid->anisotropy / play.count;
         balls.push_back(movingBallsOf(*grid));
         report.mostBalls = std::max(report.mostBalls, balls.back().size());
         const std::filesystem::path file = preset.parent_path() / *asset::frameName(pattern, number);
@@ -486,6 +488,7 @@ base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const 
         }
         text["clouds"] = nlohmann::ordered_json::array({cloud});
     }
+    setAnisotropy(report.anisotropy, text);
     const std::string written = text.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     if (base::Status status = checkWritten(written, preset); !status)
         return status;

@@ -54,6 +54,7 @@ struct SequenceReport
     double massError = 0.0;      ///< [1] largest of a frame
     bool hasVelocities = true;   ///< of all frames
     bool isResampled = false;    ///< of a frame
+    double anisotropy = 0.0;     ///< [1] mean of all frames
     size_t mostBalls = 0;        ///< beside the voxels, of a frame
     std::filesystem::path files; ///< name with the placeholder of the number
 };

@@ -90,10 +90,11 @@ base::Result<CloudFitReport> writeCloudPreset(const render::MediumGrid& grid,
     report.massError = (massOf(list) - mass) / mass;
     report.viewErrors = render::viewErrors(grid, balls, kPixels, tasks);
     report.ballFile = preset.parent_path() / (*stem + ".fxballs");
-    const nlohmann::ordered_json text{{"version", 1},
-                                      {"name", *stem},
-                                      {"composition", "volume"},
-                                      {"clouds", {{{"name", *stem}, {"file", *stem + ".fxballs"}}}}};
+    nlohmann::ordered_json text{{"version", 1},
+                                {"name", *stem},
+                                {"composition", "volume"},
+                                {"clouds", {{{"name", *stem}, {"file", *stem + ".fxballs"}}}}};
+    setAnisotropy(grid.anisotropy, text);
     if (base::Status status = writePresetFiles(preset, text, report.ballFile, bytes); !status)
         return status;
     return report;

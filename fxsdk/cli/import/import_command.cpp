@@ -107,6 +107,10 @@ void addImportOptions(CLI::App& command, ImportArguments& a)
         ->check(CLI::Range(0.0, 1.0))
         ->needs(output)
         ->capture_default_str();
+    command
+        .add_option("--anisotropy", a.read.anisotropy,
+                    "Mean cosine of the scattering angle (default: that of the file's metadata, or 0)")
+        ->check(CLI::Range(-render::kMostAnisotropy, render::kMostAnisotropy));
     command.add_flag("--json", a.json, "Print one JSON object");
 }
 
@@ -148,6 +152,7 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
                             {"density_max", sums.largestDensity},
                             {"temperature_mean", sums.temperature},
                             {"flame_volume", sums.luminousVolume},
+                            {"anisotropy", grid.anisotropy},
                             {"reader_bytes", child.peakMemory},
                             {"reader_s", child.seconds}};
         if (fit) {
@@ -247,6 +252,7 @@ int importSequence(ImportArguments& arguments, const NumberedFile& input)
                                    {"voxel_side", written->side},
                                    {"voxel_side_least", written->leastSide},
                                    {"velocities", written->hasVelocities},
+                                   {"anisotropy", written->anisotropy},
                                    {"resampled", written->isResampled},
                                    {"mass_error", written->massError}},
                                   readMachine()));

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace fx::cli {
 namespace {
 
@@ -19,6 +21,15 @@ base::Result<std::string> presetStem(const std::filesystem::path& preset)
                             preset.string() + ": the name of a preset ends in .fx.json");
     stem.resize(stem.size() - kPresetSuffix.size());
     return stem;
+}
+
+void setAnisotropy(double anisotropy, nlohmann::ordered_json& ioPreset)
+{
+    const double rounded = std::round(1e4 * anisotropy) / 1e4;
+    for (const char* const media : {"volumes", "clouds"})
+        if (rounded != 0.0 && ioPreset.contains(media))
+            for (nlohmann::ordered_json& element : ioPreset[media])
+                element["anisotropy"] = rounded;
 }
 
 base::Status writePresetFiles(const std::filesystem::path& preset, const nlohmann::ordered_json& text,

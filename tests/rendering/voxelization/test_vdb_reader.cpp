@@ -124,6 +124,38 @@ TEST_F(VdbReader, ballsBesideTheVoxelsAreReadAsTheyWereWritten)
     EXPECT_FALSE(mediumGridFromBytes(toBytes(damaged)).ok());
 }
 
+TEST_F(VdbReader, theMeanCosineIsThatOfTheMetadataUnlessOneIsGiven)
+{
+    const auto readWith = [&](std::optional<double> stated, std::optional<double> given) {
+        VdbVolume volume(0.1);
+        VoxelBlock block{};
+        block.density.fill(1.0f);
+        volume.add(std::span(&block, 1));
+        VdbMetadata metadata;
+        if (stated)
+            metadata.emplace_back("anisotropy", *stated);
+        const auto bytes = volume.encode(metadata, false);
+        EXPECT_TRUE(bytes.ok());
+        const std::filesystem::path path = folder_ / "g.vdb";
+        std::ofstream(path, std::ios::binary) << *bytes;
+        VdbReadOptions options;
+        options.anisotropy = given;
+        auto read = readVdb(path, options);
+        EXPECT_TRUE(read.ok());
+        return std::move(*read);
+    };
+    EXPECT_EQ(readWith({}, {}).anisotropy, 0.0);
+    EXPECT_EQ(readWith(0.6, {}).anisotropy, 0.6);
+    EXPECT_EQ(readWith(0.6, -0.2).anisotropy, -0.2);
+    EXPECT_EQ(readWith(0.99, {}).anisotropy, kMostAnisotropy);
+    EXPECT_EQ(readWith(3.0, {}).anisotropy, 0.0);
+    EXPECT_EQ(readWith(3.0, {}).warnings.size(), 1u);
+    MediumGrid grid = readWith(0.6, {});
+    EXPECT_EQ(mediumGridFromBytes(toBytes(grid))->anisotropy, 0.6);
+    grid.anisotropy = 0.97;
+    EXPECT_FALSE(mediumGridFromBytes(toBytes(grid)).ok());
+}
+
 TEST_F(VdbReader, pointsWithoutAMediumAreNone)
 {
     VdbVolume volume(0.1);
