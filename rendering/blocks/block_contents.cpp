@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace fx::render {
@@ -26,6 +27,9 @@ glm::vec3 lightOf(const SnapshotGroup& group, uint32_t i, const glm::vec3& albed
            vectorAt(group, blob::EmissionR, i);
 }
 
+/// Mean square distance from the center of the quartic kernel, over the square of its radius.
+constexpr double kKernelMoment = 1.0 / 3.0;
+
 /// Sums over up to a million balls, in double precision.
 class ContentSum
 {
@@ -34,7 +38,10 @@ public:
     {
         const auto section = double(crossSection);
         section_ += section;
-        middle_ += section * glm::dvec3(more.middle);
+        const glm::dvec3 middle(more.middle);
+        const auto radius = double(more.momentRadius);
+        middle_ += section * middle;
+        moment_ += section * (glm::dot(middle, middle) + kKernelMoment * radius * radius);
         albedo_ += section * glm::dvec3(more.albedo);
         light_ += section * glm::dvec3(more.light);
         fireShare_ += section * double(more.fireShare);
@@ -50,7 +57,10 @@ public:
         BlockContent content = sum;
         const double per = 1.0 / std::max(section_, double(std::numeric_limits<float>::min()));
         content.crossSection = float(section_);
-        content.middle = glm::vec3(per * middle_);
+        const glm::dvec3 middle = per * middle_;
+        content.middle = glm::vec3(middle);
+        content.momentRadius =
+            float(std::sqrt(std::max(per * moment_ - glm::dot(middle, middle), 0.0) / kKernelMoment));
         content.albedo = glm::vec3(per * albedo_);
         content.light = glm::vec3(per * light_);
         content.fireShare = float(per * fireShare_);
@@ -62,7 +72,7 @@ public:
     BlockContent sum; ///< what is neither a sum nor a mean
 
 private:
-    double section_ = 0.0, fireShare_ = 0.0, heat_ = 0.0, peak_ = 0.0;
+    double section_ = 0.0, moment_ = 0.0, fireShare_ = 0.0, heat_ = 0.0, peak_ = 0.0;
     glm::dvec3 middle_{0.0}, albedo_{0.0}, light_{0.0};
 };
 
@@ -81,6 +91,7 @@ BlockContent BlockContents::sumOfBalls(const SnapshotGroup& group) const
         ball.heat = group.start(blob::Heat)[i];
         ball.balls = 1;
         const float section = group.start(blob::CrossSection)[i], radius = group.start(blob::Radius)[i];
+        ball.momentRadius = radius;
         ball.peak = section / std::max(radius * radius * radius, 1e-30f);
         all.add(ball, section);
         sum.isColored = sum.isColored || ball.albedo != vectorAt(group, blob::AlbedoR, 0) ||
@@ -105,6 +116,7 @@ BlockContent BlockContents::sumOfBlocks(const SnapshotGroup& group) const
         const base::BlockFrame frame = base::BlockFrame().inside(group, i);
         BlockContent placed = inner;
         placed.middle = frame.position + frame.turned(inner.middle);
+        placed.momentRadius = scale * inner.momentRadius;
         placed.peak = inner.peak * frame.density / std::max(scale, 1e-30f);
         all.add(placed, group.start(base::block_column::Density)[i] * scale * scale * inner.crossSection);
         sum.speed = std::max(sum.speed, scale * inner.speed);

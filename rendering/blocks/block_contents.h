@@ -27,11 +27,13 @@ struct BlockContent
     float radius = 0.0f;                        ///< [m] of a ball about the origin that holds the content
     float crossSection = 0.0f;                  ///< [m2] sum
     glm::vec3 middle{0.0f};                     ///< [m] mean of the centers, in units of the block
-    glm::vec3 albedo{0.0f};                     ///< mean
-    glm::vec3 light{0.0f};                      ///< [cd/m2] mean of BlockBall::light
-    glm::vec3 brightest{0.0f};                  ///< [cd/m2] largest BlockBall::light, by channel
-    float fireShare = 0.0f;                     ///< mean
-    float heat = 0.0f;                          ///< [K] mean
+    /// [m] Radius of the ball about `middle` whose kernel has the second moment of the content
+    float momentRadius = 0.0f;
+    glm::vec3 albedo{0.0f};    ///< mean
+    glm::vec3 light{0.0f};     ///< [cd/m2] mean of BlockBall::light
+    glm::vec3 brightest{0.0f}; ///< [cd/m2] largest BlockBall::light, by channel
+    float fireShare = 0.0f;    ///< mean
+    float heat = 0.0f;         ///< [K] mean
     /// [1/m] mean of the cross section of a ball over its radius cubed: the extinction in its middle follows
     /// it
     float peak = 0.0f;

@@ -248,14 +248,16 @@ float BlockWalk::drawImpostor(const BlockFrame& frame, uint32_t variant, float w
 }
 
 /// A ball with the medium of a block, without a tile.
-GatheredBlob BlockWalk::wholeBall(const BlockFrame& frame, const BlockContent& content, float weight) const
+/// @param center, radius [m] in units of the block
+GatheredBlob BlockWalk::wholeBall(const BlockFrame& frame, const BlockContent& content, float weight,
+                                  const glm::vec3& center, float radius) const
 {
     const float section = frame.scale * frame.scale * content.crossSection;
     GatheredBlob ball = like_;
-    ball.center = frame.position;
-    const float radius = frame.scale * content.radius;
-    ball.radius = std::max(radius, leastRadius(frame.position));
-    ball.crossSection = formula::fxWidenedSection(weight * frame.density * section, radius, ball.radius);
+    ball.center = frame.position + frame.turned(center);
+    ball.radius = std::max(frame.scale * radius, leastRadius(ball.center));
+    ball.crossSection =
+        formula::fxWidenedSection(weight * frame.density * section, frame.scale * radius, ball.radius);
     ball.albedo = content.albedo;
     ball.emission = content.light;
     ball.temperature = 0.0f;
@@ -269,14 +271,14 @@ GatheredBlob BlockWalk::wholeBall(const BlockFrame& frame, const BlockContent& c
 
 void BlockWalk::addWholeBall(const BlockFrame& frame, const BlockContent& content, float weight)
 {
-    balls_.push_back(wholeBall(frame, content, weight));
+    balls_.push_back(wholeBall(frame, content, weight, content.middle, content.momentRadius));
     ++counts_.impostors;
 }
 
 void BlockWalk::addImpostor(const BlockFrame& frame, const BlockContent& content, const Tile& tile,
                             float weight)
 {
-    GatheredBlob ball = wholeBall(frame, content, weight);
+    GatheredBlob ball = wholeBall(frame, content, weight, glm::vec3(0.0f), content.radius);
     const float section = frame.scale * frame.scale * content.crossSection;
     const float perWidth = frame.scale * content.radius / ball.radius;
     const float middle = glm::dot(content.middle, tile.axes.along) / content.radius;
@@ -388,14 +390,15 @@ void BlockWalk::addBallCasters(const BlockFrame& frame, uint32_t variant)
 }
 
 /// In an effect of very many balls each block of balls that is not drawn as these casts the shadow of one
-/// ball: balls would be too dark in the shadow of the ball that their own block casts.
+/// ball with the same mass, mean and second moment: balls would be too dark in the shadow of the ball that
+/// their own block casts.
 void BlockWalk::addBlockCasters(const BlockFrame& frame, uint32_t variant, float weight)
 {
     const BlockContent& content = contents_->of(variant);
     if (castsBalls_ || !content.group || content.balls == 0)
         return;
     if (!groups_->isBlocks(*content.group)) {
-        addCaster(frame.position, frame.scale * content.radius,
+        addCaster(frame.position + frame.turned(content.middle), frame.scale * content.momentRadius,
                   weight * frame.density * frame.scale * frame.scale * content.crossSection);
         return;
     }

@@ -83,7 +83,8 @@ private:
     };
 
     void visit(const base::BlockFrame& frame, uint32_t variant, float weight);
-    GatheredBlob wholeBall(const base::BlockFrame& frame, const BlockContent& content, float weight) const;
+    GatheredBlob wholeBall(const base::BlockFrame& frame, const BlockContent& content, float weight,
+                           const glm::vec3& center, float radius) const;
     void addWholeBall(const base::BlockFrame& frame, const BlockContent& content, float weight);
     void addImpostor(const base::BlockFrame& frame, const BlockContent& content, const Tile& tile,
                      float weight);

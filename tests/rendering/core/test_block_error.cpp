@@ -384,10 +384,10 @@ TEST(BlockWalks, blocksForWhichThereIsNeitherATileNorRoomAreSingleBalls)
     size_t balls = 0, tiles = 0, single = 0;
     for (const render::GatheredBlob& ball : drawn) {
         section += double(ball.crossSection);
-        const bool isBlock = ball.radius == content.radius;
-        balls += !isBlock;
-        tiles += isBlock && ball.tile != 0;
-        single += isBlock && ball.tile == 0;
+        const bool isTile = ball.tile != 0, isBlock = !isTile && ball.radius == content.momentRadius;
+        balls += !isTile && !isBlock;
+        tiles += isTile;
+        single += isBlock;
     }
     const double wanted = double(places.size() + 1) * double(content.crossSection);
     EXPECT_NEAR(section, wanted, 1e-4 * wanted); // no medium is missing
@@ -404,18 +404,26 @@ TEST(BlockWalks, castersOfManyBallsAreWhatIsDrawn)
     places.emplace_back(0.0f, 0.0f, 119.0f); // around the eye
     places.emplace_back(0.0f, 0.0f, 240.0f); // behind it
     PublishedBlocks blocks(1, 200, 0.05f, places);
-    const auto section = [&] {
-        double sum = 0.0;
-        for (const render::MediumCaster& caster : blocks.casters)
-            sum += double(caster.crossSection);
+    // Of what is in front of the eye, about the place of the effect: x mass, y first moment along the view, z
+    // second moment. That of the kernel about its center is a third of the square of its radius.
+    const auto moments = [&] {
+        glm::dvec3 sum(0.0);
+        for (const render::MediumCaster& caster : blocks.casters) {
+            const glm::dvec3 center = glm::dvec3(caster.center) + glm::dvec3(0.0, 0.0, 120.0);
+            const auto radius = double(caster.radius);
+            if (std::abs(center.z) < 20.0)
+                sum += double(caster.crossSection) *
+                       glm::dvec3(1.0, center.z, glm::dot(center, center) + radius * radius / 3.0);
+        }
         return sum;
     };
     (void)blocks.walk({0.0, 0.0, -120.0}, 100'000);
-    const double ofAll = section();
+    const glm::dvec3 ofAll = moments();
     EXPECT_EQ(blocks.casters.size(), 33 * 200u);
     for (const uint32_t most : {0u, 500u, 1200u, 6000u}) {
         const auto balls = blocks.walk({0.0, 0.0, -120.0}, 100'000, false, most);
-        EXPECT_NEAR(section(), ofAll, 1e-5 * ofAll) << most;
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(moments()[k], ofAll[k], 1e-5 * std::abs(ofAll[k])) << most << ", moment " << k;
         EXPECT_LE(blocks.casters.size(), most + 33u);
         size_t same = 0, drawn = 0;
         for (const render::GatheredBlob& ball : balls) {
