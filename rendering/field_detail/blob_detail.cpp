@@ -41,7 +41,7 @@ BlobDetail::BlobDetail(const base::SnapshotPair& snapshots, size_t group, float 
     if (newer.schema().kind(name.kind) != base::kMaterialKind || name.instance != blobs.instance ||
         name.solver != blobs.solver)
         return;
-    const size_t same = findSameGroup(snapshots.older, name, group + 1);
+    const size_t same = findSameGroup(snapshots.older, newer, group + 1);
     read(newer.group(group + 1), same == kNoGroup ? nullptr : &snapshots.older->group(same), t);
 }
 

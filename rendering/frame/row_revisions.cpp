@@ -97,7 +97,7 @@ uint64_t RowRevisions::revisionOf(const base::FrameSnapshot& newer, size_t g,
                                   const base::FrameSnapshot* older, uint64_t& ioLast) const
 {
     const base::GroupName name = newer.name(g);
-    const size_t same = before_.empty() ? kNoGroup : findSameGroup(older, name, g);
+    const size_t same = before_.empty() ? kNoGroup : findSameGroup(older, newer, g);
     if (same == kNoGroup || before_[same].revision == 0)
         return ++ioLast;
     const base::GroupRoster::Entry* const entry = newer.pooled(g);

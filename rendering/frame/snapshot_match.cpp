@@ -6,14 +6,35 @@
 
 namespace fx::render {
 
-size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint)
+namespace {
+
+/// Number of groups with the name of group `index` that its solver has published before it.
+size_t ordinalOf(const base::FrameSnapshot& snapshot, size_t index)
+{
+    const base::GroupName name = snapshot.name(index);
+    size_t ordinal = 0;
+    for (size_t g = index; g > 0; --g) {
+        const base::GroupName before = snapshot.name(g - 1);
+        if (before.instance != name.instance || before.solver != name.solver)
+            break;
+        ordinal += before == name;
+    }
+    return ordinal;
+}
+
+} // namespace
+
+size_t findSameGroup(const base::FrameSnapshot* older, const base::FrameSnapshot& newer, size_t index)
 {
     if (!older)
         return kNoGroup;
-    if (hint < older->groupCount() && older->name(hint) == name)
-        return hint;
+    const base::GroupName name = newer.name(index);
+    const size_t ordinal = ordinalOf(newer, index);
+    if (index < older->groupCount() && older->name(index) == name && ordinalOf(*older, index) == ordinal)
+        return index;
+    size_t before = 0;
     for (size_t g = 0; g < older->groupCount(); ++g)
-        if (older->name(g) == name)
+        if (older->name(g) == name && before++ == ordinal)
             return g;
     return kNoGroup;
 }

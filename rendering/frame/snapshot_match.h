@@ -13,10 +13,11 @@ namespace fx::render {
 
 constexpr size_t kNoGroup = ~size_t(0);
 
-/// Returns the index of the group of `older` with the given name (instance, solver and kind), or kNoGroup if
-/// `older` has no such group.
-/// @param older may be null @param hint most likely index of the group, which is tested first
-size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint);
+/// Returns the index of the group of `older` that is a given group of `newer`, or kNoGroup if `older` has no
+/// such group. Both have the same name (instance, solver and kind), and the same number of groups of this
+/// name before them, as a solver may publish several of one kind.
+/// @param older may be null @param index of the group of `newer`; the same index in `older` is tested first
+size_t findSameGroup(const base::FrameSnapshot* older, const base::FrameSnapshot& newer, size_t index);
 
 /// Returns the placement of a group relative to `eye`, interpolated between the snapshots; t = 1 gives the
 /// newer snapshot.

@@ -314,7 +314,7 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
         const base::SnapshotGroup& group = newer.group(g);
         if (group.info().bounds.empty())
             return {};
-        const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
+        const size_t same = findSameGroup(snapshots.older, newer, g);
         const auto* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
         const base::Placement place = placementAt(snapshots, group, older, t, camera.eye);
         const base::Bounds& bounds = group.info().bounds;
@@ -417,7 +417,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         }
         const base::SnapshotGroup& group = newer.group(g);
         const ImpostorPlan& plan = outInstances.back().plan;
-        const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
+        const size_t same = findSameGroup(snapshots.older, newer, g);
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
         const base::Placement place = placementAt(snapshots, group, older, t, camera.eye);
         const BlobDetail detail = outFields ? BlobDetail(snapshots, g, t) : BlobDetail();

@@ -6,6 +6,8 @@
 
 namespace fx::render {
 
+constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722}; ///< weights of linear Rec. 709
+
 /// @formula black-body-luminance
 /// Luminance of an ideal black body as a linear Rec. 709 triple.
 ///

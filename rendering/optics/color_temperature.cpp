@@ -9,8 +9,7 @@
 namespace fx::render {
 namespace {
 
-constexpr glm::vec3 kLuminance{0.2126f, 0.7152f, 0.0722f}; // of linear Rec. 709, as black_body.h
-constexpr float kColdest = 401.0f, kHottest = 10000.0f;    // [K] that have a color
+constexpr float kColdest = 401.0f, kHottest = 10000.0f; // [K] that have a color
 constexpr float kSameRed = 1e-4f;
 constexpr int kHalvings = 20;
 
@@ -19,7 +18,7 @@ constexpr int kHalvings = 20;
 glm::vec3 blackBodyColor(float temperature)
 {
     const glm::vec3 light = blackBodyLuminance(temperature);
-    const float luminance = glm::dot(light, kLuminance);
+    const float luminance = glm::dot(light, glm::vec3(kLuminance));
     return luminance > 0.0f ? light / luminance : glm::vec3(1.0f);
 }
 

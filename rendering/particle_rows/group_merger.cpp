@@ -104,7 +104,7 @@ void GroupMerger::collect(const base::SnapshotPair& snapshots)
             continue;
         if (group.count == 0 || group.count > kMaxMergedRows || !hasFreeOrder(*group.rows, isStrip))
             continue;
-        const size_t before = isStrip ? kNoGroup : findSameGroup(snapshots.older, name, g);
+        const size_t before = isStrip ? kNoGroup : findSameGroup(snapshots.older, newer, g);
         const MergeSource older =
             before == kNoGroup ? MergeSource{} : sourceOf(*snapshots.older, before, isStrip);
         if (older.rows && (older.count > kMaxMergedRows || !haveSameColumns(*group.rows, *older.rows)))

@@ -150,7 +150,7 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, const 
 {
     const base::SnapshotGroup& newer = in.snapshots->newer->group(index);
     const auto constants = newer.constants();
-    const size_t olderIndex = findSameGroup(in.snapshots->older, base::nameOf(newer.info()), index);
+    const size_t olderIndex = findSameGroup(in.snapshots->older, *in.snapshots->newer, index);
     const base::SnapshotGroup* older =
         olderIndex == kNoGroup ? nullptr : &in.snapshots->older->group(olderIndex);
     const float t = float(glm::clamp(in.request->interpolation, 0.0, 1.0));

@@ -79,7 +79,7 @@ void addGroup(const RowCasterInputs& in, size_t index, const RowTechnique& techn
 {
     const base::FrameSnapshot* before = in.snapshots->older;
     const base::SnapshotGroup& newer = in.snapshots->newer->group(index);
-    const size_t same = findSameGroup(before, base::nameOf(newer.info()), index);
+    const size_t same = findSameGroup(before, *in.snapshots->newer, index);
     const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &before->group(same);
     const float t = float(glm::clamp(in.interpolation, 0.0, 1.0));
     const float seconds =

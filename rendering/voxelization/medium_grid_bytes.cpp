@@ -114,7 +114,9 @@ bool isInRange(const VoxelBall& ball)
             !isIn(ball.streak[a], -kFar, kFar) || !isIn(ball.albedo[a], 0.0, 1.0))
             return false;
     return isIn(ball.radius, 1e-6, kFar) && isIn(ball.crossSection, 0.0, 1e12) &&
-           isIn(ball.temperature, 0.0, 1e5) && isIn(ball.luminance, 0.0, 1e11);
+           isIn(ball.temperature, 0.0, 1e5) && isIn(ball.luminance, 0.0, 1e11) &&
+           isIn(ball.age, 0.0, VoxelBall::kUnknownAge) &&
+           isIn(ball.luminanceRate, -VoxelBall::kMostRate, VoxelBall::kMostRate);
 }
 
 std::string toBytes(const MediumGrid& grid)

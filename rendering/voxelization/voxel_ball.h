@@ -21,11 +21,14 @@ struct VoxelBall
     double temperature = 0.0;  ///< [K]
     /// [cd/m2] Emitted luminance per optical depth. The color is that of a black body of the temperature.
     double luminance = 0.0;
-    glm::dvec3 velocity{0.0}; ///< [m/s] velocity in the world
-    glm::dvec3 albedo{0.0};   ///< [1]
-    glm::dvec3 streak{0.0};   ///< [m] way of the ball while the shutter is open; 0: none
-    uint64_t id = 0;          ///< id of the ball in its effect
-    uint64_t instance = 0;    ///< instance of the effect in the scene
+    static constexpr double kUnknownAge = 1e6, kMostRate = 1e6;
+    double luminanceRate = 0.0; ///< [1/s] change of its logarithm, within kMostRate; 0 also: not known
+    double age = kUnknownAge;   ///< [s] since its birth; kUnknownAge: it has none, or it is not known
+    glm::dvec3 velocity{0.0};   ///< [m/s] velocity in the world
+    glm::dvec3 albedo{0.0};     ///< [1]
+    glm::dvec3 streak{0.0};     ///< [m] way of the ball while the shutter is open; 0: none
+    uint64_t id = 0;            ///< id of the ball in its effect
+    uint64_t instance = 0;      ///< instance of the effect in the scene
 };
 
 constexpr int kBlockSide = 8; ///< [voxel] side of a block

@@ -4,9 +4,11 @@
 #include "fxsdk/cli/render/blob_list_reader.h"
 #include "fxsdk/cli/render/reference_scene.h"
 #include "fxsdk/cli/scene/default_stage.h"
+#include "rendering/optics/black_body.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace fx::cli {
@@ -32,7 +34,10 @@ MomentBalls ballsOf(const std::vector<render::MediumBlob>& blobs, const render::
         ball.radius = blob.radius;
         ball.crossSection = blob.crossSection;
         ball.temperature = blob.temperature;
-        ball.luminance = glm::dot(kLuminance, blob.source);
+        ball.luminance = glm::dot(render::kLuminance, blob.source);
+        ball.luminanceRate =
+            std::clamp(blob.sourceRate, -render::VoxelBall::kMostRate, render::VoxelBall::kMostRate);
+        ball.age = std::clamp(blob.age, 0.0, render::VoxelBall::kUnknownAge);
         ball.velocity = blob.velocity;
         ball.albedo = blob.albedo;
         ball.id = blob.id;

@@ -25,9 +25,6 @@ struct MomentBalls
     uint32_t nonFinite = 0;  ///< number of balls omitted because a value was not finite
 };
 
-constexpr glm::dvec3 kLuminance{0.2126, 0.7152,
-                                0.0722}; ///< of linear Rec. 709, as rendering/optics/black_body.h
-
 /// A simulation of the scene from its start.
 class BallSource
 {

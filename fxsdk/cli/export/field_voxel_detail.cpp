@@ -54,7 +54,7 @@ double FieldVoxelDetail::luminance(uint32_t ball, float temperature) const
     const glm::dvec3 more = glm::dvec3(render::blackBodyLuminance(hot * temperature)) -
                             glm::dvec3(render::blackBodyLuminance(hot));
     const glm::dvec3 light = (1.0 - own.albedo) * glm::dvec3(medium_.tint(group)) * more;
-    return std::max(own.luminance + glm::dot(kLuminance, light), 0.0);
+    return std::max(own.luminance + glm::dot(render::kLuminance, light), 0.0);
 }
 
 } // namespace fx::cli

@@ -3,6 +3,7 @@
 #include "foundation/math/bits.h"
 #include "foundation/snapshot/streak.h"
 #include "rendering/field_detail/conservation_factor.h"
+#include "rendering/frame/snapshot_match.h"
 #include "rendering/optics/black_body.h"
 
 #include <glm/common.hpp>
@@ -112,9 +113,11 @@ private:
         blob.radius = value(column::Radius, i, old) * scale;
         blob.crossSection = value(column::CrossSection, i, old) * scale * scale;
         blob.albedo = vector(column::AlbedoR, i, old);
-        const glm::dvec3 tint(base::tintOf(newer_.constants()));
-        blob.source = (1.0 - blob.albedo) * tint * glm::dvec3(blackBodyLuminance(temperature)) +
-                      vector(column::EmissionR, i, old);
+        blob.source = sourceOf(blob.albedo, temperature, vector(column::EmissionR, i, old));
+        blob.sourceRate = sourceRate(i, old);
+        blob.age = value(column::Age, i, old);
+        if (old == kNone && older_)
+            blob.age -= (1.0 - t_) * stepSeconds_;
         blob.fireShare = glm::clamp(value(column::FireShare, i, old), 0.0, 1.0);
         blob.anisotropy = double(newer_.constants()[constant::Anisotropy]);
         blob.layer = base::MediaLayer(uint32_t(newer_.constants()[constant::Layer]));
@@ -147,6 +150,26 @@ private:
                 {{center, float(blob.radius), float(blob.crossSection)}, ball.carried, newer_.ids()[i]});
         }
         out.details.balls.resize(out.blobs.size(), ball); // all pieces of the streak
+    }
+
+    glm::dvec3 sourceOf(const glm::dvec3& albedo, float temperature, const glm::dvec3& emission) const
+    {
+        const glm::dvec3 tint(base::tintOf(newer_.constants()));
+        return (1.0 - albedo) * tint * glm::dvec3(blackBodyLuminance(temperature)) + emission;
+    }
+
+    double sourceRate(size_t i, size_t old) const
+    {
+        if (old == kNone || !(stepSeconds_ > 0.0))
+            return 0.0;
+        const auto luminance = [&](const base::SnapshotGroup& group, size_t row) {
+            const auto at = [&](size_t c) { return double(group.column(c)[row]); };
+            const auto three = [&](size_t c) { return glm::dvec3(at(c), at(c + 1), at(c + 2)); };
+            return glm::dot(kLuminance, sourceOf(three(column::AlbedoR), float(at(column::Temperature)),
+                                                 three(column::EmissionR)));
+        };
+        const double rate = std::log(luminance(newer_, i) / luminance(*older_, old)) / stepSeconds_;
+        return base::isFinite(rate) ? rate : 0.0;
     }
 
     /// Between two snapshots, the way from one to the other; that of the group included.
@@ -200,16 +223,6 @@ private:
     base::Placement place_;
 };
 
-const base::SnapshotGroup* sameGroup(const base::FrameSnapshot* older, const base::GroupInfo& info)
-{
-    for (size_t g = 0; older && g < older->groupCount(); ++g) {
-        const base::GroupInfo& other = older->group(g).info();
-        if (other.instance == info.instance && other.solver == info.solver && other.kind == info.kind)
-            return &older->group(g);
-    }
-    return nullptr;
-}
-
 } // namespace
 
 MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation, const VolumeLookup& volumes)
@@ -227,8 +240,9 @@ MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation, c
             continue;
         const BlobDetail detail(snapshots, g, float(glm::clamp(interpolation, 0.0, 1.0)));
         const base::SnapshotGroup* const volume = volumes ? volumeGroup(newer, g) : nullptr;
-        GroupMoment(group, sameGroup(snapshots.older, group.info()), glm::clamp(interpolation, 0.0, 1.0),
-                    stepSeconds, detail, volume, volumes)
+        const size_t same = findSameGroup(snapshots.older, newer, g);
+        const base::SnapshotGroup* const older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+        GroupMoment(group, older, glm::clamp(interpolation, 0.0, 1.0), stepSeconds, detail, volume, volumes)
             .appendTo(list);
     }
     if (!list.details.isGiven())

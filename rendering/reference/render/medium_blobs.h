@@ -31,6 +31,9 @@ struct MediumBlob
     glm::dvec3 velocity{0.0};                         ///< [m/s] velocity in the world
     double temperature = 0.0;                         ///< [K]; the emitted light is in `source`
     uint64_t id = 0;                                  ///< id of the ball in its group of the snapshot
+    double age = 0.0;                                 ///< [s] since its birth, as the snapshot has it
+    /// [1/s] change of the logarithm of the luminance of `source` between the snapshots; 0: not known
+    double sourceRate = 0.0;
 };
 
 /// Returns the medium of a volume of a snapshot at its moment; null if it is not known.

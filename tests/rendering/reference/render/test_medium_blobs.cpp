@@ -67,6 +67,47 @@ TEST_F(MediumBlobs, aMatchedBlobIsBetweenItsTwoStates)
     EXPECT_DOUBLE_EQ(list.blobs[0].radius, 1.25);
 }
 
+TEST_F(MediumBlobs, severalGroupsOfASolverAreMatchedInTheirOrder)
+{
+    for (const bool isShifted : {false, true}) { // by the group of another instance, which has ended
+        SetUp();
+        if (isShifted)
+            addGroup(older_, {1}).editInfo().instance = 4;
+        for (base::FrameSnapshot* const snapshot : {&older_, &newer_}) {
+            addGroup(*snapshot, {3, 8});
+            addGroup(*snapshot, {5, 8}).editColumn(column::PositionX)[1] = snapshot == &older_ ? 1.0f : 3.0f;
+        }
+        const MediumList list = mediumOf(pair(), 0.25);
+        ASSERT_EQ(list.blobs.size(), 4u);
+        EXPECT_DOUBLE_EQ(list.blobs[1].center.x, 0.0);
+        EXPECT_DOUBLE_EQ(list.blobs[3].center.x, 1.5);
+    }
+}
+
+TEST_F(MediumBlobs, haveTheirAgeAndTheRateOfTheirLight)
+{
+    base::SnapshotGroup& before = addGroup(older_, {7, 8});
+    base::SnapshotGroup& group = addGroup(newer_, {7, 8, 9});
+    before.editColumn(column::Temperature)[0] = 1800.0f;
+    group.editColumn(column::Temperature)[0] = 1500.0f;
+    before.editColumn(column::Age)[0] = 2.0f;
+    group.editColumn(column::Age)[0] = 3.0f;
+    before.editColumn(column::EmissionG)[1] = 10.0f;
+    group.editColumn(column::EmissionG)[1] = 30.0f;
+    group.editColumn(column::EmissionG)[2] = 30.0f;
+    group.editColumn(column::Age)[2] = 0.9f;
+    const MediumList list = mediumOf(pair(), 0.5);
+    ASSERT_EQ(list.blobs.size(), 3u);
+    const auto luminance = [](float temperature) {
+        return glm::dot(kLuminance, glm::dvec3(blackBodyLuminance(temperature)));
+    };
+    EXPECT_NEAR(list.blobs[0].sourceRate, std::log(luminance(1500.0f) / luminance(1800.0f)), 1e-6);
+    EXPECT_NEAR(list.blobs[1].sourceRate, std::log(3.0), 1e-6); // a second
+    EXPECT_EQ(list.blobs[2].sourceRate, 0.0);                   // born in this step
+    EXPECT_NEAR(list.blobs[0].age, 2.5, 1e-6);
+    EXPECT_NEAR(list.blobs[2].age, 0.4, 1e-6);
+}
+
 TEST_F(MediumBlobs, anUnbornBlobIsLeftOutAndANewbornIsCarriedBack)
 {
     addGroup(older_, {});
