@@ -6,6 +6,7 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
 
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -18,12 +19,15 @@ openvdb::GridBase::Ptr makePoints(std::span<const VoxelBall> balls, double voxel
     namespace points = openvdb::points;
     std::vector<openvdb::Vec3d> places;
     std::vector<openvdb::Vec3f> velocities;
-    std::vector<float> radii;
+    std::vector<openvdb::Vec3f> albedos;
+    std::vector<float> radii, ages;
     std::vector<int64_t> ids, instances;
     for (const VoxelBall& ball : balls) {
         places.emplace_back(ball.center.x, ball.center.y, ball.center.z);
         velocities.emplace_back(float(ball.velocity.x), float(ball.velocity.y), float(ball.velocity.z));
+        albedos.emplace_back(float(ball.albedo.x), float(ball.albedo.y), float(ball.albedo.z));
         radii.push_back(float(ball.radius));
+        ages.push_back(float(ball.age));
         ids.push_back(int64_t(ball.id));
         instances.push_back(int64_t(ball.instance));
     }
@@ -43,20 +47,22 @@ openvdb::GridBase::Ptr makePoints(std::span<const VoxelBall> balls, double voxel
     addAttribute("instance", instances);
     addAttribute("v", velocities);
     addAttribute("pscale", radii);
+    addAttribute("age", ages);
+    addAttribute("Cd", albedos);
     if (areMedium) {
-        std::vector<float> sections, temperatures, luminances;
-        std::vector<openvdb::Vec3f> albedos, streaks;
+        std::vector<float> sections, temperatures, luminances, rates;
+        std::vector<openvdb::Vec3f> streaks;
         for (const VoxelBall& ball : balls) {
             sections.push_back(float(ball.crossSection));
             temperatures.push_back(float(ball.temperature));
             luminances.push_back(float(ball.luminance));
-            albedos.emplace_back(float(ball.albedo.x), float(ball.albedo.y), float(ball.albedo.z));
+            rates.push_back(float(ball.luminanceRate));
             streaks.emplace_back(float(ball.streak.x), float(ball.streak.y), float(ball.streak.z));
         }
         addAttribute("section", sections);
         addAttribute("temperature", temperatures);
         addAttribute("luminance", luminances);
-        addAttribute("Cd", albedos);
+        addAttribute("luminance_rate", rates);
         addAttribute("streak", streaks);
     }
     grid->setName("points");
@@ -104,7 +110,8 @@ std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, const PointS
         const Attribute<openvdb::Vec3f> place(*leaf, "P"), velocity(*leaf, "v"), albedo(*leaf, "Cd"),
             streak(*leaf, "streak");
         const Attribute<float> radius(*leaf, "pscale"), section(*leaf, "section"),
-            temperature(*leaf, "temperature"), luminance(*leaf, "luminance");
+            temperature(*leaf, "temperature"), luminance(*leaf, "luminance"), age(*leaf, "age"),
+            rate(*leaf, "luminance_rate");
         const Attribute<int64_t> id(*leaf, "id"), instance(*leaf, "instance");
         const openvdb::Index64 count = leaf->getLastValue();
         for (const auto* own : {&place, &velocity, &albedo, &streak})
@@ -127,6 +134,11 @@ std::vector<VoxelBall> ballsOfPoints(const openvdb::GridBase& grid, const PointS
             ball.crossSection = scales.extinction * scale * scale * scale * double(section.at(i));
             ball.temperature = scales.temperature * double(temperature.at(i));
             ball.luminance = scales.luminance * double(luminance.at(i));
+            // Files of other programs may have neither.
+            if (age.isThere(count) && age.at(i) >= 0.0f && double(age.at(i)) < VoxelBall::kUnknownAge)
+                ball.age = double(age.at(i));
+            if (rate.isThere(count) && std::abs(double(rate.at(i))) <= VoxelBall::kMostRate)
+                ball.luminanceRate = double(rate.at(i));
             ball.velocity = scale * vector(velocity.at(i));
             ball.albedo = vector(albedo.at(i));
             ball.streak = scale * vector(streak.at(i));

@@ -12,7 +12,7 @@ using base::Code;
 using base::Status;
 
 constexpr size_t kNumbers = 12;       // of a ball
-constexpr size_t kMovingNumbers = 18; // of a ball of a frame
+constexpr size_t kMovingNumbers = 20; // of a ball of a frame
 constexpr size_t kNumberBytes = 8;    // of the number of such a ball
 constexpr std::string_view kCount = "count ", kEnd = "\ndata\n";
 constexpr size_t kLongestCount = 8; // [byte]
@@ -40,7 +40,9 @@ constexpr std::array<Range, kMovingNumbers> kRanges{{{"x", -1e6f, 1e6f},
                                                      {"velocity", -1e9f, 1e9f},
                                                      {"streak", -1e6f, 1e6f},
                                                      {"streak", -1e6f, 1e6f},
-                                                     {"streak", -1e6f, 1e6f}}};
+                                                     {"streak", -1e6f, 1e6f},
+                                                     {"age", 0.0f, kUnknownAge},
+                                                     {"rate", -1e6f, 1e6f}}};
 
 std::array<float, kNumbers> numbersOf(const ListedBall& b)
 {
@@ -162,6 +164,8 @@ base::Result<std::shared_ptr<const MovingBalls>> parseMovingBalls(std::string_vi
         ball.ball = ballOf(n);
         ball.velocity = {n[12], n[13], n[14]};
         ball.streak = {n[15], n[16], n[17]};
+        ball.age = n[18];
+        ball.rate = n[19];
         for (size_t k = 0; k < kNumberBytes; ++k)
             ball.number |= uint64_t(static_cast<unsigned char>(first[4 * kMovingNumbers + k])) << (8 * k);
         if (i > 0 && ball.number <= (*balls)[i - 1].number)
@@ -181,6 +185,8 @@ std::string writeMovingBalls(const MovingBalls& balls)
         for (const glm::vec3& vector : {ball.velocity, ball.streak})
             for (int a = 0; a < 3; ++a)
                 appendNumber(bytes, std::bit_cast<uint32_t>(vector[a]), 4);
+        for (const float number : {ball.age, ball.rate})
+            appendNumber(bytes, std::bit_cast<uint32_t>(number), 4);
         appendNumber(bytes, ball.number, kNumberBytes);
     }
     return bytes;

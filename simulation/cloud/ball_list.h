@@ -7,9 +7,10 @@
 ///     data                followed by a line feed
 ///     N * 12 binary32 numbers, little endian, one ball after another: x y z [m], radius [m], cross section
 ///     [m2], temperature [K], albedo r g b, emission r g b [cd/m2]
-/// A frame of a sequence has `fxballs 2` and N from 0. Behind the 12 numbers of a ball are 6 more, velocity x
-/// y z [m/s] and streak x y z [m], and its number as a 64-bit integer, little endian; numbers rise from ball
-/// to ball. The lines of the header have this order. Each ends with a line feed; spaces separate their words.
+/// A frame of a sequence has `fxballs 2` and N from 0. Behind the 12 numbers of a ball are 8 more, velocity x
+/// y z [m/s], streak x y z [m], age [s] and rate of the emission [1/s], and its number as a 64-bit integer,
+/// little endian; numbers rise from ball to ball. The lines of the header have this order. Each ends with a
+/// line feed; spaces separate their words.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -25,8 +26,9 @@
 
 namespace fx::sim {
 
+constexpr float kUnknownAge = 1e6f; ///< [s] age of a ball that has no birth, or of which it is not known
 constexpr size_t kMaxListedBalls = size_t(1) << 20;
-constexpr uint64_t kMaxBallListBytes = uint64_t(kMaxListedBalls) * 80 + 64; ///< [byte] maximum size of a file
+constexpr uint64_t kMaxBallListBytes = uint64_t(kMaxListedBalls) * 88 + 64; ///< [byte] maximum size of a file
 
 /// One ball with the kernel of foundation/snapshot/blob_kind.h.
 struct ListedBall
@@ -47,7 +49,9 @@ struct MovingBall
     ListedBall ball;
     glm::vec3 velocity{0.0f}; ///< [m/s] components within 1e9
     glm::vec3 streak{0.0f};   ///< [m] way of the ball while the shutter is open, components within 1e6
-    uint64_t number = 0;      ///< the same in all frames that show the ball
+    float age = kUnknownAge;  ///< [s] since its birth, 0 to kUnknownAge
+    float rate = 0.0f;   ///< [1/s] change of the logarithm of its emission, within 1e6; 0 also: not known
+    uint64_t number = 0; ///< the same in all frames that show the ball
 };
 
 using MovingBalls = std::vector<MovingBall>; ///< rising by their numbers

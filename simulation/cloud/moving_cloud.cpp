@@ -1,5 +1,6 @@
 #include "simulation/cloud/moving_cloud.h"
 
+#include "foundation/math/elementary.h"
 #include "simulation/solver/sequence_player.h"
 
 #include <glm/common.hpp>
@@ -18,7 +19,11 @@ namespace {
 namespace blob = base::blob_column;
 
 constexpr float kDefaultShutter = 1.0f / 60.0f; ///< [s]
-constexpr float kBorn = 1.0f; ///< [s] age of all balls: longer than a step, in which none is hidden
+
+float exponential(float x)
+{
+    return float(base::naturalExp(double(x)));
+}
 
 float root16(float x)
 {
@@ -41,9 +46,25 @@ struct Moment
 /// A ball that only one frame shows. @param away [s] from that frame  @param share of its cross section
 MovingBall alone(MovingBall ball, float away, float share)
 {
+    constexpr float kMost = 5.0f;
     ball.ball.center += away * ball.velocity;
     ball.ball.crossSection *= share;
+    ball.ball.emission *= exponential(std::clamp(ball.rate * away, -kMost, kMost));
     return ball;
+}
+
+/// Between two frames with the rates a and b [1/s].
+float emissionBetween(float first, float second, float a, float b, const Moment& moment)
+{
+    const float w = moment.share, u = 1.0f - w;
+    if ((a == 0.0f && b == 0.0f) || !(first > 0.0f && second > 0.0f))
+        return power16(glm::mix(root16(first), root16(second), w)); // (3)
+    const float change = float(base::naturalLog(double(second) / double(first))),
+                most = 2.0f + 3.0f * std::abs(change);
+    const float start = std::clamp(moment.seconds * a, -most, most);
+    const float end = std::clamp(moment.seconds * b, -most, most);
+    return first *
+           exponential(w * u * u * start + w * w * (3.0f - 2.0f * w) * change - w * w * u * end); // (2)
 }
 
 MovingBall between(const MovingBall& a, const MovingBall& b, const Moment& moment)
@@ -58,7 +79,7 @@ MovingBall between(const MovingBall& a, const MovingBall& b, const Moment& momen
     out.ball.albedo = glm::mix(a.ball.albedo, b.ball.albedo, w);
     for (int c = 0; c < 3; ++c)
         out.ball.emission[c] =
-            power16(glm::mix(root16(a.ball.emission[c]), root16(b.ball.emission[c]), w)); // (2)
+            emissionBetween(a.ball.emission[c], b.ball.emission[c], a.rate, b.rate, moment);
     out.velocity = glm::mix(a.velocity, b.velocity, w);
     out.streak = glm::mix(a.streak, b.streak, w);
     return out;
@@ -68,7 +89,8 @@ MovingBall between(const MovingBall& a, const MovingBall& b, const Moment& momen
 struct Sighting
 {
     const MovingBall *earlier = nullptr, *later = nullptr, *other = nullptr;
-    double away = 0.0; ///< [frame] from that of `other`
+    double away = 0.0;       ///< [frame] from that of `other`
+    float age = kUnknownAge; ///< [s] at the moment; below 0: not yet born
 };
 
 MovingBall ballAt(const Sighting& seen, const Moment& moment)
@@ -80,7 +102,8 @@ MovingBall ballAt(const Sighting& seen, const Moment& moment)
     if (seen.earlier)
         return alone(*seen.earlier, moment.share * moment.seconds, 1.0f - moment.share);
     if (seen.later)
-        return alone(*seen.later, (moment.share - 1.0f) * moment.seconds, moment.share);
+        return alone(*seen.later, (moment.share - 1.0f) * moment.seconds,
+                     seen.later->age < moment.seconds ? 1.0f : moment.share);
     return alone(*seen.other, float(std::clamp(seen.away, -1.0, 1.0)) * moment.seconds, 0.0f);
 }
 
@@ -158,18 +181,23 @@ void MovingCloudDef::forEachIn(const Steps& steps, const Visit& visit) const
                 continue;
             id = ids_[cursor.list][cursor.at];
             const MovingBall* const ball = &balls[cursor.at++];
+            const double here = steps.frame - double(cursor.frame); // [frame]
+            if (ball->age < kUnknownAge)
+                seen.age = ball->age + float(here) * moment.seconds;
             if (cursor.frame == first)
                 seen.earlier = ball;
             else if (cursor.frame == first + 1 && moment.share > 0.0f)
                 seen.later = ball;
-            else if (const double here = steps.frame - double(cursor.frame);
-                     !seen.other || std::abs(here) < std::abs(seen.away))
-            {
+            else if (!seen.other || std::abs(here) < std::abs(seen.away)) {
                 seen.other = ball;
                 seen.away = here;
             }
         }
-        visit(ballAt(seen, moment), id);
+        if (seen.age < 0.0f)
+            continue;
+        MovingBall ball = ballAt(seen, moment);
+        ball.age = seen.age;
+        visit(ball, id);
     }
 }
 
@@ -205,7 +233,6 @@ public:
         BlobWriter writer(snapshot, base, kind_, count, std::max(def_.capacity(), count));
         StillMediumSolver::writeShared(def_, writer);
         writer.constant(base::blob_constant::Shutter) = def_.shutter;
-        writer.fill(blob::Age, kBorn);
         const float early = // [s] before the start
             std::clamp(float(base::toSeconds(now())), -1.0f / def_.framesPerSecond, 0.0f);
         uint32_t i = 0;
@@ -222,6 +249,7 @@ public:
             writer.column(blob::Radius)[i] = def_.scale * ball.radius;
             writer.column(blob::CrossSection)[i] = def_.sectionScale() * ball.crossSection;
             writer.column(blob::Temperature)[i] = ball.temperature;
+            writer.column(blob::Age)[i] = moving.age;
             writer.ids()[i] = blobId(base.solver, id);
             ++i;
         });

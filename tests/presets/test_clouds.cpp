@@ -113,13 +113,17 @@ TEST(Clouds, presetsWithoutAFileOrWithAnotherOneAreErrors)
 
 TEST(MovingBalls, areReadAsTheyWereWritten)
 {
-    const sim::MovingBalls balls{thrown(0.3f, 3), thrown(0.4f, uint64_t(1) << 63)};
+    sim::MovingBalls balls{thrown(0.3f, 3), thrown(0.4f, uint64_t(1) << 63)};
+    balls[1].age = 0.25f;
+    balls[1].rate = -7.5f;
     const std::string bytes = sim::writeMovingBalls(balls);
     const auto read = sim::parseMovingBalls(bytes);
     ASSERT_TRUE(read.ok()) << read.status().message();
     EXPECT_EQ(sim::writeMovingBalls(**read), bytes);
     EXPECT_EQ((**read)[1].velocity, balls[1].velocity);
     EXPECT_EQ((**read)[1].streak, balls[1].streak);
+    EXPECT_EQ((**read)[1].age, 0.25f);
+    EXPECT_EQ((**read)[1].rate, -7.5f);
     EXPECT_EQ((**read)[1].number, balls[1].number);
     const auto none = sim::parseMovingBalls(sim::writeMovingBalls({}));
     ASSERT_TRUE(none.ok()) << none.status().message();
@@ -133,9 +137,9 @@ TEST(MovingBalls, damagedFilesAreRefused)
         EXPECT_FALSE(sim::parseMovingBalls(std::string_view(bytes).substr(0, size)).ok()) << size;
     EXPECT_EQ(sim::parseMovingBalls("fxballs 1\ncount 0\ndata\n").status().code(), base::Code::Version);
     EXPECT_FALSE(sim::parseMovingBalls(sim::writeMovingBalls({thrown(0.3f, 4), thrown(0.4f, 4)})).ok());
-    for (size_t number = 0; number < 18; ++number) {
+    for (size_t number = 0; number < 20; ++number) {
         std::string damaged = bytes;
-        damaged.replace(bytes.size() - 80 + 4 * number, 4, "\xff\xff\xff\xff"); // no number
+        damaged.replace(bytes.size() - 88 + 4 * number, 4, "\xff\xff\xff\xff"); // no number
         const auto read = sim::parseMovingBalls(damaged);
         ASSERT_FALSE(read.ok()) << number;
         EXPECT_NE(read.status().message().find("ball 1"), std::string::npos);
@@ -166,6 +170,72 @@ TEST(MovingCloud, aBallOfOneFrameFadesAsItMoves)
     EXPECT_NEAR(shown[2].ball.crossSection, 0.25f * second.ball.crossSection, 1e-6f);
     EXPECT_LT(glm::length(shown[0].ball.center - first.ball.center - 0.025f * first.velocity), 1e-6f);
     EXPECT_LT(glm::length(shown[2].ball.center - second.ball.center + 0.075f * second.velocity), 1e-6f);
+}
+
+/// Luminance of a ball that flares up and cools, ln of a cubic polynomial of the time [s].
+float flare(float time)
+{
+    return 900.0f * std::exp(8.0f * time - 90.0f * time * time + 150.0f * time * time * time);
+}
+
+TEST(MovingCloud, lightBetweenFramesFollowsItsRates)
+{
+    sim::MovingBall first = thrown(0.0f, 5), second = thrown(0.1f, 5);
+    first.ball.emission = glm::vec3(flare(0.0f));
+    first.rate = 8.0f;
+    second.ball.emission = glm::vec3(flare(0.1f));
+    second.rate = 8.0f - 180.0f * 0.1f + 450.0f * 0.01f;
+    sim::MovingCloudDef def;
+    def.framesPerSecond = 10.0f;
+    const auto play = [&] {
+        def.setFrames({std::make_shared<const sim::MovingBalls>(sim::MovingBalls{first}),
+                       std::make_shared<const sim::MovingBalls>(sim::MovingBalls{second})});
+    };
+    play();
+    for (const float share : {0.0f, 0.2f, 0.5f, 0.8f})
+        EXPECT_NEAR(def.at(double(share))[0].ball.emission.x, flare(0.1f * share), 1e-3f * flare(0.0f));
+    // A rate as of a spark that is lit within one step says nothing about the way to the next frame.
+    first.rate = 1800.0f;
+    second.ball.emission = first.ball.emission;
+    second.rate = 0.0f;
+    play();
+    for (const float share : {0.2f, 0.5f, 0.8f})
+        EXPECT_LT(def.at(double(share))[0].ball.emission.x, 1.5f * flare(0.0f)) << share;
+}
+
+TEST(MovingCloud, aBallIsWholeFromItsBirthOn)
+{
+    constexpr base::Ticks kStep = base::kTicksPerSecond / 60;
+    sim::MovingBall ball = thrown(0.1f, 9);
+    ball.age = 0.06f; // born at 0.04 s, at frame 0.4
+    ball.rate = -20.0f;
+    ball.ball.emission = glm::vec3(500.0f);
+    sim::MovingCloudDef def;
+    def.framesPerSecond = 10.0f;
+    def.setFrames({std::make_shared<const sim::MovingBalls>(sim::MovingBalls{thrown(0.0f, 2)}),
+                   std::make_shared<const sim::MovingBalls>(sim::MovingBalls{ball})});
+    EXPECT_EQ(def.at(0.35).size(), 1u);
+    const sim::MovingBalls shown = def.at(0.45);
+    ASSERT_EQ(shown.size(), 2u);
+    EXPECT_EQ(shown[1].ball.crossSection, ball.ball.crossSection);
+    EXPECT_NEAR(shown[1].ball.emission.x, 500.0f * std::exp(20.0f * 0.055f), 1e-2f);
+    EXPECT_NEAR(shown[1].age, 0.005f, 1e-6f);
+    // Views show it within the step of its birth as soon as it is born.
+    base::SnapshotSchema schema;
+    schema.add(base::kBlobKind);
+    const auto cloud = def.create(schema, {}, std::pmr::get_default_resource());
+    for (const int step : {2, 3}) { // 0.033 s and 0.05 s
+        cloud->seekable()->seek({}, step * kStep);
+        base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+        base::GroupInfo info;
+        info.step = kStep;
+        cloud->publish(info, snapshot);
+        const base::SnapshotGroup& group = snapshot.group(0);
+        ASSERT_EQ(group.count(), step == 2 ? 1u : 2u);
+        if (step == 3) {
+            EXPECT_NEAR(group.column(base::blob_column::Age)[1], 0.01f, 1e-5f);
+        }
+    }
 }
 
 TEST(MovingCloud, publishesStreaksAndTheSameIdsInAllFrames)

@@ -2,10 +2,10 @@
 /// fx import: volumes of other programs.
 
 #include "fxsdk/cli/commands.h"
-#include "fxsdk/cli/import/brick_volume.h"
 #include "fxsdk/cli/import/cloud_preset.h"
 #include "fxsdk/cli/import/frame_files.h"
 #include "fxsdk/cli/import/volume_import.h"
+#include "fxsdk/cli/import/volume_preset.h"
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"

@@ -82,6 +82,8 @@ TEST_F(VdbReader, ballsBesideTheVoxelsAreReadAsTheyWereWritten)
                     .crossSection = 0.25 + n,
                     .temperature = 1500.0 + n,
                     .luminance = 4e4 + n,
+                    .luminanceRate = -40.0 * n,
+                    .age = 0.125 * n,
                     .velocity = {1.0, -2.0 * n, 3.0},
                     .albedo = {0.25, 0.5, 0.75},
                     .streak = {0.5, 0.0, -0.25 * n},
@@ -111,6 +113,8 @@ TEST_F(VdbReader, ballsBesideTheVoxelsAreReadAsTheyWereWritten)
         EXPECT_NEAR(found.crossSection, 8.0 * wanted.crossSection, 1e-5);
         EXPECT_NEAR(found.temperature, wanted.temperature, 1e-3);
         EXPECT_NEAR(found.luminance, wanted.luminance, 1e-2);
+        EXPECT_EQ(found.luminanceRate, wanted.luminanceRate);
+        EXPECT_EQ(found.age, wanted.age);
         EXPECT_LT(glm::length(found.velocity - 2.0 * wanted.velocity), 1e-6);
         EXPECT_EQ(found.albedo, wanted.albedo);
         EXPECT_LT(glm::length(found.streak - 2.0 * wanted.streak), 1e-6);
@@ -121,6 +125,9 @@ TEST_F(VdbReader, ballsBesideTheVoxelsAreReadAsTheyWereWritten)
     EXPECT_EQ(carried->balls[1].streak, read->balls[1].streak);
     MediumGrid damaged = *read;
     damaged.balls[0].radius = 0.0;
+    EXPECT_FALSE(mediumGridFromBytes(toBytes(damaged)).ok());
+    damaged = *read;
+    damaged.balls[0].age = -1.0;
     EXPECT_FALSE(mediumGridFromBytes(toBytes(damaged)).ok());
 }
 

@@ -29,6 +29,8 @@ std::vector<VoxelBall> balls()
         list[i].crossSection = 1.0 + double(i);
         list[i].temperature = 500.0 * double(i + 1);
         list[i].luminance = 7.0;
+        list[i].age = 0.5 + double(i);
+        list[i].albedo = {0.25, 0.125 * double(i), 0.75};
         list[i].velocity = {1.0, double(i), -2.0};
         list[i].id = 100 + i;
         list[i].instance = 7;
@@ -136,7 +138,7 @@ TEST(VdbVolume, allGridsHaveTheSameActiveVoxelsAndSaySomethingOfThemselves)
     EXPECT_EQ(file.metadata->metaValue<int64_t>("seed"), 9);
 }
 
-TEST(VdbVolume, pointsHavePlaceIdVelocityAndRadiusOfTheirBalls)
+TEST(VdbVolume, pointsHaveWhatTheirBallsHave)
 {
     const auto list = balls();
     const ReadBack file(fileOf(list, false));
@@ -148,6 +150,8 @@ TEST(VdbVolume, pointsHavePlaceIdVelocityAndRadiusOfTheirBalls)
         const openvdb::points::AttributeHandle<openvdb::Vec3f> velocity(leaf->constAttributeArray("v"));
         const openvdb::points::AttributeHandle<int64_t> id(leaf->constAttributeArray("id"));
         const openvdb::points::AttributeHandle<float> radius(leaf->constAttributeArray("pscale"));
+        const openvdb::points::AttributeHandle<float> age(leaf->constAttributeArray("age"));
+        const openvdb::points::AttributeHandle<openvdb::Vec3f> color(leaf->constAttributeArray("Cd"));
         for (auto index = leaf->beginIndexOn(); index; ++index, ++found) {
             const openvdb::Vec3d world =
                 points->indexToWorld(openvdb::Vec3d(place.get(*index)) + index.getCoord().asVec3d());
@@ -158,6 +162,8 @@ TEST(VdbVolume, pointsHavePlaceIdVelocityAndRadiusOfTheirBalls)
                         1e-6);
             EXPECT_EQ(velocity.get(*index)[1], float(ball.velocity.y));
             EXPECT_EQ(radius.get(*index), float(ball.radius));
+            EXPECT_EQ(age.get(*index), float(ball.age));
+            EXPECT_EQ(color.get(*index)[1], float(ball.albedo.y));
         }
     }
     EXPECT_EQ(found, list.size());
