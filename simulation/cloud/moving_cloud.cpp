@@ -183,7 +183,7 @@ void MovingCloudDef::forEachIn(const Steps& steps, const Visit& visit) const
             const MovingBall* const ball = &balls[cursor.at++];
             const double here = steps.frame - double(cursor.frame); // [frame]
             if (ball->age < kUnknownAge)
-                seen.age = ball->age + float(here) * moment.seconds;
+                seen.age = ball->age + float(here) * moment.seconds; // frames rise: the last one counts
             if (cursor.frame == first)
                 seen.earlier = ball;
             else if (cursor.frame == first + 1 && moment.share > 0.0f)
@@ -193,6 +193,8 @@ void MovingCloudDef::forEachIn(const Steps& steps, const Visit& visit) const
                 seen.away = here;
             }
         }
+        if (seen.earlier)
+            seen.age = std::max(seen.age, 0.0f); // whatever the next frame says
         if (seen.age < 0.0f)
             continue;
         MovingBall ball = ballAt(seen, moment);

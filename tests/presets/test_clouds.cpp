@@ -220,6 +220,14 @@ TEST(MovingCloud, aBallIsWholeFromItsBirthOn)
     EXPECT_EQ(shown[1].ball.crossSection, ball.ball.crossSection);
     EXPECT_NEAR(shown[1].ball.emission.x, 500.0f * std::exp(20.0f * 0.055f), 1e-2f);
     EXPECT_NEAR(shown[1].age, 0.005f, 1e-6f);
+    // What the first frame shows is there, whatever the second says.
+    sim::MovingBall older = ball;
+    older.age = sim::kUnknownAge;
+    sim::MovingCloudDef both;
+    both.framesPerSecond = 10.0f;
+    both.setFrames({std::make_shared<const sim::MovingBalls>(sim::MovingBalls{older}),
+                    std::make_shared<const sim::MovingBalls>(sim::MovingBalls{ball})});
+    EXPECT_EQ(both.at(0.2).size(), 1u);
     // Views show it within the step of its birth as soon as it is born.
     base::SnapshotSchema schema;
     schema.add(base::kBlobKind);

@@ -122,20 +122,20 @@ class Import(FxTest):
         self.assertEqual(json.loads((self.folder / "s.fx.json").read_text())["volumes"][0]["anisotropy"], 0.4)
 
     def small_balls(self, volume, *arguments):
-        """Of the file beside the voxels that an import writes: 18 numbers a ball and its number, by the numbers."""
+        """Of the file beside the voxels that an import writes: 20 numbers a ball and its number, by the numbers."""
         preset = self.folder / "small.fx.json"
         outcome = fx("import", volume, "-o", preset, "--bricks", "--json", *arguments)
         self.assertEqual(outcome.code, 0, outcome.err)
         self.assertEqual(fx("validate", preset).code, 0)
         head, data = (self.folder / "small.0000.fxballs").read_bytes().split(b"data\n", 1)
         self.assertEqual(int(head.split()[-1]), json.loads(outcome.out)["balls_beside"])
-        return list(struct.iter_unpack("<18fQ", data))
+        return list(struct.iter_unpack("<20fQ", data))
 
     def test_small_balls_have_the_scales_of_the_voxels(self):
         balls = self.write("a.blobs.csv", f"{HEADER}\n1,2,-3,0.9,2,0,0,0,0\n2,2,-3,0.03,1,0.5,4,4,4\n3,2,-3,0.03,1,0.5,4,4,4\n")
         volume = self.export("a.vdb", balls, "--voxel-size", "0.1", "--balls-below", "2")
         given = self.small_balls(volume)
-        self.assertEqual(len({ball[18] for ball in given}), 2)
+        self.assertEqual(len({ball[20] for ball in given}), 2)
         self.assertEqual(sorted(round(ball[0], 4) for ball in given), [2, 3])
         scaled = self.small_balls(volume, "--density-scale", "2", "--flame-scale", "6")
         for before, after in zip(given, scaled):

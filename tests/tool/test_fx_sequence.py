@@ -23,7 +23,7 @@ RAYS = int(os.environ.get("FX_RAYS", "4"))
 MOST_SAMPLES = 16 # of fx render along a pixel
 AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
 LIGHT = float(os.environ.get("FX_LIGHT", "0.2")) # of emitted light at frames; halfway twice as much
-LIGHT_HALFWAY = 0.15            # of emitted light alone, against voxels of the moment itself
+OWN_LIGHT, LIGHT_HALFWAY = 0.02, 0.15 # of emitted light alone, against voxels of the moment itself; light within a step is mixed from its ends
 LIGHT_OFF = 0.05                # at frames, of the sum of light from that of the balls; 0.12 with voxels alone
 DRAWN = 0.06                    # of OpenGL, where pixels are larger than voxels, which are then replaced by coarser ones
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
@@ -111,7 +111,7 @@ class Sequence(FxTest):
                     self.assertLess(opacity, allowed)
                     self.assertLess(light, LIGHT if part == 0 else 2 * LIGHT)
                     self.assertLess(own[0], allowed)
-                    self.assertLess(own[1], LIGHT_HALFWAY if part > 0 else 0.01)
+                    self.assertLess(own[1], LIGHT_HALFWAY if part > 0 else OWN_LIGHT)
                     self.assertAlmostEqual(sums[0] / sums[1], 1.0, delta=LIGHT_OFF if part == 0 else 2 * LIGHT_OFF)
                     self.assertLess(drawn, DRAWN)
         outcome = fx("render", played, "--size", SIZE, "--frames", f"{first}:{int(FRAMES.split(':')[1])}", "--fps", FPS,

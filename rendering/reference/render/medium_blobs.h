@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/block_kind.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/reference/render/medium_details.h"
 
@@ -31,7 +32,7 @@ struct MediumBlob
     glm::dvec3 velocity{0.0};                         ///< [m/s] velocity in the world
     double temperature = 0.0;                         ///< [K]; the emitted light is in `source`
     uint64_t id = 0;                                  ///< id of the ball in its group of the snapshot
-    double age = 0.0;                                 ///< [s] since its birth, as the snapshot has it
+    double age = double(base::kSettledAge);           ///< [s] since its birth, as the snapshot has it
     /// [1/s] change of the logarithm of the luminance of `source` between the snapshots; 0: not known
     double sourceRate = 0.0;
 };
