@@ -1,6 +1,5 @@
 #include "simulation/cloud/moving_cloud.h"
 
-#include "foundation/math/elementary.h"
 #include "simulation/solver/sequence_player.h"
 
 #include <glm/common.hpp>
@@ -19,11 +18,6 @@ namespace {
 namespace blob = base::blob_column;
 
 constexpr float kDefaultShutter = 1.0f / 60.0f; ///< [s]
-
-float exponential(float x)
-{
-    return float(base::naturalExp(double(x)));
-}
 
 float root16(float x)
 {
@@ -46,25 +40,25 @@ struct Moment
 /// A ball that only one frame shows. @param away [s] from that frame  @param share of its cross section
 MovingBall alone(MovingBall ball, float away, float share)
 {
-    constexpr float kMost = 5.0f;
+    constexpr float kMost = 1.4f; // of (3)
     ball.ball.center += away * ball.velocity;
     ball.ball.crossSection *= share;
-    ball.ball.emission *= exponential(std::clamp(ball.rate * away, -kMost, kMost));
+    ball.ball.emission *= power16(std::clamp(1.0f + ball.rate * away / 16.0f, 0.0f, kMost)); // (3)
     return ball;
 }
 
-/// Between two frames with the rates a and b [1/s].
+/// Emission between two frames with the rates a and b [1/s].
 float emissionBetween(float first, float second, float a, float b, const Moment& moment)
 {
-    const float w = moment.share, u = 1.0f - w;
-    if ((a == 0.0f && b == 0.0f) || !(first > 0.0f && second > 0.0f))
-        return power16(glm::mix(root16(first), root16(second), w)); // (3)
-    const float change = float(base::naturalLog(double(second) / double(first))),
-                most = 2.0f + 3.0f * std::abs(change);
-    const float start = std::clamp(moment.seconds * a, -most, most);
-    const float end = std::clamp(moment.seconds * b, -most, most);
-    return first *
-           exponential(w * u * u * start + w * w * (3.0f - 2.0f * w) * change - w * w * u * end); // (2)
+    const float w = moment.share, u = 1.0f - w, q1 = root16(first), q2 = root16(second);
+    if (a == 0.0f && b == 0.0f)
+        return power16(glm::mix(q1, q2, w));
+    const float most = 3.0f * std::abs(q2 - q1) + std::max(q1, q2) / 8.0f;
+    const float start = std::clamp(moment.seconds * a * q1 / 16.0f, -most, most);
+    const float end = std::clamp(moment.seconds * b * q2 / 16.0f, -most, most);
+    const float q = (1.0f + 2.0f * w) * u * u * q1 + w * u * u * start + w * w * (3.0f - 2.0f * w) * q2 -
+                    w * w * u * end; // (2)
+    return power16(std::max(q, 0.0f));
 }
 
 MovingBall between(const MovingBall& a, const MovingBall& b, const Moment& moment)

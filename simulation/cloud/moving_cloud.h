@@ -21,26 +21,27 @@ constexpr size_t kMaxPlayedBalls = size_t(1) << 22; ///< of all frames together
 ///   w       1       share of the second frame, 0..1
 ///   p, v    m, m/s  place and velocity in a frame
 ///   S       cd/m2   emission
-///   r       1/s     rate of ln S in a frame; 0: not known
+///   r       1/s     rate of ln S in a frame; 0 also: not known
 ///   a       s       age in a frame
 ///
 /// @derivation
 ///   The place is the cubic polynomial of Hermite with the places and velocities of both frames:
 ///       p(w) = (1 + 2w)(1 - w)^2 p1 + w (1 - w)^2 T v1 + w^2 (3 - 2w) p2 - w^2 (1 - w) T v2      (1)
-///   Radius, cross section, temperature, albedo and streak are linear in w. The logarithm of the emission is
-///   the cubic polynomial with the rates of both frames, each times T within 2 + 3 |ln S2/S1|:
-///       s(w) = (1 + 2w)(1 - w)^2 ln S1 + w (1 - w)^2 T r1 + w^2 (3 - 2w) ln S2 - w^2 (1 - w) T r2  (2)
-///   Without rates or light: emission is a steep function of the temperature, see volume-advection (6):
-///       S^(1/16) = (1 - w) S1^(1/16) + w S2^(1/16)                                              (3)
-///   A ball that only one of the frames shows moves with its velocity, and its emission follows its rate, by
-///   a factor of at most e^5. If the second frame shows it with an age below T, it is not there before its
-///   birth, at w = 1 - a/T, and whole behind. Otherwise it has the share 1 - w or w of its cross section;
-///   snapshots of the steps before and behind have it with the cross section 0.
+///   Radius, cross section, temperature, albedo and streak are linear in w. Emission is a steep function of
+///   the temperature, see volume-advection (6): q = S^(1/16) of a ball that cools evenly is nearly linear in
+///   time. It is the cubic polynomial with the rates of both frames, each term T r q / 16 within
+///   3 |q2 - q1| + max(q1, q2)/8:
+///       q(w) = (1 + 2w)(1 - w)^2 q1 + w (1 - w)^2 T r1 q1/16 + w^2 (3 - 2w) q2 - w^2 (1 - w) T r2 q2/16  (2)
+///   and linear if both rates are 0. A ball that only one of the frames shows moves with its velocity; at the
+///   time t from the frame it has
+///       q = q1 (1 + r1 t/16), with a factor from 0 to 1.4                                       (3)
+///   If the second frame shows it with an age below T, it is not there before its birth, at w = 1 - a/T, and
+///   whole behind. Otherwise it has the share 1 - w or w of its cross section; snapshots of the steps before
+///   and behind have it with the cross section 0.
 /// @source    textbook
 /// @deviation none
 /// @valid     balls of the same number are the same ball
-/// @accuracy  (1) is exact for even acceleration; otherwise within T^4/384 of its second derivative; (2)
-///            likewise for even changes of the rate
+/// @accuracy  (1) is exact for even acceleration; otherwise within T^4/384 of its second derivative
 /// @tests     tests/presets/test_clouds.cpp
 struct MovingCloudDef final : StillMediumDef
 {
