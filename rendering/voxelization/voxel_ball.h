@@ -5,6 +5,8 @@
 /// this side in the world. Therefore the lattice is the same for all frames of a sequence.
 #pragma once
 
+#include "foundation/snapshot/block_kind.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -21,7 +23,7 @@ struct VoxelBall
     double temperature = 0.0;  ///< [K]
     /// [cd/m2] Emitted luminance per optical depth. The color is that of a black body of the temperature.
     double luminance = 0.0;
-    static constexpr double kUnknownAge = 1e6, kMostRate = 1e6;
+    static constexpr double kUnknownAge = double(base::kSettledAge), kMostRate = 1e6;
     double luminanceRate = 0.0; ///< [1/s] change of its logarithm, within kMostRate; 0 also: not known
     double age = kUnknownAge;   ///< [s] since its birth; kUnknownAge: it has none, or it is not known
     glm::dvec3 velocity{0.0};   ///< [m/s] velocity in the world

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "foundation/snapshot/block_kind.h"
 
 #include <glm/vec3.hpp>
 
@@ -26,7 +27,8 @@
 
 namespace fx::sim {
 
-constexpr float kUnknownAge = 1e6f; ///< [s] age of a ball that has no birth, or of which it is not known
+/// [s] Age of a ball that has no birth, or of which it is not known.
+constexpr float kUnknownAge = base::kSettledAge;
 constexpr size_t kMaxListedBalls = size_t(1) << 20;
 constexpr uint64_t kMaxBallListBytes = uint64_t(kMaxListedBalls) * 88 + 64; ///< [byte] maximum size of a file
 

@@ -70,9 +70,9 @@ void addExportOptions(CLI::App& command, ExportArguments& arguments)
                      "With the detail of fields, down to a voxel: lumps that fx render draws in them");
     command.add_flag("--half", arguments.half,
                      "Store values with 16 bits, except grids with values above 65504");
-    CLI::Option* const points =
-        command.add_flag("--points", arguments.points,
-                         "Also the balls of medium as points, with id, instance, velocity and radius");
+    CLI::Option* const points = command.add_flag(
+        "--points", arguments.points,
+        "Also the balls of medium as points, with id, instance, velocity, radius, age and albedo");
     command
         .add_option("--balls-below", arguments.ballsBelow,
                     "[voxel] Balls with a smaller radius, such as sparks, are points instead of voxels; in "

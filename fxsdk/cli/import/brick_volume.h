@@ -1,5 +1,5 @@
 /// @file brick_volume.h
-/// Makes an imported volume to voxels of the product's own.
+/// Turns an imported volume into voxels of the product's own format.
 #pragma once
 
 #include "foundation/assets/voxel_volume.h"

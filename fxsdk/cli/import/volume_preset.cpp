@@ -18,6 +18,9 @@
 
 namespace fx::cli {
 
+namespace {
+
+/// The balls beside the voxels of a grid. Their numbers are those of the balls in their effect and instance.
 sim::MovingBalls movingBallsOf(const render::MediumGrid& grid)
 {
     constexpr float kCold = 293.0f; // [K] the luminance is all of the light
@@ -43,8 +46,6 @@ sim::MovingBalls movingBallsOf(const render::MediumGrid& grid)
     balls.erase(std::unique(balls.begin(), balls.end(), isSame), balls.end());
     return balls;
 }
-
-namespace {
 
 /// An element of the member "clouds".
 nlohmann::ordered_json cloudOf(const std::string& stem, const SequencePlay& play)

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "fxsdk/cli/import/brick_volume.h"
-#include "simulation/cloud/ball_list.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -49,19 +48,16 @@ struct SequenceReport
 /// The grid of a frame. @return an error that names the file
 using FrameGrid = std::function<base::Result<render::MediumGrid>(uint32_t number)>;
 
-/// The balls beside the voxels of a grid. Their numbers are those of the balls in their effect and instance.
-sim::MovingBalls movingBallsOf(const render::MediumGrid& grid);
-
 /// Writes the voxels of all frames, NAME.%04d.fxvolume, and then `preset`, NAME.fx.json, which plays them. If
 /// a frame has balls beside the voxels, all frames have a file NAME.%04d.fxballs.
-/// @return errors of voxelVolumeOf() and writeVolume(), and of presets that name the files; Io;
+/// @return errors of volumeBytesOf(), and of presets that name the files; Io;
 ///         TooLarge with the number of the frame up to which there are more than sim::kMaxPlayedBalls balls
 base::Result<SequenceReport> writeSequencePreset(const FrameGrid& gridOf, const SequencePlay& play,
                                                  double albedo, const std::filesystem::path& preset);
 
 /// Writes `preset` (*.fx.json) and, beside it, the voxels (*.fxvolume) that it names. Balls beside the voxels
 /// are in NAME.0000.fxballs, a sequence of one frame.
-/// @return errors of voxelVolumeOf() and writeVolume(); Io; InvalidArgument for a name with '%' and balls
+/// @return errors of volumeBytesOf(); Io; InvalidArgument for a name with '%' and balls
 base::Result<BrickReport> writeVolumePreset(const render::MediumGrid& grid, double albedo,
                                             const std::filesystem::path& preset);
 
