@@ -53,6 +53,7 @@ void addRepeatOption(CLI::App& command, int& repeat)
 void addSmallOption(CLI::App& command, bool& isSmall)
 {
     command.add_flag("--small", isSmall, "Small sizes, to see that it works; times say nothing then");
+    command.add_flag("--json")->description("Standard output has one object a line, also without this");
 }
 
 void addHashOption(CLI::App& command, uint64_t& hash)

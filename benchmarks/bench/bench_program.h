@@ -43,7 +43,8 @@ void addSizeOption(CLI::App& command, int& width, int& height);
 /// Adds --repeat: number of frames, of which the shortest time is reported, 1 to 1,000,000.
 void addRepeatOption(CLI::App& command, int& repeat);
 
-/// Adds --small: sizes with which a measurement takes about a second. These sizes override other options.
+/// Adds --small: sizes with which a measurement takes about a second, which override other options. Also
+/// --json for scripts that ask each command for it: such a measurement prints objects in any case.
 void addSmallOption(CLI::App& command, bool& isSmall);
 
 /// Adds --validate-hash, hexadecimal with or without 0x.

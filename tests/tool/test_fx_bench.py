@@ -38,7 +38,7 @@ class Bench(FxTest):
 
     def test_blocks_in_parts_of_a_picture_look_as_their_balls_in_the_light_of_the_whole_picture(self):
         # Without the shadows of what is beside the parts, PSNR is 32 dB, and the light differs by 2 %.
-        outcome = fx("bench", "blocks", "--small", "--crops", "8", "--block-error", "0")
+        outcome = fx("bench", "blocks", "--small", "--crops", "8", "--block-error", "0", "--json")
         self.assertEqual(outcome.code, 0, outcome.err)
         row = json.loads(outcome.out)
         self.assertEqual((row["crops"], row["crop_width"], row["crop_height"]), (8, 8, 5))
