@@ -37,6 +37,11 @@ struct Moment
     float seconds = 0.0f; ///< T
 };
 
+bool isBorn(const MovingBall& ball)
+{
+    return ball.age >= 0.0f;
+}
+
 /// A ball that only one frame shows. @param away [s] from that frame  @param share of its cross section
 MovingBall alone(MovingBall ball, float away, float share)
 {
@@ -189,8 +194,6 @@ void MovingCloudDef::forEachIn(const Steps& steps, const Visit& visit) const
         }
         if (seen.earlier)
             seen.age = std::max(seen.age, 0.0f); // whatever the next frame says
-        if (seen.age < 0.0f)
-            continue;
         MovingBall ball = ballAt(seen, moment);
         ball.age = seen.age;
         visit(ball, id);
@@ -202,7 +205,10 @@ MovingBalls MovingCloudDef::at(double frame) const
     MovingBalls balls;
     balls.reserve(countAt(frame));
     const double shown = frames.size() == 1 ? 0.0 : frame; // a single frame does not move
-    forEachIn({shown, shown, shown}, [&](const MovingBall& ball, uint32_t) { balls.push_back(ball); });
+    forEachIn({shown, shown, shown}, [&](const MovingBall& ball, uint32_t) {
+        if (isBorn(ball))
+            balls.push_back(ball);
+    });
     return balls;
 }
 
@@ -225,7 +231,7 @@ public:
             return;
         const MovingCloudDef::Steps steps = stepsOf(base.step);
         uint32_t count = 0;
-        def_.forEachIn(steps, [&](const MovingBall&, uint32_t) { ++count; });
+        def_.forEachIn(steps, [&](const MovingBall& ball, uint32_t) { count += isBorn(ball); });
         BlobWriter writer(snapshot, base, kind_, count, std::max(def_.capacity(), count));
         StillMediumSolver::writeShared(def_, writer);
         writer.constant(base::blob_constant::Shutter) = def_.shutter;
@@ -233,6 +239,8 @@ public:
             std::clamp(float(base::toSeconds(now())), -1.0f / def_.framesPerSecond, 0.0f);
         uint32_t i = 0;
         def_.forEachIn(steps, [&](const MovingBall& moving, uint32_t id) {
+            if (!isBorn(moving))
+                return;
             const ListedBall& ball = moving.ball;
             const glm::vec3 velocity = def_.shutter > 0.0f ? moving.streak / def_.shutter : moving.velocity;
             for (int k = 0; k < 3; ++k) {

@@ -81,7 +81,8 @@ private:
         double before, frame, after;
     };
     /// Calls visit(ball, id) for the balls at a moment, and for those that are shown only at another moment
-    /// of its steps, with the cross section 0. Allocates nothing.
+    /// of its steps, with the cross section 0. The age of those that are born later is below 0. Allocates
+    /// nothing.
     template <class Visit>
     void forEachIn(const Steps& steps, const Visit& visit) const;
 

@@ -221,6 +221,16 @@ TEST(MovingCloud, aBallIsWholeFromItsBirthOn)
     def.setFrames({std::make_shared<const sim::MovingBalls>(sim::MovingBalls{thrown(0.0f, 2)}),
                    std::make_shared<const sim::MovingBalls>(sim::MovingBalls{ball})});
     EXPECT_EQ(def.at(0.35).size(), 1u);
+    ball.age = 0.02f; // born behind halfway: there is room for it in advance
+    sim::MovingCloudDef late;
+    late.framesPerSecond = 10.0f;
+    late.setFrames({std::make_shared<const sim::MovingBalls>(sim::MovingBalls{thrown(0.0f, 2)}),
+                    std::make_shared<const sim::MovingBalls>(sim::MovingBalls{ball})});
+    EXPECT_EQ(late.at(0.5).size(), 1u);
+    EXPECT_EQ(late.at(0.9).size(), 2u);
+    EXPECT_GE(late.countAt(0.5), 2u);
+    EXPECT_GE(late.capacity(), 2u);
+    ball.age = 0.06f;
     const sim::MovingBalls shown = def.at(0.45);
     ASSERT_EQ(shown.size(), 2u);
     EXPECT_EQ(shown[1].ball.crossSection, ball.ball.crossSection);

@@ -17,7 +17,6 @@
 #include <vector>
 
 namespace fx::cli {
-
 namespace {
 
 /// The balls beside the voxels of a grid. Their numbers are those of the balls in their effect and instance.
