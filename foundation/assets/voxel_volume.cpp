@@ -81,7 +81,8 @@ std::vector<glm::ivec3> bricksWithCells(const std::vector<glm::ivec3>& stored)
 
 size_t VoxelVolume::bytes() const
 {
-    return bricks.size() * sizeof(glm::ivec3) + (extinction.size() + temperature.size()) * sizeof(float) +
+    return bricks.size() * sizeof(glm::ivec3) +
+           (extinction.size() + temperature.size() + emissionRate.size()) * sizeof(float) +
            (emission.size() + albedo.size() + velocity.size()) * sizeof(glm::vec3);
 }
 

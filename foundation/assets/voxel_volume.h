@@ -19,7 +19,8 @@ constexpr size_t kVolumeBrickVoxels = 512;
 /// [brick] upper bound of the coordinates of bricks; the box of a volume has fewer than 1024 voxels a side.
 constexpr int kMaxVolumeBricksPerAxis = 128;
 constexpr size_t kMaxVolumeBricks = size_t(1) << 15;
-constexpr float kMostVolumeLight = 1e12f; ///< [cd/m3] and [cd/m2] largest emission
+constexpr float kMostVolumeLight = 1e12f;  ///< [cd/m3] and [cd/m2] largest emission
+constexpr float kMostVolumeRate = 4096.0f; ///< [1/s] largest rate of emission, of either sign
 
 /// Arrays have kVolumeBrickVoxels elements for each brick. An array other than `extinction` may be empty: the
 /// medium does not have the quantity.
@@ -33,8 +34,11 @@ struct VoxelVolume
     std::vector<float> extinction;   ///< [1/m] >= 0
     std::vector<float> temperature;  ///< [K] the medium glows as a gray body; empty: it does not glow
     std::vector<glm::vec3> emission; ///< [cd/m3] emitted besides the black body; 0 without extinction
-    std::vector<glm::vec3> albedo;   ///< [1] 0..1; empty: `evenAlbedo` everywhere
-    glm::vec3 evenAlbedo{0.8f};      ///< [1]
+    /// [1/s] change of the logarithm of emission of the medium that moves through the voxel, if it keeps its
+    /// extinction; within kMostVolumeRate; empty: unknown. Of use in a sequence
+    std::vector<float> emissionRate;
+    std::vector<glm::vec3> albedo; ///< [1] 0..1; empty: `evenAlbedo` everywhere
+    glm::vec3 evenAlbedo{0.8f};    ///< [1]
     std::vector<glm::vec3>
         velocity; ///< [m/s] of the medium; empty: unknown, and of no use without a sequence
 

@@ -30,9 +30,10 @@ struct Channel
     size_t components;
     bool isSigned = false;
 };
-constexpr std::array<Channel, 5> kChannels{{{"extinction", 1e12f, 1},
+constexpr std::array<Channel, 6> kChannels{{{"extinction", 1e12f, 1},
                                             {"temperature", 1e5f, 1},
                                             {"emission", base::kMostVolumeLight, 3},
+                                            {"emission_rates", base::kMostVolumeRate, 1, true},
                                             {"albedos", 1.0f, 3},
                                             {"velocities", 1e9f, 3, true}}};
 enum : size_t
@@ -40,6 +41,7 @@ enum : size_t
     Extinction,
     Temperature,
     Emission,
+    EmissionRate,
     Albedo,
     Velocity
 };
@@ -201,6 +203,23 @@ Status readValues(std::string_view data, const Channel& channel, float largest, 
     return {};
 }
 
+/// The values of a channel, for `voxels` voxels.
+std::span<float> allocate(size_t channel, size_t voxels, base::VoxelVolume& io)
+{
+    if (kChannels[channel].components == 1) {
+        std::vector<float>& numbers = channel == Extinction    ? io.extinction
+                                      : channel == Temperature ? io.temperature
+                                                               : io.emissionRate;
+        numbers.resize(voxels);
+        return numbers;
+    }
+    std::vector<glm::vec3>& vectors = channel == Emission ? io.emission
+                                      : channel == Albedo ? io.albedo
+                                                          : io.velocity;
+    vectors.resize(voxels);
+    return asFloats(vectors);
+}
+
 void appendWord(std::string& io, uint32_t word)
 {
     io += char(word & 0xFF);
@@ -216,7 +235,8 @@ std::string shortest(float number)
 
 std::array<std::span<const float>, kChannels.size()> channelsOf(const base::VoxelVolume& v)
 {
-    return {v.extinction, v.temperature, asFloats(v.emission), asFloats(v.albedo), asFloats(v.velocity)};
+    return {v.extinction,   v.temperature,      asFloats(v.emission),
+            v.emissionRate, asFloats(v.albedo), asFloats(v.velocity)};
 }
 
 Status checkShape(const base::VoxelVolume& v)
@@ -229,7 +249,8 @@ Status checkShape(const base::VoxelVolume& v)
         !isIn(v.origin.y, -kFarthest, kFarthest) || !isIn(v.origin.z, -kFarthest, kFarthest))
         return {Code::InvalidArgument, "side or place of the voxels is out of range; change --length-scale"};
     const size_t voxels = v.bricks.size() * kVoxels;
-    for (const size_t size : {v.temperature.size(), v.emission.size(), v.albedo.size(), v.velocity.size()})
+    for (const size_t size :
+         {v.temperature.size(), v.emission.size(), v.emissionRate.size(), v.albedo.size(), v.velocity.size()})
         if (v.extinction.size() != voxels || (size != 0 && size != voxels))
             return {Code::InvalidArgument, "the arrays do not have 512 values for each brick"};
     for (int a = 0; a < 3; ++a)
@@ -294,18 +315,7 @@ base::Result<base::VoxelVolume> parseVolume(std::string_view bytes)
     for (size_t c = 0; c < kChannels.size(); ++c) {
         if (!(contents.largest[c] > 0.0f))
             continue;
-        std::span<float> values;
-        if (c == Extinction || c == Temperature) {
-            std::vector<float>& numbers = c == Extinction ? v.extinction : v.temperature;
-            numbers.resize(voxels);
-            values = numbers;
-        } else {
-            std::vector<glm::vec3>& vectors = c == Emission ? v.emission
-                                              : c == Albedo ? v.albedo
-                                                            : v.velocity;
-            vectors.resize(voxels);
-            values = asFloats(vectors);
-        }
+        const std::span<float> values = allocate(c, voxels, v);
         if (Status status = readValues(data, kChannels[c], contents.largest[c], values); !status)
             return status;
         data.remove_prefix(values.size() * 2);

@@ -8,9 +8,10 @@
 /// - `side S`: [m] of a voxel, 1e-6 to 1e6
 /// - `origin X Y Z`: [m] center of the voxel (0, 0, 0), within 1e6
 /// - `albedo R G B`: of the medium if it has no channel of this name, 0..1
-/// - `extinction M`: [1/m] largest value of the channel, as in the next four lines; at most 1e12
-/// - `temperature M`: [K] at most 1e5; this line and the next three may be absent
+/// - `extinction M`: [1/m] largest value of the channel, as in the next five lines; at most 1e12
+/// - `temperature M`: [K] at most 1e5; this line and the next four may be absent
 /// - `emission M`: [cd/m3] at most 1e12
+/// - `emission_rates M`: [1/s] largest absolute value, at most 4096; values have a sign
 /// - `albedos M`: [1] at most 1
 /// - `velocities M`: [m/s] largest absolute value of a component, at most 1e9; values have a sign
 /// - `hash H`: up to 16 hexadecimal digits, of the lines above and of the bytes behind the header
@@ -33,9 +34,9 @@
 
 namespace fx::asset {
 
-/// [byte] maximum size of a file: eleven components of all bricks, their coordinates, and the header
+/// [byte] maximum size of a file: twelve components of all bricks, their coordinates, and the header
 constexpr uint64_t kMaxVolumeFileBytes =
-    uint64_t(base::kMaxVolumeBricks) * (11 * base::kVolumeBrickVoxels * 2 + 6) + 1024;
+    uint64_t(base::kMaxVolumeBricks) * (12 * base::kVolumeBrickVoxels * 2 + 6) + 1024;
 
 /// Reads a file. Sizes are compared with the number of bytes before memory is allocated.
 /// @return Parse with the line or the place, Version, TooLarge, InvalidArgument for numbers out of range

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <new>
 #include <optional>
@@ -239,7 +240,7 @@ private:
         return float(std::isnan(value) ? double(value) : options_.densityScale * share);
     }
 
-    static constexpr uint64_t kBytesPerVoxel = 3 * sizeof(float) + 2 * sizeof(glm::vec3);
+    static constexpr uint64_t kBytesPerVoxel = 4 * sizeof(float) + 2 * sizeof(glm::vec3);
     static constexpr size_t kNone = ~size_t(0);
 
     const openvdb::FloatGrid& grid_;
@@ -269,20 +270,21 @@ void forEachVoxel(const MediumGrid& medium, const openvdb::math::Transform& latt
 }
 
 std::vector<float> readScalars(const openvdb::FloatGrid& grid, const openvdb::math::Transform& lattice,
-                               double scale, MediumGrid& io)
+                               double scale, float low, float high, MediumGrid& io)
 {
     std::vector<float> values(io.density.size(), 0.0f);
     const auto accessor = grid.getConstAccessor();
     uint64_t dropped = 0;
     forEachVoxel(io, lattice, grid.transform(), [&](size_t at, const openvdb::Vec3d& place) {
         const float value = float(scale * double(openvdb::tools::BoxSampler::sample(accessor, place)));
-        const bool isGood = value >= 0.0f && std::isfinite(value);
+        const bool isGood = value >= low && value <= high;
         values[at] = isGood ? value : 0.0f;
         dropped += isGood ? 0 : 1;
     });
     if (dropped > 0)
         io.warnings.push_back(std::to_string(dropped) + " voxels of " + quoted(grid.getName()) +
-                              " are negative or not finite; taken as 0");
+                              (low < 0.0f ? " are outside of their range; taken as 0"
+                                          : " are negative or not finite; taken as 0"));
     return values;
 }
 
@@ -370,12 +372,16 @@ MediumGrid readGrids(const std::string& path, const VdbReadOptions& options)
     readLattice(lattice, options.lengthScale, medium);
     medium.anisotropy = anisotropyOf(file, options, medium);
     DensityReader(*density, options).read(medium);
+    constexpr float kMost = std::numeric_limits<float>::max();
     if (const auto found = file.find(options.temperature, {"temperature"}, "--temperature"))
         medium.temperature = readScalars(*file.read<openvdb::FloatGrid>(*found, options), lattice,
-                                         options.temperatureScale, medium);
+                                         options.temperatureScale, 0.0f, kMost, medium);
     if (const auto found = file.find(options.flame, {"flame", "heat", "flames"}, "--flame"))
-        medium.flame =
-            readScalars(*file.read<openvdb::FloatGrid>(*found, options), lattice, options.flameScale, medium);
+        medium.flame = readScalars(*file.read<openvdb::FloatGrid>(*found, options), lattice,
+                                   options.flameScale, 0.0f, kMost, medium);
+    if (const auto found = file.find("", {"flame_rate"}, ""))
+        medium.flameRate = readScalars(*file.read<openvdb::FloatGrid>(*found, options), lattice, 1.0,
+                                       -base::kMostVolumeRate, base::kMostVolumeRate, medium);
     if (const auto found = file.find(options.color, {"Cd", "color"}, "--color"))
         medium.albedo =
             readVectors(*file.read<openvdb::Vec3SGrid>(*found, options), lattice, 1.0, 0.0f, 1.0f, medium);

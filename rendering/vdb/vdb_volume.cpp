@@ -95,6 +95,7 @@ struct VdbVolume::Grids
         : voxelSize(size), density(makeGrid<openvdb::FloatGrid>("density", "1/m", size)),
           temperature(makeGrid<openvdb::FloatGrid>("temperature", "K", size)),
           flame(makeGrid<openvdb::FloatGrid>("flame", "cd/m3", size)),
+          flameRate(makeGrid<openvdb::FloatGrid>("flame_rate", "1/s", size)),
           velocity(makeGrid<openvdb::Vec3SGrid>("v", "m/s", size)),
           albedo(makeGrid<openvdb::Vec3SGrid>("Cd", "1", size))
     {
@@ -103,7 +104,7 @@ struct VdbVolume::Grids
     }
 
     double voxelSize;
-    openvdb::FloatGrid::Ptr density, temperature, flame;
+    openvdb::FloatGrid::Ptr density, temperature, flame, flameRate;
     openvdb::Vec3SGrid::Ptr velocity, albedo;
     openvdb::GridBase::Ptr points; ///< null: none
 };
@@ -134,6 +135,7 @@ void VdbVolume::add(std::span<const VoxelBlock> blocks)
         addLeaf(*grids_->density, block, [&](size_t v) { return block.density[v]; });
         addLeaf(*grids_->temperature, block, [&](size_t v) { return block.temperature[v]; });
         addLeaf(*grids_->flame, block, [&](size_t v) { return block.flame[v]; });
+        addLeaf(*grids_->flameRate, block, [&](size_t v) { return block.flameRate[v]; });
         addLeaf(*grids_->velocity, block, [&](size_t v) {
             const glm::vec3& velocity = block.velocity[v];
             return openvdb::Vec3s(velocity.x, velocity.y, velocity.z);
@@ -170,9 +172,10 @@ try {
     g.density->setSaveFloatAsHalf(half && fitsHalf(*g.density));
     g.temperature->setSaveFloatAsHalf(half && fitsHalf(*g.temperature));
     g.flame->setSaveFloatAsHalf(half && fitsHalf(*g.flame));
+    g.flameRate->setSaveFloatAsHalf(half && fitsHalf(*g.flameRate));
     g.velocity->setSaveFloatAsHalf(half && fitsHalf(*g.velocity));
     g.albedo->setSaveFloatAsHalf(half && fitsHalf(*g.albedo));
-    openvdb::GridCPtrVec grids{g.density, g.temperature, g.flame, g.velocity, g.albedo};
+    openvdb::GridCPtrVec grids{g.density, g.temperature, g.flame, g.flameRate, g.velocity, g.albedo};
     if (g.points)
         grids.push_back(g.points);
     std::string bytes = MemoryArchive().bytesOf(grids, map);

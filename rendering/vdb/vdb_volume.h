@@ -28,8 +28,8 @@ std::string vdbVersion();
 /// message names the remedy
 base::Status checkVdb();
 
-/// An OpenVDB file with the grids `density` [1/m], `temperature` [K], `flame` [cd/m3], `v` [m/s] and `Cd`
-/// (albedo) on one lattice, and a grid of points.
+/// An OpenVDB file with the grids `density` [1/m], `temperature` [K], `flame` [cd/m3], `flame_rate` [1/s],
+/// `v` [m/s] and `Cd` (albedo) on one lattice, and a grid of points.
 class VdbVolume
 {
 public:

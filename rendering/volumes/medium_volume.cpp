@@ -39,6 +39,11 @@ double densityOf(double seconds, double growth, double weight)
     return formula64::fxFlowDensity(seconds, formula64::fxFlowVelocity(growth, weight, 0.0));
 }
 
+float sumOf(const glm::vec3& light)
+{
+    return light.x + light.y + light.z;
+}
+
 template <class T>
 uint64_t hashOf(uint64_t hash, const std::vector<T>& values)
 {
@@ -64,11 +69,14 @@ MediumVolume::MediumVolume(const base::VoxelVolume& volume)
             light += extinction_[v] * (1.0f - albedo) * blackBodyLuminance(volume.temperature[v]);
         emitted_.push_back(light);
     }
+    if (emits)
+        rate_ = volume.emissionRate;
     velocity_.reserve(volume.velocity.size());
     for (const glm::vec3& velocity : volume.velocity)
         velocity_.push_back(velocity / volume.side);
     findDivergence();
     hash_ = hashOf(hashOf(hashOf(hashOf(hashOf(3, bricks_), extinction_), scattered_), emitted_), velocity_);
+    hash_ = hashOf(hash_, rate_);
     findLargest();
 }
 
@@ -153,6 +161,7 @@ MediumVolume MediumVolume::halved() const
     half.extinction_.assign(voxels, 0.0f);
     half.scattered_.assign(voxels, glm::vec3(0.0f));
     half.emitted_.assign(emitted_.empty() ? 0 : voxels, glm::vec3(0.0f));
+    half.rate_.assign(rate_.empty() ? 0 : voxels, 0.0f);
     half.velocity_.assign(velocity_.empty() ? 0 : voxels, glm::vec3(0.0f));
     const std::vector<float> shares = sharesOfLight();
     std::vector<float> seen(emitted_.empty() ? 0 : voxels, 0.0f); // [1/m] extinction times shares
@@ -176,8 +185,14 @@ MediumVolume MediumVolume::halved() const
             if (!emitted_.empty()) {
                 half.emitted_[at] += weight * shares[v] * emitted_[v];
                 seen[at] += weight * shares[v] * extinction_[v];
+                if (!rate_.empty())
+                    half.rate_[at] += weight * shares[v] * sumOf(emitted_[v]) * rate_[v];
             }
         }
+    }
+    for (size_t v = 0; v < half.rate_.size(); ++v) {
+        const float light = sumOf(half.emitted_[v]);
+        half.rate_[v] = light > 0.0f ? half.rate_[v] / light : 0.0f;
     }
     for (size_t v = 0; v < seen.size(); ++v)
         if (seen[v] > 0.0f)
@@ -223,7 +238,11 @@ MediumVolume::Sample MediumVolume::at(const glm::dvec3& place) const
         sample.scattered += weight * glm::dvec3(scattered_[v]);
         if (!emitted_.empty())
             sample.emitted += weight * glm::dvec3(emitted_[v]);
+        if (!rate_.empty())
+            sample.rate += weight * double(sumOf(emitted_[v])) * double(rate_[v]);
     });
+    const double light = sample.emitted.x + sample.emitted.y + sample.emitted.z;
+    sample.rate = light > 0.0 ? sample.rate / light : 0.0;
     return sample;
 }
 
@@ -279,6 +298,7 @@ MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume
     out.extinction_.resize(voxels);
     out.scattered_.resize(voxels);
     out.emitted_.resize(emits ? voxels : 0);
+    const double perRate = moment.seconds / 16.0;
     const double since = moment.part * moment.seconds, until = (1.0 - moment.part) * moment.seconds;
     for (size_t v = 0; v < voxels; ++v) {
         const glm::dvec3 here(out.bricks_[v / kVoxels] * kSide + voxelInBrick(v % kVoxels));
@@ -305,7 +325,8 @@ MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume
         for (int c = 0; emits && c < 3; ++c)
             out.emitted_[v][c] = float(formula64::fxFlowLight((1.0 - p) * left * a.extinction, a.emitted[c],
                                                               p * arrived * b.extinction, b.emitted[c],
-                                                              a.extinction, b.extinction)); // (7)
+                                                              a.extinction, b.extinction, perRate * a.rate,
+                                                              perRate * b.rate)); // (7)
     }
     out.findLargest();
     return out;
@@ -332,7 +353,8 @@ std::vector<MediumVolume::Packed> MediumVolume::packed() const
         for (int c = 0; c < 3; ++c)
             bits |= uint32_t(std::lround(std::clamp(albedo[c], 0.0f, 1.0f) * 1023.0f)) << (10 * c);
         voxels[v] = {std::bit_cast<uint32_t>(extinction_[v]),
-                     base::toHalf(light.x) | base::toHalf(light.y) << 16, base::toHalf(light.z), bits};
+                     base::toHalf(light.x) | base::toHalf(light.y) << 16,
+                     base::toHalf(light.z) | base::toSignedHalf(rate_.empty() ? 0.0f : rate_[v]) << 16, bits};
     }
     return voxels;
 }

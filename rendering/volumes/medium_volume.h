@@ -27,6 +27,7 @@ public:
         double extinction = 0.0;   ///< [1/m]
         glm::dvec3 emitted{0.0};   ///< [cd/m3]
         glm::dvec3 scattered{0.0}; ///< [1/m] extinction times albedo
+        double rate = 0.0;         ///< [1/s] of `emitted`, by formula volume-advection; 0 also: not known
     };
 
     /// Emitted light is that of a gray body at the temperature of the voxel, and the emission of the voxel:
@@ -57,7 +58,8 @@ public:
     size_t bricks() const { return bricks_.size(); }
 
     /// A voxel in the layout of shaders/field/field_volume.comp.glsl: bits of the extinction [1/m]; emitted
-    /// light over brightest() as half floats, red and green, then blue; albedo with 10 bits a component.
+    /// light over brightest() as half floats, red and green, then blue and the rate of emission [1/s]; albedo
+    /// with 10 bits a component.
     using Packed = base::VolumeLevel::Packed;
     /// The voxels of all bricks in the order of the bricks, x fastest.
     std::vector<Packed> packed() const;
@@ -101,6 +103,7 @@ private:
     float side_ = 1.0f; ///< [m] of a voxel
     std::vector<float> extinction_;
     std::vector<glm::vec3> emitted_;   ///< empty: no light
+    std::vector<float> rate_;          ///< [1/s] of emitted light; empty: not known
     std::vector<glm::vec3> scattered_; ///< [1/m] extinction times albedo
     std::vector<glm::vec3> velocity_;  ///< [voxel/s] empty: the medium does not move
     std::vector<float> divergence_;    ///< [1/s] of the velocity

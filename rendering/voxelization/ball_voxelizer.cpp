@@ -83,12 +83,14 @@ public:
             density * ball.albedo.y,
             density * ball.albedo.z,
         };
+        const double rate = ball.luminanceRate;
         for (size_t s = 0; s < kMeans; ++s)
             forVoxels(weights, false, [&](size_t v, double weight) {
                 const double hotter = lit && s == 1 ? double(lit->factors[v].temperature) : 1.0;
                 means_[s][v] += values[s] * hotter * shareOf(v) * weight;
             });
-        const std::array<double, kLights> lights{density, density * luminance, density * red};
+        const std::array<double, kLights> lights{density, density * luminance, density * red,
+                                                 density * luminance * rate};
         if (lit && luminance > 0.0) {
             forVoxels(weights, hasDepths, [&](size_t v, double weight) {
                 const auto [now, nowRed] = lit->light(v);
@@ -96,11 +98,12 @@ public:
                 lights_[0][v] += part;
                 lights_[1][v] += part * luminance * now;
                 lights_[2][v] += part * luminance * nowRed;
+                lights_[3][v] += part * luminance * now * rate;
             });
             return;
         }
         for (size_t s = 0; s < kLights; ++s)
-            if (lights[s] > 0.0)
+            if (lights[s] != 0.0)
                 forVoxels(weights, hasDepths,
                           [&](size_t v, double weight) { lights_[s][v] += lights[s] * shareOf(v) * weight; });
     }
@@ -114,6 +117,9 @@ public:
             const auto mean = float(means_[1][v] * share);
             out.density[v] = float(density);
             out.flame[v] = float(seen > 0.0 ? density * light / seen : 0.0);
+            const double rate = light > 0.0 ? lights_[3][v] / light : 0.0;
+            out.flameRate[v] =
+                float(std::clamp(rate, -double(base::kMostVolumeRate), double(base::kMostVolumeRate)));
             out.temperature[v] = light > 0.0 ? colorTemperature(float(red / light), mean) : mean;
             out.velocity[v] = {float(means_[2][v] * share), float(means_[3][v] * share),
                                float(means_[4][v] * share)};
@@ -124,7 +130,7 @@ public:
 
 private:
     static constexpr size_t kMeans = 8;  // density, temperature, velocity, albedo
-    static constexpr size_t kLights = 3; // density, luminance and red, as they are seen
+    static constexpr size_t kLights = 4; // density, luminance, red, change of luminance, as they are seen
     std::array<std::array<double, kBlockVoxels>, kMeans> means_{};
     std::array<std::array<double, kBlockVoxels>, kLights> lights_{};
 };

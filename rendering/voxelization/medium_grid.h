@@ -28,6 +28,7 @@ struct MediumGrid
     std::vector<float> density;        ///< [1/m] extinction, >= 0
     std::vector<float> temperature;    ///< [K] >= 0
     std::vector<float> flame;          ///< [cd/m3] luminance that a meter of the medium emits, >= 0
+    std::vector<float> flameRate;      ///< [1/s] of VoxelBlock, within kMostVolumeRate
     std::vector<glm::vec3> albedo;     ///< [1] 0..1
     std::vector<glm::vec3> velocity;   ///< [m/s] world
     double anisotropy = 0.0;           ///< [1] mean cosine of the scattering angle, -0.95 to 0.95

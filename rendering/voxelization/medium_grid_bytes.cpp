@@ -5,6 +5,7 @@
 
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -13,7 +14,7 @@
 namespace fx::render {
 namespace {
 
-constexpr uint64_t kMark = 0x33646972676d7866; // "fxmgrid3"
+constexpr uint64_t kMark = 0x34646972676d7866; // "fxmgrid4"
 constexpr uint64_t kMostBlocks = uint64_t(1) << 24;
 constexpr uint64_t kMostWarnings = 64;
 constexpr uint64_t kMostText = 4096; // [byte] of a warning
@@ -67,6 +68,11 @@ bool areInRange(const std::vector<float>& values)
     return true;
 }
 
+bool areRates(const std::vector<float>& values)
+{
+    return std::ranges::all_of(values, [](float value) { return std::abs(value) <= base::kMostVolumeRate; });
+}
+
 bool areFinite(const std::vector<glm::vec3>& values, float low, float high)
 {
     for (const glm::vec3& value : values)
@@ -82,7 +88,8 @@ bool isValid(const MediumGrid& grid)
         return count == 0 || count == grid.blocks.size() * size_t(kBlockVoxels);
     };
     if (grid.density.size() != grid.blocks.size() * size_t(kBlockVoxels) || !fits(grid.temperature.size()) ||
-        !fits(grid.flame.size()) || !fits(grid.albedo.size()) || !fits(grid.velocity.size()))
+        !fits(grid.flame.size()) || !fits(grid.flameRate.size()) || !fits(grid.albedo.size()) ||
+        !fits(grid.velocity.size()))
         return false;
     const auto key = [](const glm::ivec3& b) { return std::array{b.x, b.y, b.z}; };
     for (size_t i = 0; i < grid.blocks.size(); ++i) {
@@ -99,8 +106,8 @@ bool isValid(const MediumGrid& grid)
     constexpr float kFast = 1e9f; // [m/s]
     return std::isfinite(volume) && volume > 0.0 && std::abs(grid.anisotropy) <= kMostAnisotropy &&
            std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z) && areInRange(grid.density) &&
-           areInRange(grid.temperature) && areInRange(grid.flame) && areFinite(grid.albedo, 0.0f, 1.0f) &&
-           areFinite(grid.velocity, -kFast, kFast);
+           areInRange(grid.temperature) && areInRange(grid.flame) && areRates(grid.flameRate) &&
+           areFinite(grid.albedo, 0.0f, 1.0f) && areFinite(grid.velocity, -kFast, kFast);
 }
 
 } // namespace
@@ -130,6 +137,7 @@ std::string toBytes(const MediumGrid& grid)
     put(bytes, grid.density.data(), grid.density.size());
     put(bytes, grid.temperature.data(), grid.temperature.size());
     put(bytes, grid.flame.data(), grid.flame.size());
+    put(bytes, grid.flameRate.data(), grid.flameRate.size());
     put(bytes, grid.albedo.data(), grid.albedo.size());
     put(bytes, grid.velocity.data(), grid.velocity.size());
     put(bytes, grid.balls.data(), grid.balls.size());
@@ -154,9 +162,10 @@ base::Result<MediumGrid> mediumGridFromBytes(std::string_view bytes)
         axes.size() != 1 || !parts.take(origin, 1) || origin.size() != 1 || !parts.take(anisotropy, 1) ||
         anisotropy.size() != 1 || !parts.take(grid.blocks, kMostBlocks) ||
         !parts.take(grid.density, kMostVoxels) || !parts.take(grid.temperature, kMostVoxels) ||
-        !parts.take(grid.flame, kMostVoxels) || !parts.take(grid.albedo, kMostVoxels) ||
-        !parts.take(grid.velocity, kMostVoxels) || !parts.take(grid.balls, kMostGridBalls) ||
-        !parts.take(warnings, 1) || warnings.size() != 1 || warnings[0] > kMostWarnings)
+        !parts.take(grid.flame, kMostVoxels) || !parts.take(grid.flameRate, kMostVoxels) ||
+        !parts.take(grid.albedo, kMostVoxels) || !parts.take(grid.velocity, kMostVoxels) ||
+        !parts.take(grid.balls, kMostGridBalls) || !parts.take(warnings, 1) || warnings.size() != 1 ||
+        warnings[0] > kMostWarnings)
         return damaged;
     grid.axes = axes[0];
     grid.origin = origin[0];

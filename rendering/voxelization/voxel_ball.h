@@ -5,6 +5,7 @@
 /// this side in the world. Therefore the lattice is the same for all frames of a sequence.
 #pragma once
 
+#include "foundation/assets/voxel_volume.h"
 #include "foundation/snapshot/block_kind.h"
 
 #include <glm/vec3.hpp>
@@ -44,7 +45,10 @@ struct VoxelBlock
     std::array<float, kBlockVoxels> density; ///< [1/m] extinction
     /// [K] color temperature of the emitted light; without light the mean, weighted with the extinction
     std::array<float, kBlockVoxels> temperature;
-    std::array<float, kBlockVoxels> flame;        ///< [cd/m3] luminance that the medium emits per meter
+    std::array<float, kBlockVoxels> flame; ///< [cd/m3] luminance that the medium emits per meter
+    /// [1/s] change of the logarithm of `flame` of the medium that moves through the voxel, if it keeps its
+    /// density; within kMostVolumeRate
+    std::array<float, kBlockVoxels> flameRate;
     std::array<glm::vec3, kBlockVoxels> velocity; ///< [m/s] mean, weighted with the extinction
     std::array<glm::vec3, kBlockVoxels> albedo;   ///< [1] mean, weighted with the extinction
 };

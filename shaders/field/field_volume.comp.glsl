@@ -56,6 +56,7 @@ struct VolumeSample
 {
     vec4 medium; // rgb emitted light; a extinction, both without their factors
     vec3 scattered;
+    float change; // of the sum of emitted light [1/s]
 };
 
 // Element of the list of voxels, or kNoBrick where no brick is.
@@ -88,9 +89,11 @@ void addVoxel(int frame, uint at, float weight, inout VolumeSample io)
 {
     uvec4 bits = wordsOf(frame, at);
     float extinction = uintBitsToFloat(bits.x);
-    vec3 light = vec3(unpackHalf2x16(bits.y), unpackHalf2x16(bits.z).x);
+    vec2 blueRate = unpackHalf2x16(bits.z);
+    vec3 light = vec3(unpackHalf2x16(bits.y), blueRate.x) * (weight * frames[frame].light.x);
     vec3 albedo = vec3(bits.w & 1023u, bits.w >> 10 & 1023u, bits.w >> 20 & 1023u) / 1023.0;
-    io.medium += weight * vec4(frames[frame].light.x * light, extinction);
+    io.medium += vec4(light, weight * extinction);
+    io.change += (light.r + light.g + light.b) * blueRate.y;
     io.scattered += weight * extinction * albedo;
 }
 
@@ -103,7 +106,7 @@ VolumeSample mediumAt(int frame, vec3 place)
     place = mix(place, nearest, lessThan(abs(place - nearest), vec3(kOnVoxel)));
     vec3 first = floor(place);
     vec3 part = place - first;
-    VolumeSample found = VolumeSample(vec4(0.0), vec3(0.0));
+    VolumeSample found = VolumeSample(vec4(0.0), vec3(0.0), 0.0);
     for (int k = 0; k < 8; ++k) {
         ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2);
         vec3 weights = mix(1.0 - part, part, vec3(corner));
@@ -153,6 +156,13 @@ vec3 velocityOr(vec4 momentum, vec3 other)
                 fxFlowVelocity(momentum.z, momentum.w, other.z));
 }
 
+// (s + u) r / 16
+float rateOf(VolumeSample found)
+{
+    float light = found.medium.r + found.medium.g + found.medium.b;
+    return light > 0.0 ? (moment.y + moment.z) / 16.0 * (found.change / light) : 0.0;
+}
+
 float densityOf(float seconds, Flow flow)
 {
     return fxFlowDensity(seconds, fxFlowVelocity(flow.growth, flow.momentum.w, 0.0));
@@ -173,10 +183,11 @@ VolumeSample volumeAt(vec3 place)
     }
     VolumeSample a = mediumAt(0, before), b = mediumAt(1, after);
     vec2 own = vec2(a.medium.a, b.medium.a), extinction = share * own; // (5)
+    vec2 rates = vec2(rateOf(a), rateOf(b));
     vec3 light;
     for (int c = 0; c < 3; ++c)
-        light[c] = fxFlowLight(extinction.x, a.medium[c], extinction.y, b.medium[c], own.x, own.y); // (7)
-    return VolumeSample(vec4(light, extinction.x + extinction.y), share.x * a.scattered + share.y * b.scattered);
+        light[c] = fxFlowLight(extinction.x, a.medium[c], extinction.y, b.medium[c], own.x, own.y, rates.x, rates.y); // (7)
+    return VolumeSample(vec4(light, extinction.x + extinction.y), share.x * a.scattered + share.y * b.scattered, 0.0);
 }
 #else
 VolumeSample volumeAt(vec3 place)

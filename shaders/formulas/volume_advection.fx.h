@@ -12,6 +12,7 @@
 ///   q      1        factor by which lengths grow
 ///   k      1/m      extinction of both volumes at a and b, each with its factor of (5)
 ///   S      cd/m2    source function: emitted light over extinction
+///   r      1/s      change of ln S of the medium that moves through a place; 0 also: not known
 ///
 /// @derivation
 ///   The velocity of the medium at x is about that of both volumes there, each with its weight:
@@ -30,8 +31,13 @@
 ///   heat as T^4, dT/dt = -c T^4, so that T^-3 grows evenly with time. So the source function of the moment
 ///   is a mean of its powers -3/16
 ///       S^(-3/16) = (k1 S1(a)^(-3/16) + k2 S2(b)^(-3/16)) / (k1 + k2)                          (6)
-///   where the smaller one counts as 1e-10 of the larger one at least,
-///   and the emitted light (k1 + k2) S                                                         (7)
+///   where the smaller one counts as 1e-10 of the larger one at least, and the emitted light
+///       (k1 + k2) S                                                                           (7)
+///   If a volume knows r, matter may burn between both, and get hotter and colder again. Then, as of balls
+///   (played-balls), S^(1/16) is the cubic polynomial of Hermite with the share p = k2 / (k1 + k2),
+///       q = S^(1/16),  c = (s + u) r q / 16 within 3 |q2 - q1| + max(q1, q2)/8
+///       q(p) = q1 + p (q2 - q1) + p (1 - p) ((1 - p) (c1 - q2 + q1) - p (c2 - q2 + q1))       (8)
+///   The rate of a place is the mean of its voxels, weighted with the sum of the components of their light.
 ///   At w = 0 and w = 1 they are those of the volume itself.
 /// @source    [Stam99] section 2.2 for tracing places back through a flow; the rest is own
 /// @deviation places are traced with the velocity that the medium has in its own volume, not with a flow of
@@ -74,8 +80,24 @@ FX_FORMULA(fxGlow)(FX_REAL x)
     return eighth * eighth;
 }
 
+/// Light of matter with known rates, over that of q = 1.  @param c1, c2 (s + u) r / 16
+FX_FORMULA(fxFlowGlow)(FX_REAL first, FX_REAL second, FX_REAL c1, FX_REAL c2, FX_REAL p)
+{
+    FX_REAL q1 = sqrt(sqrt(sqrt(sqrt(first)))), q2 = sqrt(sqrt(sqrt(sqrt(second))));
+    FX_REAL way = q2 - q1;
+    FX_REAL most = FX_REAL(3.0) * abs(way) + max(q1, q2) / FX_REAL(8.0);
+    FX_REAL start = clamp(c1 * q1, -most, most), end = clamp(c2 * q2, -most, most);
+    FX_REAL u = FX_REAL(1.0) - p;
+    FX_REAL q = max(q1 + p * way + p * u * (u * (start - way) - p * (end - way)), FX_REAL(0.0)); // (8)
+    FX_REAL square = q * q;
+    FX_REAL eighth = square * square * square * square;
+    return eighth * eighth;
+}
+
 /// @param k1, k2 extinction with their factors  @param j1, j2 emitted light, and e1, e2 extinction, without
-FX_FORMULA(fxFlowLight)(FX_REAL k1, FX_REAL j1, FX_REAL k2, FX_REAL j2, FX_REAL e1, FX_REAL e2)
+/// @param c1, c2 (s + u) r / 16
+FX_FORMULA(fxFlowLight)
+(FX_REAL k1, FX_REAL j1, FX_REAL k2, FX_REAL j2, FX_REAL e1, FX_REAL e2, FX_REAL c1, FX_REAL c2)
 {
     const FX_REAL zero = FX_REAL(0.0);
     FX_REAL first = e1 > zero ? max(j1, zero) / e1 : zero; // S1
@@ -88,6 +110,11 @@ FX_FORMULA(fxFlowLight)(FX_REAL k1, FX_REAL j1, FX_REAL k2, FX_REAL j2, FX_REAL 
     FX_REAL least = most * FX_REAL(1e-10);
     if (!(least > zero))
         return zero;
-    FX_REAL coolness = (k1 * fxCoolness(max(first, least) / most) + k2 * fxCoolness(max(second, least) / most)) / (k1 + k2); // (6)
+    if (c1 != zero || c2 != zero)
+        return (k1 + k2) * most *
+               fxFlowGlow(max(first, least) / most, max(second, least) / most, c1, c2, k2 / (k1 + k2));
+    FX_REAL coolness =
+        (k1 * fxCoolness(max(first, least) / most) + k2 * fxCoolness(max(second, least) / most)) /
+        (k1 + k2);                              // (6)
     return (k1 + k2) * most * fxGlow(coolness); // (7)
 }

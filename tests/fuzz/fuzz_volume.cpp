@@ -30,7 +30,8 @@ void checkVolume(const base::VoxelVolume& volume)
 {
     const size_t voxels = volume.bricks.size() * base::kVolumeBrickVoxels;
     require(volume.extinction.size() == voxels, "each voxel has an extinction");
-    for (const size_t size : {volume.temperature.size(), volume.emission.size(), volume.albedo.size()})
+    for (const size_t size : {volume.temperature.size(), volume.emission.size(), volume.emissionRate.size(),
+                              volume.albedo.size(), volume.velocity.size()})
         require(size == 0 || size == voxels, "a channel has all voxels or none");
     double sum = 0.0;
     for (const float extinction : volume.extinction) {
@@ -64,6 +65,7 @@ std::string smallVolume(bool hasLight)
         volume.temperature.assign(volume.extinction.size(), 900.0f);
         volume.emission.assign(volume.extinction.size(), {1.0f, 2.0f, 0.0f});
         volume.albedo.assign(volume.extinction.size(), {0.5f, 0.25f, 1.0f});
+        volume.emissionRate.assign(volume.extinction.size(), -30.0f);
     }
     return *asset::writeVolume(volume);
 }

@@ -37,6 +37,7 @@ base::VoxelVolume colored()
         volume.emission.push_back(volume.extinction[v] > 0.0f ? glm::vec3(float(v), 1.0f, 0.0f)
                                                               : glm::vec3(0.0f));
         volume.albedo.push_back(glm::vec3(0.25f, 0.5f, 0.75f));
+        volume.emissionRate.push_back(float(v) - 500.0f);
     }
     return volume;
 }
@@ -66,6 +67,7 @@ TEST(VolumeFile, isReadAsItWasWrittenUpToRounding)
         EXPECT_NEAR(read->temperature[v], volume.temperature[v], 0x1p-11f * volume.temperature[v]) << v;
         EXPECT_NEAR(read->emission[v].x, volume.emission[v].x, 0x1p-11f * volume.emission[v].x) << v;
         EXPECT_NEAR(read->albedo[v].y, 0.5f, 0x1p-12f) << v;
+        EXPECT_NEAR(read->emissionRate[v], float(v) - 500.0f, 0x1p-2f) << v;
     }
     EXPECT_EQ(*asset::writeVolume(*read), *bytes);
 }
@@ -104,6 +106,11 @@ TEST(VolumeFile, whatCannotBeReadIsNotWritten)
     EXPECT_FALSE(asset::writeVolume(volume).ok());
     volume = twoBricks();
     volume.albedo.resize(7);
+    EXPECT_FALSE(asset::writeVolume(volume).ok());
+    volume = colored();
+    volume.emissionRate[3] = -2.0f * base::kMostVolumeRate;
+    EXPECT_FALSE(asset::writeVolume(volume).ok());
+    volume.emissionRate.resize(7);
     EXPECT_FALSE(asset::writeVolume(volume).ok());
     volume.bricks.clear();
     volume.extinction.clear();

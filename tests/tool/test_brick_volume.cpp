@@ -89,11 +89,17 @@ TEST(BrickVolume, turnedVoxelsOfUnequalSidesAreInterpolatedAtTheirPlaces)
         EXPECT_NEAR(found[a], center[a], 0.05 * kVoxel) << a;
 }
 
-TEST(BrickVolume, voxelsOfASequenceHaveTheVelocitiesOfTheGridAndSpreadThem)
+TEST(BrickVolume, voxelsOfASequenceHaveTheRatesOfTheGridAndItsVelocitiesWhichSpread)
 {
-    const auto volume =
-        cli::voxelVolumeOf(lump(glm::dmat3(kVoxel), glm::dvec3(0.0), glm::dvec3(0.1), 1.0), 0.5, true);
+    render::MediumGrid grid = lump(glm::dmat3(kVoxel), glm::dvec3(0.0), glm::dvec3(0.1), 1.0);
+    grid.flame = grid.density;
+    grid.flameRate.assign(grid.flame.size(), -7.0f);
+    EXPECT_TRUE(cli::voxelVolumeOf(grid, 0.5)->emissionRate.empty());
+    const auto volume = cli::voxelVolumeOf(grid, 0.5, true);
     ASSERT_TRUE(volume.ok()) << volume.status().message();
+    ASSERT_EQ(volume->emissionRate.size(), volume->extinction.size());
+    for (size_t v = 0; v < volume->emissionRate.size(); ++v)
+        EXPECT_EQ(volume->emissionRate[v], volume->extinction[v] > 0.0f ? -7.0f : 0.0f) << v;
     ASSERT_EQ(volume->velocity.size(), volume->extinction.size());
     for (size_t v = 0; v < volume->velocity.size(); ++v)
         EXPECT_LT(glm::length(volume->velocity[v] - glm::vec3(1.0f, -2.0f, 3.0f)), 1e-5f) << v;

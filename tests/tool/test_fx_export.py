@@ -234,8 +234,8 @@ class Export(FxTest):
         self.export(self.list_of_balls(), "-o", self.folder / "a.vdb", "--voxel-size", "0.1")
         found = read(self.folder / "a.vdb")
         grids = found["grids"]
-        self.assertEqual({name: grids[name]["unit"] for name in ("density", "temperature", "flame", "v", "Cd")},
-                         {"density": "1/m", "temperature": "K", "flame": "cd/m3", "v": "m/s", "Cd": "1"})
+        self.assertEqual({name: grids[name]["unit"] for name in ("density", "temperature", "flame", "flame_rate", "v", "Cd")},
+                         {"density": "1/m", "temperature": "K", "flame": "cd/m3", "flame_rate": "1/s", "v": "m/s", "Cd": "1"})
         self.assertEqual((grids["v"]["type"], grids["Cd"]["type"]), ("vec3s", "vec3s"))
         self.assertEqual(grids["Cd"]["values"], [[0.5, 0.5, 0.5]])
         density = grids["density"]

@@ -43,7 +43,7 @@ class Import(FxTest):
         self.assertAlmostEqual(line["cross_section"], 3.0, delta=3e-5)
         for at, center in zip(line["center"], (4 / 3, 2, -3)):
             self.assertAlmostEqual(at, center, delta=1e-3)
-        self.assertEqual(line["grids"], ["density", "temperature", "flame", "color", "velocity"])
+        self.assertEqual(line["grids"], ["density", "temperature", "flame", "flame_rate", "color", "velocity"])
         for low, high, a, b in zip(line["low"], line["high"], (0.5, 1.5, -3.5), (2.3, 2.5, -2.5)):
             self.assertTrue(a - 0.1 <= low <= a + 0.15 and b - 0.15 <= high <= b + 0.1, (low, high, a, b))
 

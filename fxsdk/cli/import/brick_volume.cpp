@@ -46,6 +46,7 @@ bool isStraight(const render::MediumGrid& grid)
 struct Voxel
 {
     double density = 0.0, heat = 0.0, flame = 0.0; // heat: density times temperature
+    double change = 0.0;                           // flame times its rate
     glm::dvec3 albedo{0.0}, velocity{0.0};         // times density
 };
 
@@ -68,6 +69,8 @@ public:
             out.heat = out.density * double(grid_.temperature[at]);
         if (!grid_.flame.empty())
             out.flame = weight * double(grid_.flame[at]);
+        if (!grid_.flameRate.empty())
+            out.change = out.flame * double(grid_.flameRate[at]);
         if (!grid_.albedo.empty())
             out.albedo = out.density * glm::dvec3(grid_.albedo[at]);
         if (!grid_.velocity.empty())
@@ -89,6 +92,7 @@ public:
             sum.density += own.density;
             sum.heat += own.heat;
             sum.flame += own.flame;
+            sum.change += own.change;
             sum.albedo += own.albedo;
             sum.velocity += own.velocity;
         }
@@ -155,7 +159,7 @@ base::Result<std::vector<glm::ivec3>> bricksOf(const render::MediumGrid& grid, c
     return bricks;
 }
 
-void append(const Voxel& voxel, bool keepsVelocity, base::VoxelVolume& io, const render::MediumGrid& grid)
+void append(const Voxel& voxel, bool isFrame, base::VoxelVolume& io, const render::MediumGrid& grid)
 {
     const bool hasFlame = !grid.flame.empty();
     const bool isThere = voxel.density > 0.0;
@@ -168,8 +172,10 @@ void append(const Voxel& voxel, bool keepsVelocity, base::VoxelVolume& io, const
         io.temperature.push_back(float(temperature));
     if (!grid.albedo.empty())
         io.albedo.push_back(glm::clamp(glm::vec3(voxel.albedo * per), glm::vec3(0.0f), glm::vec3(1.0f)));
-    if (keepsVelocity && !grid.velocity.empty())
+    if (isFrame && !grid.velocity.empty())
         io.velocity.push_back(glm::vec3(voxel.velocity * per));
+    if (isFrame && hasFlame && !grid.flameRate.empty())
+        io.emissionRate.push_back(voxel.flame > 0.0 ? float(voxel.change / voxel.flame) : 0.0f);
 }
 
 /// Gives voxels without medium the mean velocity of their neighbors that have one, again and again, until all
@@ -226,8 +232,7 @@ double massOf(const base::VoxelVolume& volume)
 
 } // namespace
 
-base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo,
-                                              bool keepsVelocity)
+base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo, bool isFrame)
 {
     const bool isCopied = isStraight(grid);
     Lattice lattice;
@@ -262,7 +267,7 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
                             " bricks of 8 x 8 x 8 voxels");
         volume.bricks.push_back(brick);
         for (const Voxel& voxel : voxels)
-            append(voxel, keepsVelocity, volume, grid);
+            append(voxel, isFrame, volume, grid);
     }
     if (volume.bricks.empty())
         return noMedium(grid);
@@ -286,9 +291,9 @@ base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, do
     return volume;
 }
 
-base::Result<VolumeBytes> volumeBytesOf(const render::MediumGrid& grid, double albedo, bool keepsVelocity)
+base::Result<VolumeBytes> volumeBytesOf(const render::MediumGrid& grid, double albedo, bool isFrame)
 {
-    const base::Result<base::VoxelVolume> volume = voxelVolumeOf(grid, albedo, keepsVelocity);
+    const base::Result<base::VoxelVolume> volume = voxelVolumeOf(grid, albedo, isFrame);
     if (!volume)
         return volume.status();
     base::Result<std::string> bytes = asset::writeVolume(*volume);

@@ -16,11 +16,11 @@ namespace fx::cli {
 /// grid, and the extinction is multiplied by a factor that keeps its integral. A grid of flames gives emitted
 /// light in the color of a black body of the temperature; without flames, the medium glows as its temperature
 /// does.
-/// @param keepsVelocity whether the velocities of the grid are taken
+/// @param isFrame whether it is a frame of a sequence: velocities, and rates of flames, are taken
 /// @param albedo [1] of grids that have no colors
 /// @return TooLarge with the remedy, InvalidArgument for a grid whose voxels have no medium
 base::Result<base::VoxelVolume> voxelVolumeOf(const render::MediumGrid& grid, double albedo,
-                                              bool keepsVelocity = false);
+                                              bool isFrame = false);
 
 /// A file of voxels, and what is in it.
 struct VolumeBytes
@@ -34,7 +34,6 @@ struct VolumeBytes
 };
 
 /// The file of voxelVolumeOf().  @return its errors, and those of asset::writeVolume()
-base::Result<VolumeBytes> volumeBytesOf(const render::MediumGrid& grid, double albedo,
-                                        bool keepsVelocity = false);
+base::Result<VolumeBytes> volumeBytesOf(const render::MediumGrid& grid, double albedo, bool isFrame = false);
 
 } // namespace fx::cli

@@ -133,6 +133,7 @@ void report(const ImportArguments& arguments, const render::MediumGrid& grid, co
     std::vector<std::string> names{"density"};
     for (const auto& [isThere, name] : {std::pair(!grid.temperature.empty(), "temperature"),
                                         {!grid.flame.empty(), "flame"},
+                                        {!grid.flameRate.empty(), "flame_rate"},
                                         {!grid.albedo.empty(), "color"},
                                         {!grid.velocity.empty(), "velocity"}})
         if (isThere)

@@ -139,6 +139,12 @@ TEST_F(VolumeVoxelsTest, betweenTwoFramesAreTheMomentOfTheReference)
             largest = std::max(largest, other[i]);
         }
         EXPECT_GT(difference, 0.03 * largest) << "a cross-fade is another picture";
+        std::vector<base::VoxelVolume> even = frames;
+        for (base::VoxelVolume& frame : even)
+            frame.emissionRate.clear();
+        even.push_back(even.back()); // another sequence
+        const Picture dark = renderAlone(publishBetween(even, 3, base::toTicks(part * kFrameSeconds)));
+        EXPECT_LT(sumOf(dark, 2), 0.9 * sumOf(picture, 2)) << "without rates it does not get brighter";
     }
 }
 

@@ -237,7 +237,8 @@ protected:
         }
     }
 
-    /// The lumps, and the same two voxels farther along y and thinner, with the velocity of that.
+    /// The lumps, and the same two voxels farther along y and thinner, with the velocity of that. They get
+    /// brighter and darker again.
     static std::vector<base::VoxelVolume> movingLumps()
     {
         base::VoxelVolume first = lumps(), second = first;
@@ -251,6 +252,8 @@ protected:
             second.emission[v] = isThere ? 2.0f * first.emission[from] : glm::vec3(0.0f);
             second.albedo[v] = first.albedo[from];
             second.temperature[v] = 1500.0f;
+            first.emissionRate.push_back(40.0f + 3.0f * float(v % 8));
+            second.emissionRate.push_back(isThere ? -2.0f * first.emissionRate[from] : 0.0f);
         }
         return {first, second, first};
     }

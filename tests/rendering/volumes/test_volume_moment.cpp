@@ -108,6 +108,72 @@ TEST(VolumeMoment, matterThatCoolsByRadiationGlowsBetweenAsItsTemperatureSays)
         }
 }
 
+/// A brick of still matter with this emission [cd/m3] and its rate [1/s].
+base::VoxelVolume glowing(double light, double rate)
+{
+    base::VoxelVolume volume;
+    volume.bricks = {{1, 1, 1}};
+    volume.extinction.assign(512, 200.0f);
+    volume.emission.assign(512, glm::vec3(float(light), 0.5f * float(light), 0.0f));
+    volume.emissionRate.assign(512, float(rate));
+    volume.velocity.assign(512, glm::vec3(0.0f));
+    return volume;
+}
+
+// It burns: the light rises, and falls again.
+TEST(VolumeMoment, lightOfMatterThatBurnsFollowsItsRates)
+{
+    const auto root = [](double part) { return 1.0 + part * (0.12 - part * (0.1 + 0.01 * part)); };
+    const auto slope = [](double part) { return 0.12 - part * (0.2 + 0.03 * part); };
+    const auto volumeAt = [&](double part) {
+        return glowing(5e4 * std::pow(root(part), 16.0), 16.0 / kSeconds * slope(part) / root(part));
+    };
+    const render::MediumVolume a(volumeAt(0.0)), b(volumeAt(1.0));
+    double most = 0.0;
+    for (const double part : {0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+        const glm::dvec3 light =
+            render::MediumVolume::between(a, b, {part, kSeconds}).at({10, 10, 10}).emitted;
+        const double wanted = 5e4 * std::pow(root(part), 16.0);
+        EXPECT_NEAR(light.x / wanted, 1.0, 1e-4) << part;
+        EXPECT_NEAR(light.y / wanted, 0.5, 1e-4) << part;
+        EXPECT_EQ(light.z, 0.0);
+        most = std::max(most, light.x);
+    }
+    EXPECT_GT(most, 1.4 * a.at({10, 10, 10}).emitted.x) << "brighter than both";
+    EXPECT_GT(most, 1.4 * b.at({10, 10, 10}).emitted.x);
+}
+
+TEST(VolumeMoment, ratesThatDoNotFitBothVolumesAreBounded)
+{
+    const render::MediumVolume a(glowing(5e4, 4096.0)), b(glowing(5e4, -4096.0));
+    const double hot = render::MediumVolume::between(a, b, {0.5, kSeconds}).at({10, 10, 10}).emitted.x;
+    EXPECT_NEAR(hot / 5e4, std::pow(1.0 + 1.0 / 32.0, 16.0), 1e-4); // slopes of 1/8
+    const double cold = render::MediumVolume::between(b, a, {0.5, kSeconds}).at({10, 10, 10}).emitted.x;
+    EXPECT_NEAR(cold / 5e4, std::pow(1.0 - 1.0 / 32.0, 16.0), 1e-4);
+    const double faded = render::MediumVolume::between(a, b, {0.5, 0.0}).at({10, 10, 10}).emitted.x;
+    EXPECT_NEAR(faded / 5e4, 1.0, 1e-4) << "frames that are cross-faded have no time between them";
+}
+
+/// The rate between two voxels is the mean, weighted with their light.
+TEST(VolumeMoment, theRateOfAPlaceIsThatOfItsLight)
+{
+    base::VoxelVolume volume = glowing(100.0, 8.0);
+    for (size_t v = 0; v < 512; ++v)
+        if (v % 8 % 2 == 1) {
+            volume.emission[v] *= 3.0f;
+            volume.emissionRate[v] = -24.0f;
+        }
+    const render::MediumVolume fine(volume);
+    EXPECT_NEAR(fine.at({10.0, 10.0, 10.0}).rate, 8.0, 1e-6);
+    EXPECT_NEAR(fine.at({10.5, 10.0, 10.0}).rate, (8.0 - 3.0 * 24.0) / 4.0, 1e-5);
+    const render::MediumVolume thin = [&] { // all of a thin medium is seen
+        for (size_t v = 0; v < 512; ++v)
+            volume.extinction[v] = 1e-3f;
+        return render::MediumVolume(volume).halved();
+    }();
+    EXPECT_NEAR(thin.at({5.0, 5.0, 5.0}).rate, (8.0 - 3.0 * 24.0) / 4.0, 0.05);
+}
+
 TEST(VolumeMoment, whatIsColdInOneVolumeHasLightBetweenZeroAndThatOfTheOther)
 {
     base::VoxelVolume hot;

@@ -119,6 +119,8 @@ TEST(BallVoxelizer, meansOfTwoBallsAreWeightedWithTheirDensityAndLightIsAdded)
     balls[1].crossSection = 0.5;
     balls[1].temperature = 2000.0;
     balls[1].luminance = 1e5;
+    balls[0].luminanceRate = -3.0;
+    balls[1].luminanceRate = 5.0;
     balls[1].velocity = {0.0, 9.0, 0.0};
     balls[0].albedo = {0.2, 0.4, 0.6};
     balls[1].albedo = {0.8, 0.4, 0.0};
@@ -127,6 +129,11 @@ TEST(BallVoxelizer, meansOfTwoBallsAreWeightedWithTheirDensityAndLightIsAdded)
     EXPECT_NEAR(sums.mass, 3.0, 3e-6);
     EXPECT_NEAR(sums.light, 2.5 * 40.0 + 0.5 * 1e5, 0.2);
     EXPECT_NEAR(glm::distance(sums.momentum, 2.5 * balls[0].velocity + 0.5 * balls[1].velocity), 0.0, 1e-5);
+    double change = 0.0; // [cd/s]
+    for (const VoxelBlock& block : blocks)
+        for (size_t v = 0; v < size_t(kBlockVoxels); ++v)
+            change += kVoxel * kVoxel * kVoxel * double(block.flame[v]) * double(block.flameRate[v]);
+    EXPECT_NEAR(change, 2.5 * 40.0 * -3.0 + 0.5 * 1e5 * 5.0, 1.0);
     glm::dvec3 scattered(0.0); // [m2]
     for (const VoxelBlock& block : blocks)
         for (size_t v = 0; v < size_t(kBlockVoxels); ++v)
@@ -140,7 +147,19 @@ TEST(BallVoxelizer, meansOfTwoBallsAreWeightedWithTheirDensityAndLightIsAdded)
             } else {
                 EXPECT_EQ(block.temperature[v], 0.0f);
                 EXPECT_EQ(block.flame[v], 0.0f);
+                EXPECT_EQ(block.flameRate[v], 0.0f);
             }
+}
+
+TEST(BallVoxelizer, theRateOfLightIsBounded)
+{
+    VoxelBall ball = ballOf({0.0, 0.0, 0.0}, 0.5);
+    ball.luminanceRate = -VoxelBall::kMostRate;
+    float least = 0.0f;
+    for (const VoxelBlock& block : voxelize({&ball, 1}, kVoxel))
+        for (const float rate : block.flameRate)
+            least = std::min(least, rate);
+    EXPECT_EQ(least, -base::kMostVolumeRate);
 }
 
 TEST(BallVoxelizer, aBallSmallerThanAVoxelMovesThroughTheLatticeWithoutJumps)

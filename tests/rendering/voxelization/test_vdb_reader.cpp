@@ -232,6 +232,7 @@ TEST_F(VdbReader, exportedVolumesAreReadBack)
     balls[0].crossSection = 1.5;
     balls[0].temperature = 900.0;
     balls[0].luminance = 20.0;
+    balls[0].luminanceRate = -12.0;
     balls[0].velocity = {1.0, 2.0, -3.0};
     balls[1] = balls[0];
     balls[1].center.x = 3.0;
@@ -256,6 +257,8 @@ TEST_F(VdbReader, exportedVolumesAreReadBack)
         EXPECT_NEAR(sums.luminousVolume, 60.0, 60.0 * allowed);
         const auto most = std::ranges::max_element(read->density) - read->density.begin();
         EXPECT_NEAR(read->velocity[size_t(most)].z, -3.0, 3.0 * allowed);
+        EXPECT_NEAR(read->flameRate[size_t(most)], -12.0, 12.0 * allowed);
+        EXPECT_EQ(mediumGridFromBytes(toBytes(*read))->flameRate, read->flameRate);
     }
 }
 
@@ -270,6 +273,26 @@ TEST_F(VdbReader, numbersThatAreNoneBecomeZeroWithAWarning)
     EXPECT_EQ(sumsOf(*read).voxels, 1u);
     ASSERT_EQ(read->warnings.size(), 1u);
     EXPECT_NE(read->warnings[0].find("2 voxels"), std::string::npos);
+}
+
+TEST_F(VdbReader, ratesOutOfTheirRangeBecomeZeroWithAWarning)
+{
+    auto grid = fog();
+    auto rate = fog("flame_rate");
+    for (int x = 0; x < 3; ++x) {
+        grid->tree().setValue({x, 0, 0}, 1.0f);
+        rate->tree().setValue({x, 0, 0}, std::array{-5.0f, 5000.0f, std::nanf("")}[size_t(x)]);
+    }
+    const auto read = readVdb(write({grid, rate}), {});
+    ASSERT_TRUE(read.ok());
+    EXPECT_EQ(read->flameRate[voxelInBlock(0, 0, 0)], -5.0f);
+    EXPECT_EQ(read->flameRate[voxelInBlock(1, 0, 0)], 0.0f);
+    EXPECT_EQ(read->flameRate[voxelInBlock(2, 0, 0)], 0.0f);
+    ASSERT_EQ(read->warnings.size(), 1u);
+    EXPECT_NE(read->warnings[0].find("2 voxels of \"flame_rate\""), std::string::npos);
+    MediumGrid fast = *read;
+    fast.flameRate[0] = 5000.0f;
+    EXPECT_FALSE(mediumGridFromBytes(toBytes(fast)).ok());
 }
 
 TEST_F(VdbReader, whatIsNotSupportedIsRefusedByName)
