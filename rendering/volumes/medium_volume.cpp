@@ -8,6 +8,7 @@
 #include "shaders/formulas/formula.h"
 
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -37,6 +38,14 @@ glm::dvec3 velocityOr(const glm::dvec3& momentum, double weight, const glm::dvec
 double densityOf(double seconds, double growth, double weight)
 {
     return formula64::fxFlowDensity(seconds, formula64::fxFlowVelocity(growth, weight, 0.0));
+}
+
+glm::dvec4 shifted(const std::array<glm::dvec4, 4>& v, double t)
+{
+    glm::dvec4 out;
+    for (int c = 0; c < 4; ++c)
+        out[c] = formula64::fxFlowShift(v[0][c], v[1][c], v[2][c], v[3][c], t);
+    return out;
 }
 
 float sumOf(const glm::vec3& light)
@@ -246,6 +255,40 @@ MediumVolume::Sample MediumVolume::at(const glm::dvec3& place) const
     return sample;
 }
 
+MediumVolume::Sample MediumVolume::shiftedAt(const glm::dvec3& place) const
+{
+    Sample sample = at(place);
+    if (!(sample.extinction > 0.0))
+        return sample;
+    const glm::dvec3 low = glm::floor(place), part = place - low;
+    const glm::dvec3 albedo = sample.scattered / sample.extinction;
+    glm::dvec3 dimmest = sample.emitted / sample.extinction, brightest = dimmest; // S
+    std::array<glm::dvec4, 4> planes{}, rows{}, taps{};                           // emitted light, extinction
+    const auto isUsed = [&](int axis, int i) { return i == 1 || part[axis] > 0.0; };
+    for (int z = 0; z < 4; ++z) {
+        for (int y = 0; y < 4 && isUsed(2, z); ++y) {
+            for (int x = 0; x < 4 && isUsed(1, y); ++x) {
+                const size_t v = isUsed(0, x) ? voxelAt(glm::ivec3(low) + glm::ivec3(x, y, z) - 1) : kNone;
+                const double own = v == kNone ? 0.0 : double(extinction_[v]);
+                const glm::dvec3 light =
+                    v == kNone || emitted_.empty() ? glm::dvec3(0.0) : glm::dvec3(emitted_[v]);
+                taps[size_t(x)] = {light, own};
+                if (own > 0.0 && x % 3 != 0 && y % 3 != 0 && z % 3 != 0) {
+                    dimmest = glm::min(dimmest, light / own);
+                    brightest = glm::max(brightest, light / own);
+                }
+            }
+            rows[size_t(y)] = shifted(taps, part.x);
+        }
+        planes[size_t(z)] = shifted(rows, part.y);
+    }
+    const glm::dvec4 found = shifted(planes, part.z);
+    sample.extinction = found.a;
+    sample.emitted = glm::clamp(glm::dvec3(found), found.a * dimmest, found.a * brightest);
+    sample.scattered = found.a * albedo;
+    return sample;
+}
+
 MediumVolume::Corners MediumVolume::cornersAt(const glm::dvec3& place) const
 {
     Corners corners;
@@ -318,7 +361,7 @@ MediumVolume MediumVolume::between(const MediumVolume& first, const MediumVolume
             left = densityOf(since, from.growth, from.weight);
             arrived = densityOf(-until, to.growth, to.weight);
         }
-        const Sample a = first.at(toFirst(before)), b = second.at(toSecond(after));
+        const Sample a = first.shiftedAt(toFirst(before)), b = second.shiftedAt(toSecond(after));
         const double p = moment.part;
         out.extinction_[v] = float((1.0 - p) * left * a.extinction + p * arrived * b.extinction); // (5)
         out.scattered_[v] = glm::vec3((1.0 - p) * left * a.scattered + p * arrived * b.scattered);

@@ -89,6 +89,8 @@ private:
     };
     Flow flowAt(const glm::dvec3& place) const;
     Flow flowAt(const glm::dvec3& place, const base::LatticeMap& toOwn) const; ///< both in voxels of the map
+    /// Extinction and light are shifted by formula volume-advection (9).
+    Sample shiftedAt(const glm::dvec3& place) const;
     std::vector<float> sharesOfLight() const;
     template <class Add>
     void addCorners(const glm::dvec3& place, const Add& add) const;

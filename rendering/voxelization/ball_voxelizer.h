@@ -43,11 +43,12 @@ namespace fx::render {
 ///   times i is the point itself, so that the mean of i weighted with rho_i is the mean of the samples,
 ///   which is c by symmetry.
 ///   Means of temperature, velocity and albedo are sums over the balls weighted with (3), as is the emitted
-///   light where no escape depths are given. The rate of light is the mean weighted with the light. Otherwise
-///   the samples of a voxel that emits have in addition the weight exp(-t(x_a)) of formula escape-depth, of
-///   which (3) is the light of the voxel. These depths do not know what a ball smaller than a voxel hides of
-///   its own light, because its medium is spread. The tent, and the linear interpolation of voxels, each add
-///   1/6 to the second moment of the ball along each axis, R^2 / 9. So the ball is as wide as one with
+///   light where no escape depths are given. Otherwise the samples of a voxel that emits have in addition the
+///   weight exp(-t(x_a)) of formula escape-depth, of which (3) is the light of the voxel. The rate of the
+///   light is the mean of that of the balls, weighted with the light of each.
+///   These depths do not know what a ball smaller than a voxel hides of its own light, because its medium is
+///   spread. The tent, and the linear interpolation of voxels, each add 1/6 to the second moment of the ball
+///   along each axis, R^2 / 9. So the ball is as wide as one with
 ///       W^2 = R^2 + 3                                                                         (5)
 ///   and the depth t R^2 / W^2. A ball of depth t gives light with F(t) of its disc, a spread one hence with
 ///       g = F(t) R^2 / (F(u) W^2),  t = 7 sigma / (2 pi h^2 R^2),  u = t R^2 / W^2            (6)

@@ -56,7 +56,7 @@ struct VolumeSample
 {
     vec4 medium; // rgb emitted light; a extinction, both without their factors
     vec3 scattered;
-    float change; // of the sum of emitted light [1/s]
+    float rate; // [1/s] of emitted light
 };
 
 // Element of the list of voxels, or kNoBrick where no brick is.
@@ -85,6 +85,7 @@ uvec4 wordsOf(int frame, uint at)
     return volumeVoxels[at];
 }
 
+// Adds the rate times its light.
 void addVoxel(int frame, uint at, float weight, inout VolumeSample io)
 {
     uvec4 bits = wordsOf(frame, at);
@@ -93,17 +94,22 @@ void addVoxel(int frame, uint at, float weight, inout VolumeSample io)
     vec3 light = vec3(unpackHalf2x16(bits.y), blueRate.x) * (weight * frames[frame].light.x);
     vec3 albedo = vec3(bits.w & 1023u, bits.w >> 10 & 1023u, bits.w >> 20 & 1023u) / 1023.0;
     io.medium += vec4(light, weight * extinction);
-    io.change += (light.r + light.g + light.b) * blueRate.y;
+    io.rate += (light.r + light.g + light.b) * blueRate.y;
     io.scattered += weight * extinction * albedo;
 }
 
 // Places and velocities are in voxels of the field's lattice.
-VolumeSample mediumAt(int frame, vec3 place)
+vec3 placeIn(int frame, vec3 place)
 {
     place = frames[frame].place.w * place + frames[frame].place.xyz;
     const float kOnVoxel = 1e-3; // [voxel] what places are rounded by
     vec3 nearest = floor(place + 0.5);
-    place = mix(place, nearest, lessThan(abs(place - nearest), vec3(kOnVoxel)));
+    return mix(place, nearest, lessThan(abs(place - nearest), vec3(kOnVoxel)));
+}
+
+// Place in voxels of the frame.
+VolumeSample mediumAt(int frame, vec3 place)
+{
     vec3 first = floor(place);
     vec3 part = place - first;
     VolumeSample found = VolumeSample(vec4(0.0), vec3(0.0), 0.0);
@@ -115,10 +121,59 @@ VolumeSample mediumAt(int frame, vec3 place)
         if (at != kNoBrick)
             addVoxel(frame, at, weight, found);
     }
+    float light = found.medium.r + found.medium.g + found.medium.b;
+    found.rate = light > 0.0 ? found.rate / light : 0.0;
     return found;
 }
 
 #if FX_BETWEEN
+vec4 shifted(vec4 v[4], float t)
+{
+    vec4 found;
+    for (int c = 0; c < 4; ++c)
+        found[c] = fxFlowShift(v[0][c], v[1][c], v[2][c], v[3][c], t);
+    return found;
+}
+
+// Extinction and light are shifted by formula volume-advection (9).
+VolumeSample shiftedAt(int frame, vec3 place)
+{
+    VolumeSample sampled = mediumAt(frame, place);
+    if (!(sampled.medium.a > 0.0))
+        return sampled;
+    vec3 low = floor(place), part = place - low;
+    vec3 dimmest = sampled.medium.rgb / sampled.medium.a, brightest = dimmest; // light over extinction
+    bvec3 isBetween = greaterThan(part, vec3(0.0));
+    vec4 planes[4], rows[4], taps[4];
+    for (int k = 0; k < 4; ++k)
+        planes[k] = rows[k] = taps[k] = vec4(0.0);
+    for (int z = 0; z < 4; ++z) {
+        if (z != 1 && !isBetween.z)
+            continue;
+        for (int y = 0; y < 4; ++y) {
+            if (y != 1 && !isBetween.y)
+                continue;
+            for (int x = 0; x < 4; ++x) {
+                VolumeSample own = VolumeSample(vec4(0.0), vec3(0.0), 0.0);
+                uint at = x == 1 || isBetween.x ? voxelOf(frame, ivec3(low) + ivec3(x, y, z) - 1) : kNoBrick;
+                if (at != kNoBrick)
+                    addVoxel(frame, at, 1.0, own);
+                taps[x] = own.medium;
+                if (own.medium.a > 0.0 && x % 3 != 0 && y % 3 != 0 && z % 3 != 0) {
+                    dimmest = min(dimmest, own.medium.rgb / own.medium.a);
+                    brightest = max(brightest, own.medium.rgb / own.medium.a);
+                }
+            }
+            rows[y] = shifted(taps, part.x);
+        }
+        planes[z] = shifted(rows, part.y);
+    }
+    vec4 found = shifted(planes, part.z);
+    sampled.scattered *= found.a / sampled.medium.a;
+    sampled.medium = vec4(clamp(found.rgb, found.a * dimmest, found.a * brightest), found.a);
+    return sampled;
+}
+
 struct Flow
 {
     vec4 momentum; // xyz weight times velocity [voxel/s]; w weight
@@ -156,13 +211,6 @@ vec3 velocityOr(vec4 momentum, vec3 other)
                 fxFlowVelocity(momentum.z, momentum.w, other.z));
 }
 
-// (s + u) r / 16
-float rateOf(VolumeSample found)
-{
-    float light = found.medium.r + found.medium.g + found.medium.b;
-    return light > 0.0 ? (moment.y + moment.z) / 16.0 * (found.change / light) : 0.0;
-}
-
 float densityOf(float seconds, Flow flow)
 {
     return fxFlowDensity(seconds, fxFlowVelocity(flow.growth, flow.momentum.w, 0.0));
@@ -181,9 +229,9 @@ VolumeSample volumeAt(vec3 place)
         after += moment.z * velocityOr(to.momentum, mixed);    // (3)
         share *= vec2(densityOf(moment.y, from), densityOf(-moment.z, to));
     }
-    VolumeSample a = mediumAt(0, before), b = mediumAt(1, after);
+    VolumeSample a = shiftedAt(0, placeIn(0, before)), b = shiftedAt(1, placeIn(1, after));
     vec2 own = vec2(a.medium.a, b.medium.a), extinction = share * own; // (5)
-    vec2 rates = vec2(rateOf(a), rateOf(b));
+    vec2 rates = (moment.y + moment.z) / 16.0 * vec2(a.rate, b.rate);
     vec3 light;
     for (int c = 0; c < 3; ++c)
         light[c] = fxFlowLight(extinction.x, a.medium[c], extinction.y, b.medium[c], own.x, own.y, rates.x, rates.y); // (7)
@@ -192,7 +240,7 @@ VolumeSample volumeAt(vec3 place)
 #else
 VolumeSample volumeAt(vec3 place)
 {
-    return mediumAt(0, place);
+    return mediumAt(0, placeIn(0, place));
 }
 #endif
 

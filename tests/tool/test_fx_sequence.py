@@ -21,6 +21,7 @@ BALLS_BELOW = os.environ.get("FX_BALLS_BELOW", "2") # [voxel] radius of balls th
 # Along the side of a pixel. A spark is a hundredth of a pixel wide: the same rays meet it in both pictures.
 RAYS = int(os.environ.get("FX_RAYS", "4"))
 MOST_SAMPLES = 16 # of fx render along a pixel
+DRAWN_SIDE = int(os.environ.get("FX_DRAWN_SIDE", "1")) # pixels of OpenGL along a pixel, where pixels are larger than an effect's parts
 AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
 LIGHT = float(os.environ.get("FX_LIGHT", "0.2")) # of emitted light at frames; halfway twice as much
 OWN_LIGHT, LIGHT_HALFWAY = 0.02, 0.15 # of emitted light alone, against voxels of the moment itself; light within a step is mixed from its ends
@@ -58,9 +59,9 @@ class Sequence(FxTest):
             "instances": [{"position": [0, 0, 0], **instance}]}))
 
     def planes(self, scene, time, renderer="reference", rays=1):
-        """Of means over rays x rays rays of a pixel; of GL, one."""
+        """Of means over rays x rays rays of a pixel; of GL, over its pixels."""
         path = self.folder / "a.exr"
-        side = max(1, rays // MOST_SAMPLES)
+        side = DRAWN_SIDE if renderer == "gl" else max(1, rays // MOST_SAMPLES)
         width, height = (side * int(n) for n in SIZE.split("x"))
         exact = () if renderer == "gl" else ("--detail", "off", "--scattering", "none", "--samples", rays // side)
         outcome = fx("render", scene, "--renderer", renderer, "--size", f"{width}x{height}", "--time", time, "-o", path, *exact)

@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <cstring>
 #include <memory>
 
 namespace fx::cli {
@@ -213,6 +214,15 @@ ChildLimits limitsOf(ImportArguments& io)
     return limits;
 }
 
+/// Such as "0.1 m", or "0.09 m to 0.1 m".
+std::string sidesText(const SequenceReport& report)
+{
+    char least[32], most[32];
+    std::snprintf(least, sizeof least, "%.4g m", report.leastSide);
+    std::snprintf(most, sizeof most, "%.4g m", report.side);
+    return std::strcmp(least, most) == 0 ? most : std::string(least) + " to " + most;
+}
+
 int importSequence(ImportArguments& arguments, const NumberedFile& input)
 {
     if (arguments.output.empty()) {
@@ -258,11 +268,12 @@ int importSequence(ImportArguments& arguments, const NumberedFile& input)
                                    {"mass_error", written->massError}},
                                   readMachine()));
     else
-        std::printf("%s: %u frames from %u, at most %zu bricks of voxels of %.4g m to %.4g m in %s, %.1f MiB "
-                    "together, mass within %.2g %%\n",
-                    arguments.output.c_str(), arguments.play.count, arguments.play.first, written->mostBricks,
-                    written->leastSide, written->side, written->files.string().c_str(),
-                    double(written->bytes) / double(kMebibyte), 100.0 * written->massError);
+        std::printf(
+            "%s: %u frames from %u, at most %zu bricks of voxels of %s in %s, %.1f MiB together, mass "
+            "within %.2g %%\n",
+            arguments.output.c_str(), arguments.play.count, arguments.play.first, written->mostBricks,
+            sidesText(*written).c_str(), written->files.string().c_str(),
+            double(written->bytes) / double(kMebibyte), 100.0 * written->massError);
     return kSuccess;
 }
 

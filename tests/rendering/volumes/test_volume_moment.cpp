@@ -221,6 +221,61 @@ TEST(VolumeMoment, aMediumThatMovesIsBetweenItsPlacesAndNotFaded)
     EXPECT_GT(errorOfMoving(way, false, 0.5), 0.5) << "a cross-fade shows two lumps";
 }
 
+/// Also of lumps of a few voxels, by parts of a voxel.
+TEST(VolumeMoment, aMediumThatMovesKeepsItsMassAndItsLight)
+{
+    for (const double width : {0.7, 1.2, 3.0})
+        for (const glm::dvec3& way : {glm::dvec3(0.9, 0.0, 0.0), glm::dvec3(3.3, -1.7, 0.6)}) {
+            const auto at = [&](double part) {
+                return [=](const glm::dvec3& p) { return lump(p, kMiddle + (part - 0.5) * way, width); };
+            };
+            const base::VoxelVolume first =
+                volumeOf(at(0.0), [&](const glm::dvec3&) { return way / kSeconds; });
+            base::VoxelVolume none = first; // the whole medium comes from the first volume
+            none.extinction.assign(first.extinction.size(), 0.0f);
+            none.emission.assign(first.extinction.size(), glm::vec3(0.0f));
+            const auto between = render::MediumVolume::between(render::MediumVolume(first),
+                                                               render::MediumVolume(none), {0.3, kSeconds});
+            double mass = 0.0, light = 0.0, all = 0.0;
+            for (int v = 0; v < 40 * 40 * 40; ++v) {
+                const auto sample = between.at({8 + v % 40, 8 + v / 40 % 40, 8 + v / 1600});
+                mass += sample.extinction;
+                light += sample.emitted.x;
+                all += 0.7 * double(first.extinction[size_t(v)]);
+            }
+            EXPECT_NEAR(mass / all, 1.0, 1e-5) << width;
+            EXPECT_NEAR(light / all, 3.0, 1e-4) << width; // of extinction
+        }
+}
+
+/// Fire behind soot: no voxel between two moments is brighter or denser than those that it comes from.
+TEST(VolumeMoment, betweenVoxelsAreTheirExtremesAtMost)
+{
+    const glm::dvec3 way(0.5, 0.3, -0.7);
+    base::VoxelVolume first =
+        volumeOf([](const glm::dvec3& p) { return p.x > 20.0 && p.x < 40.0 ? 300.0 : 0.0; },
+                 [&](const glm::dvec3&) { return way / kSeconds; });
+    for (size_t v = 0; v < first.emission.size(); ++v) {
+        const int x = 8 * first.bricks[v / 512].x + int(v % 8);
+        first.emission[v] = first.extinction[v] * glm::vec3(x > 23 && x % 5 < 2 ? 1e4f : 1.0f);
+    }
+    const render::MediumVolume a(first);
+    const auto between = render::MediumVolume::between(a, a, {0.5, kSeconds});
+    double most = 0.0, hottest = 0.0, coldest = 1e9;
+    for (int x = 8; x < 48; ++x) {
+        const auto sample = between.at({x, 28, 28});
+        most = std::max(most, sample.extinction);
+        if (sample.extinction > 0.0) {
+            hottest = std::max(hottest, sample.emitted.x / sample.extinction);
+            coldest = std::min(coldest, sample.emitted.x / sample.extinction);
+        }
+        EXPECT_GE(sample.extinction, 0.0);
+    }
+    EXPECT_NEAR(most, 300.0, 1e-3);
+    EXPECT_LE(hottest, 1e4 * (1.0 + 1e-5));
+    EXPECT_GE(coldest, 1.0 - 1e-5);
+}
+
 TEST(VolumeMoment, atItsEndsIsEachVolumeItself)
 {
     const auto [first, second] = moving({7.0, 1.0, 3.0}, true);
