@@ -59,6 +59,32 @@ uint64_t hashOf(uint64_t hash, const std::vector<T>& values)
     return base::hashBytes(hash, values.data(), values.size() * sizeof(T));
 }
 
+/// Bricks of voxels of twice the side that voxels with medium reach, ascending.
+/// @param isEmpty of the voxel with an index in the arrays
+template <class IsEmpty>
+std::vector<glm::ivec3> halvedBricks(const std::vector<glm::ivec3>& own, const IsEmpty& isEmpty)
+{
+    std::vector<glm::ivec3> bricks;
+    for (size_t b = 0; b < own.size(); ++b) {
+        std::array<bool, 8> reached{}; // the last voxels also belong to the bricks behind
+        for (size_t v = b * kVoxels; v < (b + 1) * kVoxels; ++v) {
+            const glm::ivec3 in = isEmpty(v) ? glm::ivec3(-1) : voxelInBrick(v % kVoxels);
+            for (int k = 0; k < 8 && in.x >= 0; ++k)
+                reached[size_t(k)] |= ((k & 1) == 0 || in.x == kSide - 1) &&
+                                      ((k & 2) == 0 || in.y == kSide - 1) &&
+                                      ((k & 4) == 0 || in.z == kSide - 1);
+        }
+        for (int k = 0; k < 8; ++k)
+            if (reached[size_t(k)]) {
+                const glm::ivec3 last = own[b] * kSide + glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * kSide;
+                bricks.push_back({last.x >> 4, last.y >> 4, last.z >> 4});
+            }
+    }
+    std::ranges::sort(bricks, base::isBefore);
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    return bricks;
+}
+
 } // namespace
 
 MediumVolume::MediumVolume(const base::VoxelVolume& volume)
@@ -147,25 +173,7 @@ MediumVolume MediumVolume::halved() const
     const auto isEmpty = [this](size_t v) {
         return extinction_[v] == 0.0f && (emitted_.empty() || emitted_[v] == glm::vec3(0.0f));
     };
-    std::vector<glm::ivec3> bricks;
-    for (size_t b = 0; b < bricks_.size(); ++b) {
-        std::array<bool, 8> reached{}; // the last voxels also belong to the bricks behind
-        for (size_t v = b * kVoxels; v < (b + 1) * kVoxels; ++v) {
-            const glm::ivec3 in = isEmpty(v) ? glm::ivec3(-1) : voxelInBrick(v % kVoxels);
-            for (int k = 0; k < 8 && in.x >= 0; ++k)
-                reached[size_t(k)] |= ((k & 1) == 0 || in.x == kSide - 1) &&
-                                      ((k & 2) == 0 || in.y == kSide - 1) &&
-                                      ((k & 4) == 0 || in.z == kSide - 1);
-        }
-        for (int k = 0; k < 8; ++k)
-            if (reached[size_t(k)]) {
-                const glm::ivec3 last = bricks_[b] * kSide + glm::ivec3(k & 1, k >> 1 & 1, k >> 2) * kSide;
-                bricks.push_back({last.x >> 4, last.y >> 4, last.z >> 4});
-            }
-    }
-    std::ranges::sort(bricks, base::isBefore);
-    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
-    MediumVolume half(std::move(bricks), 2.0f * side_, base::hashWord(hash_, 2));
+    MediumVolume half(halvedBricks(bricks_, isEmpty), 2.0f * side_, base::hashWord(hash_, 2));
     const size_t voxels = half.bricks_.size() * kVoxels;
     half.extinction_.assign(voxels, 0.0f);
     half.scattered_.assign(voxels, glm::vec3(0.0f));
