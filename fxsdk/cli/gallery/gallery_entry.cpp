@@ -118,8 +118,7 @@ public:
         auto scene = sceneOfPreset(entry_.input, &preview);
         if (!scene.ok())
             return scene.status();
-        scene->view.composition = render::Composition::Automatic;
-        scene->view.slices.automatic = true;
+        followPresets(*scene);
         describe(*scene, preview);
         const double aspect = double(options_.width) / double(options_.height);
         if (!preview.hasCamera)

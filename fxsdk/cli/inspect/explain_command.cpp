@@ -174,15 +174,14 @@ struct Scattering
     std::string why;
 };
 
-/// How light is scattered again in the pictures of a scene. A scene that is a preset follows it, as with fx
-/// render.
-Scattering scatteringIn(const scene_file::SceneFile& file, bool isScene)
+/// How light is scattered again in the pictures of a scene.
+Scattering scatteringIn(const scene_file::SceneFile& file)
 {
     using sim::PreferredScattering;
     const sim::DrawingHints hints = scene_file::preferredHints(file);
     const render::SliceSettings& slices = file.view.slices;
     Scattering chosen{hints.scattering, "no preset asks for another"};
-    if (isScene && !slices.automatic) {
+    if (!slices.automatic) {
         chosen = {!slices.multiple ? PreferredScattering::Single
                   : slices.network ? PreferredScattering::Network
                                    : PreferredScattering::ClosedForm,
@@ -195,7 +194,7 @@ Scattering scatteringIn(const scene_file::SceneFile& file, bool isScene)
                 chosen.why = preset.name + " asks for it";
     }
     const render::Composition drawn = file.view.composition;
-    const bool isSummed = isScene && drawn != render::Composition::Automatic
+    const bool isSummed = drawn != render::Composition::Automatic
                               ? drawn == render::Composition::Volume || drawn == render::Composition::Slabs
                               : preset::sumsUp(hints.composition);
     if (chosen.value == PreferredScattering::Network && !isSummed)
@@ -272,12 +271,11 @@ void leaveOutSmallest(std::span<const render::MediumMoments> media, const scene_
 }
 
 /// What the preset of each effect with a medium asks for, what it gets, and why.
-Json scatteringOf(const scene_file::SceneFile& file, const ExplainOptions& options, bool isScene,
+Json scatteringOf(const scene_file::SceneFile& file, const ExplainOptions& options,
                   std::span<const render::MediumMoments> media)
 {
-    const Scattering asked = scatteringIn(file, isScene);
-    const bool chooses =
-        asked.value == sim::PreferredScattering::Network && (!isScene || file.view.slices.automatic);
+    const Scattering asked = scatteringIn(file);
+    const bool chooses = asked.value == sim::PreferredScattering::Network && file.view.slices.automatic;
     std::vector<Scattering> chosen;
     for (const render::MediumMoments& medium : media)
         chosen.push_back(chooses ? chosenFor(medium, file, options, asked) : asked);
@@ -414,6 +412,8 @@ base::Status explain(const ExplainOptions& options)
     auto file = isScene ? scene_file::loadSceneFile(options.input) : sceneOfPreset(options.input);
     if (!file.ok())
         return file.status();
+    if (!isScene)
+        followPresets(*file); // as fx render does
     FrameRendererOptions rendererOptions;
     rendererOptions.width = rendererOptions.height = options.size;
     rendererOptions.settings = file->view;
@@ -451,7 +451,7 @@ base::Status explain(const ExplainOptions& options)
                          {"instances", instances},
                          {"emitters", emittersOf(*file)},
                          {"needs", needsOf(*file)},
-                         {"scattering", scatteringOf(*file, options, isScene, *media)},
+                         {"scattering", scatteringOf(*file, options, *media)},
                          {"seconds_debt", base::toSeconds(statistics.timeDebtTicks)},
                          {"techniques", techniques},
                          {"passes", counters.passes},

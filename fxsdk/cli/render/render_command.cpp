@@ -49,8 +49,7 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     auto scene = sceneOfPreset(arguments.input, &preview, arguments.stage);
     if (!scene.ok())
         return scene;
-    scene->view.composition = render::Composition::Automatic;
-    scene->view.slices.automatic = true;
+    followPresets(*scene);
     if (io.hasDefaultTime && preview.time)
         io.frames[0].tick = base::toTicks(*preview.time);
     if (preview.hasCamera)

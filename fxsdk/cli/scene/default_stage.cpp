@@ -43,6 +43,12 @@ base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scen
     return sceneOfPresetText(*text, input, outPreview, stage);
 }
 
+void followPresets(scene_file::SceneFile& io)
+{
+    io.view.composition = render::Composition::Automatic;
+    io.view.slices.automatic = true;
+}
+
 base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, const std::string& input,
                                                       scene_file::Preview* outPreview,
                                                       const std::string& stage)

@@ -28,6 +28,9 @@ base::Result<scene_file::SceneFile> sceneOfPresetText(const std::string& text, c
                                                       scene_file::Preview* outPreview = nullptr,
                                                       const std::string& stage = {});
 
+/// Lets presets choose the composition and how light is scattered, as tools show a preset.
+void followPresets(scene_file::SceneFile& io);
+
 /// Simulates the effect and places the camera so that the effect is in the picture at all moments between
 /// the start and `until`. Does nothing if there are no elements at these moments.
 /// @param aspect width of the picture over its height

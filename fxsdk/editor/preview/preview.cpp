@@ -170,8 +170,7 @@ base::Result<scene_file::SceneFile> Preview::readScene(const std::string& text, 
         file->camera = file_.camera;
     for (scene_file::SceneInstance& instance : file->instances)
         editor::setMotion(motion_, preview.time.value_or(instance.start), instance);
-    file->view.composition = render::Composition::Automatic;
-    file->view.slices.automatic = true;
+    cli::followPresets(*file);
     return file;
 }
 
