@@ -1,6 +1,7 @@
 #include "fxsdk/scene_file/scene_file.h"
 
 #include "foundation/math/euler.h"
+#include "foundation/snapshot/volume_kind.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
@@ -99,6 +100,22 @@ void readInstances(Reader& reader, const PresetValue& root)
     }
 }
 
+/// Calls `lint(preset, instance)` once for each preset of the scene that could be used, with the first of its
+/// instances.
+template <typename Lint>
+void lintPresets(const Reader& reader, const PresetValue& root, const Lint& lint)
+{
+    std::set<size_t> seen;
+    for (size_t i = 0; i < root.size("instances"); ++i) {
+        const PresetValue instance = root.element("instances", i);
+        std::string name;
+        instance.read("preset", name);
+        const auto index = reader.presetIndices.find(name);
+        if (index != reader.presetIndices.end() && seen.insert(index->second).second)
+            lint(reader.scene.presets[index->second], instance);
+    }
+}
+
 /// Whether the scene sums particles up without an order.
 bool sumsUp(const SceneFile& scene)
 {
@@ -109,26 +126,33 @@ bool sumsUp(const SceneFile& scene)
 
 /// Warns where a preset orders its particles and the scene sums them up. Presets that ask for a sum
 /// themselves have been warned of already.
-void lintOrder(Reader& reader, const PresetValue& root)
+void lintOrder(const Reader& reader, const PresetValue& root)
 {
     if (!sumsUp(reader.scene))
         return;
-    std::set<std::string> seen;
-    for (size_t i = 0; i < root.size("instances"); ++i) {
-        const PresetValue instance = root.element("instances", i);
-        std::string name;
-        instance.read("preset", name);
-        const auto index = reader.presetIndices.find(name);
-        if (index == reader.presetIndices.end() || !seen.insert(name).second)
-            continue;
-        const ScenePreset& preset = reader.scene.presets[index->second];
+    lintPresets(reader, root, [](const ScenePreset& preset, const PresetValue& instance) {
         if (preset::sumsUp(preset.effect->hints.composition))
-            continue;
+            return;
         for (const preset::OrderMember& member :
              preset::orderMembers(Json::parse(preset.text, nullptr, false)))
-            instance.warning("preset", name + ": " + member.pointer + ": " + preset::orderWarning(member) +
+            instance.warning("preset", preset.name + ": " + member.pointer + ": " +
+                                           preset::orderWarning(member) +
                                            "; remove it, or give the scene \"composition\": \"sorted\"");
-    }
+    });
+}
+
+/// Warns where a preset asks for voxels and the scene draws balls.
+void lintVolumes(const Reader& reader, const PresetValue& root)
+{
+    const render::Composition composition = reader.scene.view.composition;
+    if (composition == render::Composition::Automatic || composition == render::Composition::Volume)
+        return;
+    lintPresets(reader, root, [](const ScenePreset& preset, const PresetValue& instance) {
+        if (preset.effect->publishes(base::kVolumeKind) &&
+            preset.effect->hints.composition == sim::PreferredComposition::Volume)
+            instance.warning("preset", preset.name + ": its voxels are drawn as blurred balls; give the "
+                                                     "scene \"composition\": \"automatic\"");
+    });
 }
 
 /// Fills `scene`; false when `findings` has errors.
@@ -155,6 +179,7 @@ bool readScene(std::string_view text, const asset::AssetResolver& resolver, Find
     readSceneMesh(root.child("mesh"), resolver, findings, scene);
     readInstances(reader, root);
     lintOrder(reader, root);
+    lintVolumes(reader, root);
     return !findings.hasErrors();
 }
 

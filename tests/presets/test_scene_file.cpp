@@ -1,4 +1,6 @@
 #include "fxsdk/scene_file/scene_file.h"
+
+#include "fxsdk/assets/volume_file.h"
 #include "fxsdk/scene_file/validate_file.h"
 #include "rendering/image/image.h"
 #include "tests/presets/temp_folder.h"
@@ -93,6 +95,40 @@ TEST(SceneFile, warnsWhereAnOrderOfParticlesIsNotSeen)
     EXPECT_EQ(warnings("", R"("order":"youngest")"), 0u) << "sorted is the default";
     EXPECT_EQ(warnings(R"("composition":"automatic",)", R"("order":"youngest")"), 0u)
         << "nothing asks for more";
+}
+
+TEST(SceneFile, warnsWhereVoxelsAreDrawnAsBalls)
+{
+    fx::base::VoxelVolume volume;
+    volume.side = 0.5f;
+    volume.bricks = {{1, 1, 1}};
+    volume.extinction.assign(fx::base::kVolumeBrickVoxels, 1.0f);
+    const auto bytes = fx::asset::writeVolume(volume);
+    ASSERT_TRUE(bytes.ok()) << bytes.status().message();
+    const TempFolder folder;
+    folder.write("v.fxvolume", *bytes);
+    folder.write("v.fx.json", R"({"version":1,"volumes":[{"file":"v.fxvolume"}]})");
+    folder.write("s.fx.json", R"({"version":1,"composition":"sorted","volumes":[{"file":"v.fxvolume"}]})");
+    folder.write("b.fx.json", R"({"version":1,"emitters":[{"emission":{"rate":1}}]})");
+    const auto warnings = [&](const std::string& view, const std::string& instances) {
+        const auto scene = loadSceneFile(
+            folder.write("s.scene.json", R"({"version":1,"camera":{"position":[0,0,9],"target":[0,0,0]},)" +
+                                             view + R"("instances":[)" + instances + "]}"));
+        EXPECT_TRUE(scene.ok()) << scene.status().message();
+        size_t count = 0;
+        for (const auto& warning : scene.ok() ? scene->warnings : decltype(scene->warnings)())
+            count += warning.message.find("blurred balls") != std::string::npos ? 1 : 0;
+        return count;
+    };
+    const std::string voxels = R"({"preset":"v.fx.json"})", balls = R"({"preset":"b.fx.json"})";
+    EXPECT_EQ(warnings("", voxels), 1u) << "sorted is the default";
+    EXPECT_EQ(warnings("", balls + "," + voxels + "," + voxels), 1u) << "a preset is named once";
+    EXPECT_EQ(warnings("", balls), 0u);
+    EXPECT_EQ(warnings("", R"({"preset":"s.fx.json"})"), 0u) << "as its author wants";
+    EXPECT_EQ(warnings(R"("composition":"slabs",)", voxels), 1u);
+    EXPECT_EQ(warnings(R"("composition":"volume",)", voxels), 0u);
+    EXPECT_EQ(warnings(R"("composition":"automatic",)", voxels), 0u)
+        << "a preset with voxels asks for volume";
 }
 
 TEST(SceneFile, readsTheComposition)

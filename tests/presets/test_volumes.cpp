@@ -327,4 +327,9 @@ TEST(Volumes, presetsNameTheirFileAndWithoutOneAreErrors)
     EXPECT_EQ(def->density, 2.0f);
     EXPECT_NE(def->asset, 0u);
     EXPECT_EQ(def->voxels->bricks.size(), 2u);
+    EXPECT_EQ(loaded->effect->hints.composition, sim::PreferredComposition::Volume);
+    const auto sorted = preset::loadPresetFile(folder.write(
+        "q.fx.json", R"({"version": 1, "composition": "sorted", "volumes": [{"file": "a.fxvolume"}]})"));
+    ASSERT_TRUE(sorted.ok()) << sorted.status().message();
+    EXPECT_EQ(sorted->effect->hints.composition, sim::PreferredComposition::Sorted);
 }

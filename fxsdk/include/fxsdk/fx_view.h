@@ -34,7 +34,8 @@ enum
 enum
 {
     /// Particles are blended from the farthest to the nearest. Where particles overlap, the result is
-    /// approximate.
+    /// approximate. The voxels of preset members `volumes` are drawn as blurred balls, as with
+    /// FX_COMPOSITION_SLABS.
     FX_COMPOSITION_SORTED = 0,
 
     /// Particles are summed in slabs along the ray of each pixel. The result does not depend on the order of

@@ -85,6 +85,8 @@ std::string_view volumesSchema()
 
 void buildVolume(const PresetValue& element, sim::EffectDef& effect)
 {
+    if (effect.hints.composition == sim::PreferredComposition::None)
+        effect.hints.composition = sim::PreferredComposition::Volume; // others draw blurred balls
     uint32_t frames = 0;
     element.read("frames", frames);
     if (frames > 0) {
