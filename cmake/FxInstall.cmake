@@ -68,7 +68,7 @@ foreach(page README.md CHANGELOG.md docs examples)
 endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/fxsdk/presets/library/" "${PROJECT_BINARY_DIR}/fxsdk/presets/library/"
     DESTINATION "${FX_DATA_DIR}/presets" COMPONENT tools
-    FILES_MATCHING PATTERN "*.fx.json" PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.png")
+    FILES_MATCHING PATTERN "*.fx.json" PATTERN "*.fxvolume" PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.png")
 if(TARGET fx)
     set(schemas "")
     foreach(kind preset scene)

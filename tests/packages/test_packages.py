@@ -106,6 +106,9 @@ class Unpacked(unittest.TestCase):
         presets = sorted((self.prefix / "share/fxsdk/presets").glob("*.fx.json"))
         self.assertEqual(len(presets), len(list((ROOT / "fxsdk/presets/library").glob("*.fx.json"))))
         run(self.prefix / "bin/fx", "validate", *presets, env=self.environment)
+        for preset in presets: # to copy a preset, one needs its files
+            for name in re.findall(r'"library:([^"]*\.[a-z]+)"', preset.read_text()):
+                self.assertTrue((preset.parent / name).is_file(), f"{preset.name}: {name}")
         for kind in ("preset", "scene"):
             self.assertIn('"properties"', (self.prefix / f"share/fxsdk/schema/{kind}.schema.json").read_text())
         self.assertTrue((self.prefix / "share/doc/fxsdk/LICENSE").is_file())

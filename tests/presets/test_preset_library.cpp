@@ -54,7 +54,8 @@ TEST(PresetLibrary, holdsWhatItPromisesAndAllOfItIsValid)
                                      "sparks",         "steam",          "burning-debris",  "rain",
                                      "snow",           "fireworks",      "waterfall-mist",  "magic-trail",
                                      "muzzle-flash",   "tracer",         "debris",          "cumulus",
-                                     "stratus-bank",   "ash-plume",      "sandstorm",       "avalanche"}));
+                                     "stratus-bank",   "ash-plume",      "sandstorm",       "avalanche",
+                                     "thunderhead"}));
     for (const std::string& name : list) {
         const auto effect = load(name);
         ASSERT_TRUE(effect);
