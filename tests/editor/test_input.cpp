@@ -25,18 +25,22 @@ protected:
     }
     ~Input() override { ImGui::DestroyContext(); }
 
+    struct Seen
+    {
+        bool shift, control, alt, super;
+        float wheel, wheelH;
+    };
+
     /// Draws a frame that sees `events`.
-    ImGuiIO& frame(const std::vector<InputEvent>& events)
+    static Seen frame(const std::vector<InputEvent>& events)
     {
         applyInput(events);
         ImGui::NewFrame();
-        seen_ = ImGui::GetIO(); // EndFrame() forgets the wheel
+        const ImGuiIO& io = ImGui::GetIO(); // EndFrame() forgets the wheel
+        const Seen seen{io.KeyShift, io.KeyCtrl, io.KeyAlt, io.KeySuper, io.MouseWheel, io.MouseWheelH};
         ImGui::EndFrame();
-        return seen_;
+        return seen;
     }
-
-private:
-    ImGuiIO seen_;
 };
 
 TEST_F(Input, eachModifierIsSeenOnBothSidesOfTheKeyboard)
@@ -45,20 +49,20 @@ TEST_F(Input, eachModifierIsSeenOnBothSidesOfTheKeyboard)
     for (const int first : {kFirstLeft, kFirstRight})
         for (int i = 0; i < 4; ++i) {
             for (const bool isDown : {true, false}) {
-                const ImGuiIO& io = frame({{InputKind::Key, first + i, isDown, 0.0, 0.0}});
-                EXPECT_EQ(io.KeyShift, isDown && i == 0) << first + i;
-                EXPECT_EQ(io.KeyCtrl, isDown && i == 1) << first + i;
-                EXPECT_EQ(io.KeyAlt, isDown && i == 2) << first + i;
-                EXPECT_EQ(io.KeySuper, isDown && i == 3) << first + i;
+                const Seen seen = frame({{InputKind::Key, first + i, isDown, 0.0, 0.0}});
+                EXPECT_EQ(seen.shift, isDown && i == 0) << first + i;
+                EXPECT_EQ(seen.control, isDown && i == 1) << first + i;
+                EXPECT_EQ(seen.alt, isDown && i == 2) << first + i;
+                EXPECT_EQ(seen.super, isDown && i == 3) << first + i;
             }
         }
 }
 
 TEST_F(Input, bothDirectionsOfTheWheelAreSeen)
 {
-    const ImGuiIO& io = frame({{InputKind::Wheel, 0, false, 2.0, -3.0}});
-    EXPECT_EQ(io.MouseWheelH, 2.0f);
-    EXPECT_EQ(io.MouseWheel, -3.0f);
+    const Seen seen = frame({{InputKind::Wheel, 0, false, 2.0, -3.0}});
+    EXPECT_EQ(seen.wheelH, 2.0f);
+    EXPECT_EQ(seen.wheel, -3.0f);
 }
 
 } // namespace
