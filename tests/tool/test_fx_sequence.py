@@ -21,12 +21,13 @@ BALLS_BELOW = os.environ.get("FX_BALLS_BELOW", "2") # [voxel] radius of balls th
 # Along the side of a pixel. A spark is a hundredth of a pixel wide: the same rays meet it in both pictures.
 RAYS = int(os.environ.get("FX_RAYS", "4"))
 MOST_SAMPLES = 16 # of fx render along a pixel
-DRAWN_SIDE = int(os.environ.get("FX_DRAWN_SIDE", "1")) # pixels of OpenGL along a pixel, where pixels are larger than an effect's parts
 AT_FRAMES, HALFWAY = 0.03, 0.06 # relative errors that are allowed
 LIGHT = float(os.environ.get("FX_LIGHT", "0.2")) # of emitted light
-OWN_LIGHT, LIGHT_HALFWAY = 0.02, 0.04 # of emitted light alone, against voxels of the moment itself; light within a step is mixed from its ends
+OWN_LIGHT = 0.02                # of emitted light alone, against voxels of the moment itself; halfway:
+LIGHT_HALFWAY = float(os.environ.get("FX_LIGHT_HALFWAY", "0.04")) # light within a step is mixed from its ends
 LIGHT_OFF = 0.05                # of the sum of light from that of the balls; 0.12 with voxels alone
-DRAWN = 0.06                    # of OpenGL, where pixels are larger than voxels, which are then replaced by coarser ones
+DRAWN = 0.01                    # of OpenGL, in pixels of the size of a voxel
+DISTANCE, FOV = 30.0, 40.0      # [m], [degrees] of the camera
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
 
 
@@ -59,9 +60,9 @@ class Sequence(FxTest):
             "instances": [{"position": [0, 0, 0], **instance}]}))
 
     def planes(self, scene, time, renderer="reference", rays=1):
-        """Of means over rays x rays rays of a pixel; of GL, over its pixels."""
+        """Of means over rays x rays rays of a pixel; of GL, each through a pixel of its own."""
         path = self.folder / "a.exr"
-        side = DRAWN_SIDE if renderer == "gl" else max(1, rays // MOST_SAMPLES)
+        side = rays if renderer == "gl" else max(1, rays // MOST_SAMPLES)
         width, height = (side * int(n) for n in SIZE.split("x"))
         exact = () if renderer == "gl" else ("--detail", "off", "--scattering", "none", "--samples", rays // side)
         outcome = fx("render", scene, "--renderer", renderer, "--size", f"{width}x{height}", "--time", time, "-o", path, *exact)
@@ -88,7 +89,8 @@ class Sequence(FxTest):
         balls_below = float(BALLS_BELOW) * max(sides) # [m]
         self.assertTrue(line["velocities"])
         self.assertEqual(line["balls_beside"] > 0, float(BALLS_BELOW) > 0)
-        camera = {"position": [0, 6, 30], "target": [0, 5, 0], "fovYDegrees": 40}
+        camera = {"position": [0, 6, DISTANCE], "target": [0, 5, 0], "fovYDegrees": FOV}
+        pixel = 2 * DISTANCE * math.tan(math.radians(FOV / 2)) / int(SIZE.split("x")[1]) # [m]
         original = self.scene("original.scene.json", {"preset": "library:explosion"}, camera)
         played = self.scene("played.scene.json", {"preset": "a.fx.json", "start": first / FPS}, camera)
         for frame in SHOWN:
@@ -105,7 +107,7 @@ class Sequence(FxTest):
                 outcome = fx("import", self.folder / "own.vdb", "-o", self.folder / "own.fx.json", "--bricks")
                 self.assertEqual(outcome.code, 0, outcome.err)
                 own = error_of(found, self.planes(self.scene("own.scene.json", {"preset": "own.fx.json"}, camera), time, rays=RAYS))
-                drawn, _ = error_of(self.planes(played, time, "gl"), found)
+                drawn, _ = error_of(self.planes(played, time, "gl", math.ceil(pixel / side)), found)
                 print(f"frame {frame + part}: {side:.4f} m, opacity {opacity:.4f}, light {light:.4f} and its sum {sums[0] / sums[1]:.3f}; against voxels of the moment itself {own[0]:.4f}, "
                       f"light {own[1]:.4f}; opacity of GL against the reference {drawn:.4f}", flush=True)
                 with self.subTest(frame=frame + part):
