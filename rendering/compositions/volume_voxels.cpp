@@ -2,6 +2,7 @@
 
 #include "foundation/assets/asset_table.h"
 #include "foundation/assets/volume_sequence.h"
+#include "rendering/compositions/voxel_texture.h"
 #include "rendering/volumes/volume_levels.h"
 
 #include <algorithm>
@@ -15,24 +16,11 @@ namespace {
 constexpr uint32_t kUnusedFrames = 300; ///< after which a volume is forgotten
 constexpr uint32_t kUnusedFramesOfSequences = 2;
 
-/// [byte] of the buffer of voxels
-size_t voxelBytes(size_t bricks, bool hasVelocities)
+/// Number of elements of MediumVolume::packedWithVelocities().
+uint64_t packedSize(size_t bricks, bool hasVelocities)
 {
-    const size_t bytes = bricks * base::kVolumeBrickVoxels * sizeof(MediumVolume::Packed);
-    return hasVelocities ? bytes + bytes / 2 : bytes;
-}
-
-/// A buffer with these bytes.
-template <class T>
-base::Status fillBuffer(GlDevice& device, const std::vector<T>& values, const char* name, GlBuffer& out)
-{
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
-    base::Result<GlBuffer> made = GlBuffer::create(device, bytes.size(), name);
-    if (!made)
-        return made.status();
-    device.gl.NamedBufferSubData(made->name(), 0, GLsizeiptr(bytes.size()), bytes.data());
-    out = std::move(*made);
-    return {};
+    const uint64_t voxels = uint64_t(bricks) * base::kVolumeBrickVoxels;
+    return hasVelocities ? voxels + voxels / 2 : voxels;
 }
 
 } // namespace
@@ -51,7 +39,7 @@ VolumeVoxels::Volume* VolumeVoxels::find(VoxelsName name, const base::AssetTable
     }
     auto sequence = assets.sequence(name.asset);
     auto voxels = sequence ? sequence->find(name.frame) : assets.volume(name.asset);
-    if (!voxels || voxelBytes(voxels->bricks.size(), !voxels->velocity.empty()) > mostBytes())
+    if (!voxels || packedSize(voxels->bricks.size(), !voxels->velocity.empty()) > mostVoxelTexels(device_))
         return nullptr;
     Volume made{.name = name, .sequence = std::move(sequence), .source = std::move(voxels)};
     for (const float extinction : made.source->extinction)
@@ -114,14 +102,6 @@ void VolumeVoxels::beginFrame()
     std::erase_if(small_, [](const SmallSequence& sequence) { return sequence.unused > kUnusedFrames; });
 }
 
-/// As many as the driver can read from one buffer.
-size_t VolumeVoxels::mostBytes() const
-{
-    GLint most = 0;
-    device_.gl.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    return size_t(std::max(most, 0));
-}
-
 base::Status VolumeVoxels::makeRoom(const ShownVoxels& voxels, int level)
 {
     const base::Status status = makeRoom(voxels.first, level);
@@ -147,16 +127,22 @@ base::Status VolumeVoxels::makeRoom(VoxelsName name, int level)
 
 base::Status VolumeVoxels::upload(const base::VolumeLevel& level, Level& out)
 {
-    if (level.voxels.size() * sizeof(base::VolumeLevel::Packed) > mostBytes())
+    if (level.voxels.size() > mostVoxelTexels(device_))
         return {base::Code::TooLarge, "a volume is so scattered that its coarser voxels need more "
-                                      "memory than the driver reads from one buffer"};
+                                      "memory than the driver reads from one texture"};
     out.low = level.index.low();
     out.size = level.index.size();
     out.bricks = level.bricks;
     out.brightest = level.brightest;
-    if (base::Status status = fillBuffer(device_, level.index.table(), "volume index", out.index); !status)
-        return status;
-    return fillBuffer(device_, level.voxels, "volume voxels", out.voxels);
+    const std::span<const std::byte> table = std::as_bytes(std::span(level.index.table()));
+    auto index = GlBuffer::create(device_, table.size(), "volume index");
+    auto voxels = makeVoxelTexture(device_, level.voxels, "volume voxels");
+    if (!index || !voxels)
+        return index ? voxels.status() : index.status();
+    device_.gl.NamedBufferSubData(index->name(), 0, GLsizeiptr(table.size()), table.data());
+    out.index = std::move(*index);
+    out.voxels = std::move(*voxels);
+    return {};
 }
 
 const VolumeVoxels::Level& VolumeVoxels::levelOf(VoxelsName name, int level) const
@@ -171,7 +157,9 @@ void VolumeVoxels::import(FrameGraph& graph, const ShownVoxels& voxels, int leve
     for (int k = 0; k < (isBetween ? 2 : 1); ++k) {
         const Level& held = levelOf(k == 0 ? voxels.first : voxels.second, level);
         io.index[k] = graph.importBuffer({"volume index", held.index.bytes()}, held.index.name());
-        io.voxels[k] = graph.importBuffer({"volume voxels", held.voxels.bytes()}, held.voxels.name());
+        io.voxels[k] = graph.importTexture(
+            {"volume voxels", held.voxels.width(), held.voxels.height(), Format::RGBA32UI},
+            held.voxels.name());
         FieldVolumeBlock::Frame& block = io.block.frames[k];
         block.low = glm::ivec4(held.low, int(held.bricks));
         block.size = glm::ivec4(held.size, 0);

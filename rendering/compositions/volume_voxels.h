@@ -5,6 +5,7 @@
 #include "rendering/field/field_volume_pass.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_texture.h"
 #include "rendering/volumes/medium_volume.h"
 #include "rendering/volumes/volume_place.h"
 
@@ -54,8 +55,8 @@ public:
     /// find().
     void beginFrame();
     /// The voxels of a volume at its moment. Nothing if the table has neither a volume nor a sequence with
-    /// its id, if a frame of the sequence has not been read yet, or if the driver cannot read the voxels from
-    /// one buffer. Frames that will be shown next are read in advance.
+    /// its id, if a frame of the sequence has not been read yet, or if one texture cannot hold the voxels.
+    /// Frames that will be shown next are read in advance.
     std::optional<ShownVoxels> find(const base::AssetTable* assets, const GroupVolume& volume);
     /// Has the coarser levels made of a sequence that find() has returned, also of the frames that follow.
     void wantCoarser(const base::AssetTable& assets, const ShownVoxels& voxels);
@@ -73,7 +74,8 @@ private:
         glm::ivec3 low{0}, size{0}; ///< [brick] of the index
         uint32_t bricks = 0;
         float brightest = 1.0f; ///< [cd/m3]
-        GlBuffer index, voxels;
+        GlBuffer index;
+        GlTexture voxels;
     };
     struct Volume
     {
@@ -96,7 +98,6 @@ private:
     base::Status makeRoom(VoxelsName name, int level);
     base::Status upload(const base::VolumeLevel& level, Level& out);
     const Level& levelOf(VoxelsName name, int level) const;
-    size_t mostBytes() const;
 
     GlDevice& device_;
     std::pmr::vector<Volume> volumes_;

@@ -52,15 +52,15 @@ FieldVolumePass::Outputs FieldVolumePass::addTo(FrameGraph& graph, const Inputs&
                 images[count++] = {2, textures.shares};
             for (uint32_t g = 0; detail && g < 2; ++g)
                 images[count++] = {3 + g, textures.material[g]};
-            const BufferBinding buffers[] = {{0, in.balls},    {2, in.bricks},    {3, in.brickBalls},
-                                             {4, in.index[0]}, {5, in.voxels[0]}, {6, in.index[1]},
-                                             {7, in.voxels[1]}};
-            const TextureBinding read[] = {{kFieldTexelUnit, in.fieldTexels}};
+            const BufferBinding buffers[] = {
+                {0, in.balls}, {2, in.bricks}, {3, in.brickBalls}, {4, in.index[0]}, {5, in.index[1]}};
+            const TextureBinding read[] = {
+                {kFieldTexelUnit, in.fieldTexels}, {0, in.voxels[0]}, {1, in.voxels[1]}};
             DispatchCall call;
             call.program = &fieldVolumeProgram(layers, between, detail);
             call.images = std::span(images).first(count);
-            call.buffers = std::span(buffers).first(between ? 7 : 5);
-            call.textures = read;
+            call.buffers = std::span(buffers).first(between ? 5 : 4);
+            call.textures = std::span(read).first(between ? 3 : 2);
             call.uniforms = asUniforms(in.block);
             call.groups[0] = in.brickCount;
             backend.dispatch(call);

@@ -39,7 +39,7 @@ static_assert(sizeof(FieldVolumeBlock) == 256);
 ///         bricks       buffer of FieldBrickBlock
 ///         brickBalls   buffer of indices of balls
 ///         index        buffer of base::BrickIndex::table()
-///         voxels       buffer of MediumVolume::packedWithVelocities()
+///         voxels       texture of MediumVolume::packedWithVelocities(), see voxel_texture.h
 ///         index[1], voxels[1]  those of the second frame; invalid unless the moment is between two frames
 /// writes  textures     of FieldFillPass, which must have run before: medium, scatter, shares, table, and
 ///                      change: the extinction less that of the balls that stand for the volume in light

@@ -22,6 +22,7 @@ enum class Format : uint8_t
     R32F,
     R32UI,
     RG32UI,
+    RGBA32UI,
     Depth32F, ///< a depth target
 };
 
@@ -29,6 +30,7 @@ constexpr size_t formatBytes(Format format)
 {
     switch (format) {
     case Format::RGBA32F:
+    case Format::RGBA32UI:
         return 16;
     case Format::RGBA16F:
         return 8;

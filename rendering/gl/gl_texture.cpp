@@ -13,6 +13,7 @@ uint64_t texelBytes(GLenum internalFormat)
 {
     switch (internalFormat) {
     case GL_RGBA32F:
+    case GL_RGBA32UI:
         return 16;
     case GL_RGB32F:
         return 12;
@@ -49,6 +50,8 @@ GLenum glInternalFormat(Format format)
         return GL_R32UI;
     case Format::RG32UI:
         return GL_RG32UI;
+    case Format::RGBA32UI:
+        return GL_RGBA32UI;
     case Format::Depth32F:
         return GL_DEPTH_COMPONENT32F;
     }

@@ -13,12 +13,11 @@
 layout(local_size_x = 81) in;
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(std430, binding = 3) readonly buffer BrickBalls { uint brickBalls[]; };
-// Brick at each place of the box, or kNoBrick; MediumVolume::packedWithVelocities()
-layout(std430, binding = 4) readonly buffer VolumeIndex { uint volumeIndex[]; };
-layout(std430, binding = 5) readonly buffer VolumeVoxels { uvec4 volumeVoxels[]; };
+layout(std430, binding = 4) readonly buffer VolumeIndex { uint volumeIndex[]; }; // brick at each place of the box, or kNoBrick
+layout(binding = 0) uniform usampler3D volumeVoxels; // MediumVolume::packedWithVelocities(), see wordsOf()
 #if FX_BETWEEN
-layout(std430, binding = 6) readonly buffer SecondIndex { uint secondIndex[]; };
-layout(std430, binding = 7) readonly buffer SecondVoxels { uvec4 secondVoxels[]; };
+layout(std430, binding = 5) readonly buffer SecondIndex { uint secondIndex[]; };
+layout(binding = 1) uniform usampler3D secondVoxels;
 #endif
 layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted light [exposed/m]; a extinction [1/m]
 layout(rgba16f, binding = 1) uniform writeonly image3D scatter; // rgb mean albedo; a mean cosine of the phase function
@@ -76,13 +75,15 @@ uint voxelOf(int frame, ivec3 voxel)
     return brick == kNoBrick ? kNoBrick : 512u * brick + uint(inBrick.x + 8 * inBrick.y + 64 * inBrick.z);
 }
 
+// An element of the list; kColumns and kRows in rendering/compositions/voxel_texture.cpp are equal.
 uvec4 wordsOf(int frame, uint at)
 {
+    ivec3 texel = ivec3(at & 511u, at >> 9 & 511u, at >> 18);
 #if FX_BETWEEN
     if (frame == 1)
-        return secondVoxels[at];
+        return texelFetch(secondVoxels, texel, 0);
 #endif
-    return volumeVoxels[at];
+    return texelFetch(volumeVoxels, texel, 0);
 }
 
 // Adds the rate times its light.

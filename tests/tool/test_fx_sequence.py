@@ -26,7 +26,7 @@ LIGHT = float(os.environ.get("FX_LIGHT", "0.2")) # of emitted light
 OWN_LIGHT = 0.02                # of emitted light alone, against voxels of the moment itself; halfway:
 LIGHT_HALFWAY = float(os.environ.get("FX_LIGHT_HALFWAY", "0.04")) # light within a step is mixed from its ends
 LIGHT_OFF = 0.05                # of the sum of light from that of the balls; 0.12 with voxels alone
-DRAWN = 0.01                    # of OpenGL, in pixels of the size of a voxel
+DRAWN = 0.005                   # of OpenGL, in pixels of the size of a voxel
 DISTANCE, FOV = 30.0, 40.0      # [m], [degrees] of the camera
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb"
 
@@ -54,7 +54,7 @@ def error_of(planes, wanted):
 class Sequence(FxTest):
     def scene(self, name, instance, camera):
         return self.write(name, json.dumps({
-            "version": 1, "name": "a", "camera": camera, "exposureEv100": 14, "composition": "volume",
+            "version": 1, "name": "a", "camera": camera, "exposureEv100": 14, "composition": "volume", "voxels": 256,
             "lighting": {"sunDirection": [-0.6, 0.5, 0.6], "sunIlluminance": [60000, 57000, 50000],
                          "skyLuminance": [0, 0, 0], "groundAlbedo": 0},
             "instances": [{"position": [0, 0, 0], **instance}]}))

@@ -14,6 +14,35 @@ TEST_F(VolumeVoxelsTest, areTheIntegralOfWhatTheyEmitAndAbsorb)
     expectEqual(picture, integrals(lumps(), upright, 1.0, 5.0), 0.01);
 }
 
+TEST_F(VolumeVoxelsTest, mayBeMoreThanABufferHolds)
+{
+    GLint buffer = 0; // [byte]
+    device_->gl.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &buffer);
+    if (buffer > 1 << 28)
+        GTEST_SKIP() << "the driver's buffers hold more voxels than a test has memory for";
+    const base::VoxelVolume seen = lumps();
+    const size_t bytes = base::kVolumeBrickVoxels * sizeof(render::MediumVolume::Packed);
+    const size_t empty = size_t(buffer) / bytes + 300; // bricks behind the eye; amid a layer of the texture
+    base::VoxelVolume voxels;
+    voxels.side = seen.side;
+    voxels.origin = seen.origin;
+    for (int i = 0; voxels.bricks.size() < empty; ++i)
+        voxels.bricks.push_back({i % 26 - 13, i / 26 % 26 - 13, 8 + i / (26 * 26)});
+    voxels.bricks.insert(voxels.bricks.end(), seen.bricks.begin(), seen.bricks.end());
+    const auto behindEmpty = [&](const auto& values) {
+        std::remove_cvref_t<decltype(values)> all(empty * base::kVolumeBrickVoxels);
+        all.insert(all.end(), values.begin(), values.end());
+        return all;
+    };
+    voxels.extinction = behindEmpty(seen.extinction);
+    voxels.temperature = behindEmpty(seen.temperature);
+    voxels.albedo = behindEmpty(seen.albedo);
+    voxels.emission = behindEmpty(seen.emission);
+    const glm::quat upright(1.0f, 0.0f, 0.0f, 0.0f);
+    const Picture picture = render(publish(voxels, upright, 1.0f), camera(5.0));
+    expectEqual(picture, integrals(seen, upright, 1.0, 5.0), 0.01);
+}
+
 TEST_F(VolumeVoxelsTest, ofSootHideTheFireBehindThem)
 {
     base::VoxelVolume voxels = lumps();

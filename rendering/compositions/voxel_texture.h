@@ -1,0 +1,25 @@
+/// @file voxel_texture.h
+/// The voxels of a volume as texels. Drivers read textures of many gigabytes, but buffers of a shader of no
+/// more than they promise, as little as 16 MiB; and software renderers read textures faster than buffers.
+#pragma once
+
+#include "foundation/assets/volume_levels.h"
+#include "rendering/gl/gl_texture.h"
+
+#include <cstdint>
+#include <span>
+
+namespace fx::render {
+
+/// Number of elements of a list that a texture holds.
+uint64_t mostVoxelTexels(const GlDevice& device);
+
+/// Creates a texture of three dimensions that holds a list: element i is texel (i % 512, i / 512 % 512, i /
+/// 512^2). Threads: [GL thread].
+/// @param list not empty, mostVoxelTexels() elements at most
+/// @param label a string literal
+/// @return OutOfMemory
+base::Result<GlTexture> makeVoxelTexture(GlDevice& device, std::span<const base::VolumeLevel::Packed> list,
+                                         const char* label);
+
+} // namespace fx::render
