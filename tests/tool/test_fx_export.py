@@ -195,7 +195,9 @@ class Export(FxTest):
         exact = self.opacity("library:explosion", "0.6", "--detail", "on", "--samples", "4")
         errors = []
         for words in ((), ("--detail",)):
-            self.export("library:explosion", "-o", self.folder / "a.vdb", "--time", "0.6", "--voxels", "400000", *words)
+            outcome = fx("export", "library:explosion", "-o", self.folder / "a.vdb", "--time", "0.6", "--voxels", "400000", *words)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            self.assertEqual("warning: media are smooth" in outcome.err, not words)
             outcome = fx("import", self.folder / "a.vdb", "-o", self.folder / "a.fx.json", "--bricks")
             self.assertEqual(outcome.code, 0, outcome.err)
             found = self.opacity(self.folder / "a.fx.json", "0", "--samples", "2")
@@ -207,7 +209,9 @@ class Export(FxTest):
     def test_balls_without_detail_are_the_same_with_it(self):
         balls = self.list_of_balls()
         for name, words in (("a.vdb", ()), ("b.vdb", ("--detail",))):
-            self.export(balls, "-o", self.folder / name, "--voxel-size", "0.2", *words)
+            outcome = fx("export", balls, "-o", self.folder / name, "--voxel-size", "0.2", *words)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            self.assertNotIn("warning", outcome.err)
         self.assertEqual((self.folder / "a.vdb").read_bytes(), (self.folder / "b.vdb").read_bytes())
 
     def test_small_balls_of_a_list_are_a_point_each(self):

@@ -75,6 +75,7 @@ public:
     double largestVoxelSize() const { return *std::ranges::max_element(voxelSizes_); }
     uint64_t mostVoxels() const { return mostVoxels_; }
     uint64_t nonFinite() const { return nonFinite_; }
+    bool leftDetailOut() const { return leftDetailOut_; }
 
 private:
     /// Of each frame the smallest at which it, with small balls as voxels too, keeps to the budget; a
@@ -158,6 +159,7 @@ private:
             return {report.status().code(), placeOf(frame) + report.status().message()};
         mostVoxels_ = std::max(mostVoxels_, report->voxels);
         nonFinite_ += moment.nonFinite;
+        leftDetailOut_ = leftDetailOut_ || (moment.details.isGiven() && !arguments_.detail);
         if (arguments_.json)
             printJsonLine(withMachine({{"file", plan_.output.frame(frame.number).string()},
                                        {"time", base::toSeconds(frame.tick)},
@@ -211,6 +213,7 @@ private:
     std::optional<MomentBalls> only_; ///< of one file, where it is known already
     uint64_t mostVoxels_ = 0;
     uint64_t nonFinite_ = 0;
+    bool leftDetailOut_ = false; ///< of fields that have it
 };
 
 std::string sizesText(double smallest, double largest)
@@ -254,6 +257,9 @@ int runExport(const ExportArguments& arguments)
     if (job.nonFinite() > 0)
         std::fprintf(stderr, "warning: %llu balls were left out because a number was not finite\n",
                      static_cast<unsigned long long>(job.nonFinite()));
+    if (job.leftDetailOut())
+        std::fprintf(stderr, "warning: media are smooth without the detail that fx render draws in them; "
+                             "--detail writes it\n");
     if (!arguments.json)
         std::printf("%s: %zu %s with voxels of %s m, at most %llu\n", arguments.output.c_str(),
                     plan->frames.size(), plan->frames.size() == 1 ? "file" : "files",
