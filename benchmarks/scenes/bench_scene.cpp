@@ -59,8 +59,9 @@ base::Status BenchScene::startGl()
     if (!color.ok())
         return color.status();
     color_ = std::move(*color);
-    if (base::Status status = toStatus(fxContext_WarmUp(context_)); !status)
-        return status;
+    if (options_.warmsUp)
+        if (base::Status status = toStatus(fxContext_WarmUp(context_)); !status)
+            return status;
     FxViewSettings settings = fxDefaultViewSettings();
     settings.dazzle = 0; // glare of the host's picture is not a cost of effects
     frame_.colorTexture = color_.name();

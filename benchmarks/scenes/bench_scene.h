@@ -23,7 +23,8 @@ public:
     {
         bool gl = false;
         bool culling = true;
-        int pixels = 256; ///< [pixel] width and height of the picture
+        int pixels = 256;    ///< [pixel] width and height of the picture
+        bool warmsUp = true; ///< false: the first frames compile the programs that they need
     };
     static base::Result<std::unique_ptr<BenchScene>> create(const Options& options);
     ~BenchScene();

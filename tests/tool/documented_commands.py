@@ -152,7 +152,7 @@ class Small:
 
 
 FEW = {"--count": "1000", "--steps": "1"}
-HAVE_SMALL = ("paper-frame", "billboards", "composition", "detail", "layer-scale", "slices", "lit-frame", "network-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "network", "trace",
+HAVE_SMALL = ("paper-frame", "billboards", "layer-scale", "slices", "network-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "network", "trace",
               "reference", "parallel-loop", "work-units")  # an option for it
 # Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
@@ -166,12 +166,16 @@ SMALL = (
     Small(("fx", "bench", "emit"), FEW),
     Small(("fx", "bench", "frame"), FEW),
     *(Small(("fx", "bench", name), {"--small": None}) for name in HAVE_SMALL),
-    Small(("fx", "bench", "blocks"), {"--small": None}, {"--count": "1000000"}),
+    *(Small(("fx", "bench", name), {"--small": None}, {"--size": "64x36"}) for name in ("composition", "lit-frame")),
+    Small(("fx", "bench", "blocks"), {"--small": None, "--repeat": "1"}, {"--size": "64x36", "--count": "20000"}),
+    Small(("fx", "bench", "detail"), {"--small": None, "--repeat": "1"}),
+    Small(("fx", "explain"), {"--size": "32"}),
     Small(("fx", "bench", "--plot"), {"--most": "1000"}),
     Small(("fx", "bench", "city"), {"--instances": "100", "--frames": "2"}, dropped=("--check",)),
     Small(("fx", "bench", "lod"), {"--instances": "2", "--size": "64", "--repeats": "1", "--flight": "2"}, dropped=("--check",)),
     Small(("fx", "bench", "budget"), {"--frames": "2", "--size": "16x16", "--budget": "5"}, dropped=("--check",)),
-    Small(("fx", "calibrate"), {"--size": "16x16", "--repeat": "1"}, absent={"-o": "my-gpu.json"}),
+    # of all techniques: test_fx_budget.py
+    Small(("fx", "calibrate"), {"--size": "16x16", "--repeat": "1"}, absent={"-o": "my-gpu.json", "--technique": "shimmer"}),
     Small(("fx", "verify"), {"--particles": "512", "--time": "0.001"}),
     *(Small(("fx", "accuracy", technique), {"--repeat": "1", "--no-callgrind": None}, absent={"--scene": scene})
       for technique, scene in (("ray-integral", "tau-0.1"), ("furnace", "float"), ("billboards", "isolated-1"),

@@ -160,15 +160,18 @@ class Checker:
 
     def run(self, words):
         """@return empty, or what went wrong"""
-        return self.run_line(shlex.join(made_small(words)))
+        small = made_small(words)
+        return self.run_line(shlex.join(small), tuple(sorted(small)))
 
-    def run_line(self, line):
-        if line not in self.done:
+    def run_line(self, line, key=None):
+        """@param key equal for lines that differ in the order of their options"""
+        key = key or line
+        if key not in self.done:
             begin = time.monotonic()
             code, said = self.workplace.run(line)
             self.seconds[line] = time.monotonic() - begin
-            self.done[line] = "" if code == 0 else f"`{line}` ended with {code}: {said[-400:]}"
-        return self.done[line]
+            self.done[key] = "" if code == 0 else f"`{line}` ended with {code}: {said[-400:]}"
+        return self.done[key]
 
     def faults(self, command):
         """What is wrong with one command: a list of lines."""

@@ -82,7 +82,7 @@ struct IdleRow
 
 base::Result<std::unique_ptr<BenchScene>> makeScene(const BenchIdleOptions& options)
 {
-    auto made = BenchScene::create({options.gl, true, 64});
+    auto made = BenchScene::create({options.gl, true, 64, false}); // the compiler is slow under valgrind
     if (!made.ok())
         return made.status();
     BenchScene& scene = **made;
