@@ -1,6 +1,7 @@
 /// @file voxel_texture.h
-/// The voxels of a volume as texels. Drivers read textures of many gigabytes, but buffers of a shader of no
-/// more than they promise, as little as 16 MiB; and software renderers read textures faster than buffers.
+/// The voxels of a volume as texels. A shader reads a buffer only up to the size that the driver states,
+/// which may be as little as 16 MiB; a texture of three dimensions has 2048 texels along each side with every
+/// driver.
 #pragma once
 
 #include "foundation/assets/volume_levels.h"

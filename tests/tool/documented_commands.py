@@ -167,7 +167,7 @@ SMALL = (
     Small(("fx", "bench", "frame"), FEW),
     *(Small(("fx", "bench", name), {"--small": None}) for name in HAVE_SMALL),
     *(Small(("fx", "bench", name), {"--small": None}, {"--size": "64x36"}) for name in ("composition", "lit-frame")),
-    Small(("fx", "bench", "blocks"), {"--small": None, "--repeat": "1"}, {"--size": "64x36", "--count": "20000"}),
+    Small(("fx", "bench", "blocks"), {"--small": None, "--repeat": "1"}, {"--size": "64x36", "--count": "20000"}, {"--count": "20000"}),
     Small(("fx", "bench", "detail"), {"--small": None, "--repeat": "1"}),
     Small(("fx", "explain"), {"--size": "32"}),
     Small(("fx", "bench", "--plot"), {"--most": "1000"}),
