@@ -16,13 +16,6 @@ namespace {
 constexpr uint32_t kUnusedFrames = 300; ///< after which a volume is forgotten
 constexpr uint32_t kUnusedFramesOfSequences = 2;
 
-/// Number of elements of MediumVolume::packedWithVelocities().
-uint64_t packedSize(size_t bricks, bool hasVelocities)
-{
-    const uint64_t voxels = uint64_t(bricks) * base::kVolumeBrickVoxels;
-    return hasVelocities ? voxels + voxels / 2 : voxels;
-}
-
 } // namespace
 
 VolumeVoxels::Volume* VolumeVoxels::known(VoxelsName name)
@@ -39,7 +32,7 @@ VolumeVoxels::Volume* VolumeVoxels::find(VoxelsName name, const base::AssetTable
     }
     auto sequence = assets.sequence(name.asset);
     auto voxels = sequence ? sequence->find(name.frame) : assets.volume(name.asset);
-    if (!voxels || packedSize(voxels->bricks.size(), !voxels->velocity.empty()) > mostVoxelTexels(device_))
+    if (!voxels)
         return nullptr;
     Volume made{.name = name, .sequence = std::move(sequence), .source = std::move(voxels)};
     for (const float extinction : made.source->extinction)
@@ -127,9 +120,6 @@ base::Status VolumeVoxels::makeRoom(VoxelsName name, int level)
 
 base::Status VolumeVoxels::upload(const base::VolumeLevel& level, Level& out)
 {
-    if (level.voxels.size() > mostVoxelTexels(device_))
-        return {base::Code::TooLarge, "a volume is so scattered that its coarser voxels need more "
-                                      "memory than the driver reads from one texture"};
     out.low = level.index.low();
     out.size = level.index.size();
     out.bricks = level.bricks;

@@ -55,12 +55,12 @@ public:
     /// find().
     void beginFrame();
     /// The voxels of a volume at its moment. Nothing if the table has neither a volume nor a sequence with
-    /// its id, if a frame of the sequence has not been read yet, or if one texture cannot hold the voxels.
+    /// its id, or if a frame of the sequence has not been read yet.
     /// Frames that will be shown next are read in advance.
     std::optional<ShownVoxels> find(const base::AssetTable* assets, const GroupVolume& volume);
     /// Has the coarser levels made of a sequence that find() has returned, also of the frames that follow.
     void wantCoarser(const base::AssetTable& assets, const ShownVoxels& voxels);
-    /// Uploads a level of voxels that find() has returned. @return OutOfMemory, TooLarge
+    /// Uploads a level of voxels that find() has returned. @return OutOfMemory
     base::Status makeRoom(const ShownVoxels& voxels, int level);
     /// Sets index, voxels and their numbers of a level for which makeRoom() has been called.
     void import(FrameGraph& graph, const ShownVoxels& voxels, int level, FieldVolumePass::Inputs& io) const;

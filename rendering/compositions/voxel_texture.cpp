@@ -11,6 +11,9 @@ namespace {
 
 /// Equal to the shifts of wordsOf() in shaders/field/field_volume.comp.glsl.
 constexpr size_t kColumns = 512, kRows = 512;
+/// With velocities a brick has three halves of an element a voxel; coarser voxels reach into 8 times the
+/// bricks.
+static_assert(8 * base::kMaxVolumeBricks * base::kVolumeBrickVoxels * 3 / 2 <= 2048 * kColumns * kRows);
 
 /// Number of boxes of `size` elements that hold `count`.
 size_t boxesOf(size_t count, size_t size)
@@ -19,11 +22,6 @@ size_t boxesOf(size_t count, size_t size)
 }
 
 } // namespace
-
-uint64_t mostVoxelTexels(const GlDevice& device)
-{
-    return uint64_t(kColumns * kRows) * uint64_t(device.limits().volumeSize);
-}
 
 base::Result<GlTexture> makeVoxelTexture(GlDevice& device, std::span<const base::VolumeLevel::Packed> list,
                                          const char* label)

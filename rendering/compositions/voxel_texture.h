@@ -12,14 +12,12 @@
 
 namespace fx::render {
 
-/// Number of elements of a list that a texture holds.
-uint64_t mostVoxelTexels(const GlDevice& device);
-
 /// Creates a texture of three dimensions that holds a list: element i is texel (i % 512, i / 512 % 512, i /
 /// 512^2). Threads: [GL thread].
-/// @param list not empty, mostVoxelTexels() elements at most
+/// @param list not empty
 /// @param label a string literal
-/// @return OutOfMemory
+/// @return OutOfMemory; InvalidArgument for more layers than limits().volumeSize, which no level of a volume
+/// has
 base::Result<GlTexture> makeVoxelTexture(GlDevice& device, std::span<const base::VolumeLevel::Packed> list,
                                          const char* label);
 

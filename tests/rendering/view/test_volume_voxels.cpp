@@ -22,13 +22,15 @@ TEST_F(VolumeVoxelsTest, mayBeMoreThanABufferHolds)
         GTEST_SKIP() << "the driver's buffers hold more voxels than a test has memory for";
     const base::VoxelVolume seen = lumps();
     const size_t bytes = base::kVolumeBrickVoxels * sizeof(render::MediumVolume::Packed);
-    const size_t empty = size_t(buffer) / bytes + 300; // bricks behind the eye; amid a layer of the texture
+    const size_t empty = size_t(buffer) / bytes + 300; // bricks beside the view; amid a layer of the texture
     base::VoxelVolume voxels;
     voxels.side = seen.side;
-    voxels.origin = seen.origin;
     for (int i = 0; voxels.bricks.size() < empty; ++i)
-        voxels.bricks.push_back({i % 26 - 13, i / 26 % 26 - 13, 8 + i / (26 * 26)});
-    voxels.bricks.insert(voxels.bricks.end(), seen.bricks.begin(), seen.bricks.end());
+        voxels.bricks.push_back({40 + i % 26, 1 + i / 26 % 26, 1 + i / (26 * 26)});
+    const glm::ivec3 farther(0, 0, voxels.bricks.back().z);
+    for (const glm::ivec3& brick : seen.bricks)
+        voxels.bricks.push_back(brick + farther);
+    voxels.origin = seen.origin - seen.side * float(base::kVolumeBrickSide) * glm::vec3(farther);
     const auto behindEmpty = [&](const auto& values) {
         std::remove_cvref_t<decltype(values)> all(empty * base::kVolumeBrickVoxels);
         all.insert(all.end(), values.begin(), values.end());
