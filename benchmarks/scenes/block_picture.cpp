@@ -33,6 +33,8 @@ base::Result<std::unique_ptr<BlockPainter>> BlockPainter::create(int width, int 
     if (!renderer.ok())
         return renderer.status();
     painter->renderer_ = std::move(*renderer);
+    if (base::Status status = painter->renderer_->warmUp(); !status) // pictures are timed
+        return status;
     return painter;
 }
 

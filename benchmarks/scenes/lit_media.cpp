@@ -124,6 +124,8 @@ base::Result<std::unique_ptr<LitPainter>> LitPainter::create(int width, int heig
     if (!renderer.ok())
         return renderer.status();
     painter->renderer_ = std::move(*renderer);
+    if (base::Status status = painter->renderer_->pictures().warmUp(); !status) // pictures are timed
+        return status;
     return painter;
 }
 

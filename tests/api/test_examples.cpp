@@ -39,7 +39,7 @@ TEST(Examples, helloDrawsAnExplosionWithoutAWindow)
 {
     const fx::test::TemporaryFolder folder;
     const std::string output = (folder / "hello.png").string();
-    ASSERT_EQ(run(std::string(FX_HELLO) + " --headless --frames 5 --output " + output), 0);
+    ASSERT_EQ(run(std::string(FX_HELLO) + " --headless --frames 3 --output " + output), 0);
     EXPECT_GT(contrastOf(output), 0.2f);
     EXPECT_NE(run(std::string(FX_HELLO) + " --headless --frames 1 --output /nowhere/hello.png 2> /dev/null"),
               0);

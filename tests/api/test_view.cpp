@@ -80,6 +80,7 @@ TEST(TouchedGlState, isAListThatEnds)
 
 TEST_F(ViewApi, aWarmFrameCompilesAndAllocatesNothing)
 {
+    warmUp();
     const FxFrameDef def = frame();
     for (int i = 0; i < 90; ++i) {
         update(1);
@@ -101,7 +102,7 @@ TEST_F(ViewApi, outputsNameInstancesAsTheSceneDoes)
     FxViewSettings settings = fxDefaultViewSettings();
     settings.outputs = FX_OUTPUT_INSTANCE_ID | FX_OUTPUT_FIRST_DEPTH;
     ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
-    ASSERT_EQ(fxContext_WarmUp(context_), FX_OK) << fxGetLastErrorMessage();
+    warmUp();
     const FxFrameDef def = frame();
     ASSERT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
     EXPECT_EQ(statistics().programsCompiled, 0u) << "they were warmed up for the view";

@@ -74,7 +74,7 @@ protected:
 
 TEST_F(ViewGpu, computesWhatAsksForItOnceAViewIsThere)
 {
-    ASSERT_EQ(fxContext_WarmUp(context_), FX_OK) << fxGetLastErrorMessage(); // knows the preset now
+    warmUp(); // knows the preset now
     play(20);
     EXPECT_EQ(statistics().gpuParticles, 500u);
     EXPECT_EQ(statistics().programsCompiled, 0u);

@@ -51,6 +51,7 @@ TEST_F(ViewLayers, ofAnApplicationThatDoesNotKnowThemAreFullSize)
 
 TEST_F(ViewLayers, areDrawnByAWarmFrameWithoutCompilingOrAllocating)
 {
+    warmUp();
     FxViewSettings settings = fxDefaultViewSettings();
     settings.layerScale = 0.5f;
     ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);

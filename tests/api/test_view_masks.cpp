@@ -9,10 +9,18 @@
 
 namespace {
 
+constexpr const char* kBlocks =
+    R"({"version": 1, "blocks": [{
+        "types": [{"name": "puff", "builder": {"form": "cloud", "size": [1, 1, 1], "count": 30, "radius": 0.2}}],
+        "of": [{"type": "puff"}],
+        "emitter": {"shape": "sphere", "size": 0.6, "position": [0, 1, 0],
+                    "emission": {"bursts": [{"time": 0, "count": 8}]}, "lifetime": 9, "speed": 0.1,
+                    "radius": 0.4, "opticalDepth": 4, "forces": {"gravity": 0}}}]})";
+
 /// Places of two effects of a scene. A place without a preset stays empty.
 struct Pair
 {
-    std::array<const char*, 2> presets;
+    std::array<const char*, 2> presets; ///< names of the library, or texts
     std::array<uint32_t, 2> masks{~0u, ~0u};
 };
 
@@ -28,8 +36,11 @@ protected:
             if (!pair.presets[i])
                 continue;
             FxInstanceDef def = fxDefaultInstanceDef();
-            EXPECT_EQ(fxLoadPresetLibrary(context_, pair.presets[i], &def.preset), FX_OK)
-                << fxGetLastErrorMessage();
+            if (*pair.presets[i] == '{')
+                def.preset = fx::test::loadText(context_, pair.presets[i]);
+            else
+                EXPECT_EQ(fxLoadPresetLibrary(context_, pair.presets[i], &def.preset), FX_OK)
+                    << fxGetLastErrorMessage();
             def.position[0] = i == 0 ? -0.7 : 0.7;
             def.seed = i;
             def.visibilityMask = pair.masks[i];
@@ -89,18 +100,19 @@ protected:
 TEST_F(ViewMasks, showWhatAViewOfAFewerInstancesShows)
 {
     constexpr std::array<std::array<const char*, 2>, 3> kPairs{
-        {{"campfire", "smoke-column"}, {"sparks", "fireworks"}, {"avalanche", "campfire"}}};
+        {{"campfire", "smoke-column"}, {"sparks", "fireworks"}, {kBlocks, "campfire"}}};
+    constexpr int kUpdates = 40;
     for (const auto& presets : kPairs) {
-        SCOPED_TRACE(std::string(presets[0]) + " and " + presets[1]);
+        const bool hasBlocks = presets == kPairs[2];
+        SCOPED_TRACE(std::string(hasBlocks ? "blocks" : presets[0]) + " and " + presets[1]);
         const uint32_t composition =
-            presets == kPairs[2] ? uint32_t(FX_COMPOSITION_SLABS) : uint32_t(FX_COMPOSITION_SORTED);
-        const int updates = presets == kPairs[2] ? 8 : 40; // many balls
-        FxScene* const both = makeScene({presets, {1u, 6u}}, updates);
+            hasBlocks ? uint32_t(FX_COMPOSITION_SLABS) : uint32_t(FX_COMPOSITION_SORTED);
+        FxScene* const both = makeScene({presets, {1u, 6u}}, kUpdates);
         const std::vector<float> all = drawnAnew(both, composition, ~0u);
         for (size_t shown = 0; shown < 2; ++shown) {
             Pair alone{};
             alone.presets[shown] = presets[shown];
-            FxScene* const single = makeScene(alone, updates);
+            FxScene* const single = makeScene(alone, kUpdates);
             const std::vector<float> wanted = drawnAnew(single, composition, ~0u);
             EXPECT_LE(
                 fx::test::largestShownDifference(drawnAnew(both, composition, shown == 0 ? 1u : 4u), wanted),

@@ -108,7 +108,7 @@ TEST_F(ViewRanges, haveLightWhereverTheyHide)
         settings.shimmerStrength = 0.0f;
         ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
         size_t hidden = 0, black = 0;
-        for (int moved = 0; moved < 4; ++moved) { // rays at other places
+        for (int moved = 0; moved < 2; ++moved) { // rays at other places
             FxFrameDef def = eye(cut);
             def.origin[0] += 0.0013 * double(moved) * cut.distance;
             const std::vector<float> dark = whole(view, def, 0.0f), bright = whole(view, def, 1.0f);
@@ -119,7 +119,7 @@ TEST_F(ViewRanges, haveLightWhereverTheyHide)
                 black += hides && !(dark[i] > 1e-5f);
             }
         }
-        EXPECT_GT(hidden, 100u);
+        EXPECT_GT(hidden, 50u);
         EXPECT_EQ(black, 0u) << "of " << hidden;
         hide(view);
     }

@@ -36,7 +36,7 @@ TEST_F(ViewSight, whatIsHiddenAddsNeitherPassesNorCallsAndComesBackWithoutCompil
     FxViewSettings settings = fxDefaultViewSettings();
     settings.dazzle = 0;
     ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
-    ASSERT_EQ(fxContext_WarmUp(context_), FX_OK);
+    warmUp();
     const FxFrameDef def = frame();
     update(30);
     ASSERT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();

@@ -47,7 +47,6 @@ ViewApiTest::ViewApiTest()
     contextDef.workers = 1;
     contextDef.gl = {gl_->loader().user, gl_->loader().getProcAddress};
     EXPECT_EQ(fxCreateContext(&contextDef, &context_), FX_OK) << fxGetLastErrorMessage();
-    EXPECT_EQ(fxContext_WarmUp(context_), FX_OK) << fxGetLastErrorMessage();
     const FxSceneDef sceneDef = fxDefaultSceneDef();
     EXPECT_EQ(fxCreateScene(context_, &sceneDef, &scene_), FX_OK);
     FxInstanceDef instance = fxDefaultInstanceDef();
@@ -84,6 +83,11 @@ FxFrameDef frameBefore(uint32_t color, uint32_t depth, int side)
 FxFrameDef ViewApiTest::frame() const
 {
     return frameBefore(color_.name(), depth_.name(), kSize);
+}
+
+void ViewApiTest::warmUp()
+{
+    EXPECT_EQ(fxContext_WarmUp(context_), FX_OK) << fxGetLastErrorMessage();
 }
 
 void ViewApiTest::fillPicture()

@@ -24,6 +24,7 @@ protected:
     ~ViewApiTest() override; ///< fails the test if the driver reported a message
 
     FxFrameDef frame() const;
+    void warmUp();                ///< compiles all programs
     void fillPicture();           ///< fills the host's picture with kBackground
     std::vector<float> picture(); ///< RGBA, row by row
     FxViewStatistics statistics() const;

@@ -11,6 +11,7 @@ import unittest
 FX = os.environ.get("FX_PROGRAM", "build/bin/fx")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = ROOT / "fxsdk/presets/library"
+LONG = os.environ.get("FXSDK_LONG_TESTS") == "1" # whether tests that have a longer form take it
 PATIENCE = 250 # [s] until a program that was told to end counts as hanging; no result depends on it
 
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """fx edit in a window under Xvfb, with real events of mouse and keyboard by xdotool: the file after each step.
 
-The lists of scripts/dependencies leave xdotool out: both tests take 180 to 400 s, for which the suite has no room. So scripts/test and CI
+The lists of scripts/dependencies leave xdotool out: both tests take 70 to 200 s, for which the suite has no room. So scripts/test and CI
 skip them, and CTest says "Skipped" (exit code 77). Where xdotool is installed they run: python3 tests/tool/test_fx_edit_window.py
 
-FX_EDIT_STEPS: edits that are undone (default 50). FX_EDIT_SHOTS: a folder for screenshots, by ImageMagick."""
+FXSDK_LONG_TESTS=1: a session is done twice, with equal files. FX_EDIT_STEPS: edits that are undone (default 50).
+FX_EDIT_SHOTS: a folder for screenshots, by ImageMagick."""
 import json
 import os
 import re
@@ -14,7 +15,7 @@ import time
 import unittest
 
 from edit_test import run_tests
-from fx_program import FX, PATIENCE, FxTest, fx
+from fx_program import FX, LONG, PATIENCE, FxTest, fx
 
 STEPS = int(os.environ.get("FX_EDIT_STEPS", "50"))
 SHOTS = os.environ.get("FX_EDIT_SHOTS")
@@ -285,7 +286,7 @@ class EditWindow(FxTest):
         names = [emitter["name"] for emitter in json.loads(document.read_text())["emitters"]]
         self.assertEqual(names, ["more", "more 0", "more 1", "balls", "more 2"])
 
-    def test_a_session_of_mouse_and_keyboard_gives_the_same_files_again(self):
+    def test_a_session_of_mouse_and_keyboard_gives_the_wanted_files(self):
         files = self.session("first")
         parsed = {step: json.loads(text)["emitters"] for step, text in files.items()}
         before = json.loads(PRESET)["emitters"]
@@ -299,7 +300,8 @@ class EditWindow(FxTest):
         self.assertEqual(files["killed"], files["number"])
         self.assertEqual([e["name"] for e in parsed["recovered"]], ["balls", "balls 2", "more"])
         self.assertEqual(parsed["recovered"][0], parsed["number"][0])
-        self.assertEqual(self.session("second"), files)
+        if LONG:
+            self.assertEqual(self.session("second"), files)
 
 
 if __name__ == "__main__":

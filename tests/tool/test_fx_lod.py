@@ -3,12 +3,12 @@
 import json
 import unittest
 
-from fx_program import FxTest, fx
+from fx_program import LONG, FxTest, fx
 
 
 class FxLod(FxTest):
     def test_no_level_is_seen_to_change_in_a_gentle_flight_and_hard_switches_are(self):
-        outcome = fx("bench", "lod", "--check", "--json", "--instances", "24", "--repeats", "1", "--flight", "16",
+        outcome = fx("bench", "lod", "--check", "--json", "--instances", "24", "--repeats", "1", "--flight", "16" if LONG else "10",
                      "--size", "128")
         self.assertEqual(outcome.code, 0, outcome.err)
         lines = [json.loads(line) for line in outcome.out.strip().split("\n")]

@@ -240,6 +240,16 @@ class FxRender(FxTest):
         self.assertGreater(lines[-1]["blobs"], 0)
         self.assertGreaterEqual(lines[-1]["shaded_fragments"], lines[-1]["covered_pixels"])
 
+    def test_programs_that_frames_compile_show_what_those_compiled_before_show(self):
+        sprites = self.write("s.fx.json", """{"version": 1, "emitters": [{"position": [0, 1, 0], "speed": 1, "compute": "gpu",
+            "maxParticles": 50, "emission": {"rate": 40}, "lifetime": 1, "appearance": {"kind": "sprite", "luminance": 5000}}]}""")
+        for scene, composition in (("library:campfire", "sorted"), ("library:explosion", "volume"), (sprites, "sorted")):
+            pictures = []
+            for arguments in ((), ("--stats", self.folder / "s.json")): # which compiles all programs before
+                self.render("a.png", "--time", "0.5", "--composition", composition, *arguments, scene=scene)
+                pictures.append((self.folder / "a.png").read_bytes())
+            self.assertEqual(pictures[0], pictures[1], scene)
+
     def test_json_is_one_object_a_frame_that_names_file_machine_and_seed(self):
         outcome = self.render("a.%d.png", "--frames", "1:2", "--json", "--seed", "9")
         lines = [json.loads(line) for line in outcome.out.strip().split("\n")]

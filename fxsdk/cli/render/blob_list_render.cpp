@@ -55,6 +55,9 @@ public:
         auto renderer = BlobListRenderer::create(*blobs, settings, plan_.width, plan_.height);
         if (!renderer.ok())
             return renderer.status();
+        if (arguments_.reportsTimes())
+            if (base::Status status = (*renderer)->pictures().warmUp(); !status)
+                return status;
         machine_.glRenderer = (*renderer)->pictures().rendererName();
         Progress progress("frame", plan_.frames.size(), !arguments_.json);
         uint64_t done = 0;

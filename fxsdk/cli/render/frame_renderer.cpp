@@ -68,8 +68,9 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
     if (!effects.ok())
         return effects.status();
     effects_ = std::move(*effects);
-    if (base::Status status = toStatus(fxContext_WarmUp(effects_->context())); !status)
-        return status;
+    if (options_.warmsUp)
+        if (base::Status status = toStatus(fxContext_WarmUp(effects_->context())); !status)
+            return status;
 
     const bool isAsked = options_.scene.compute == "gpu" || options_.scene.compute == "auto";
     staysOnGpu_ = (isAsked && gpuObstacleOf(file_).empty()) ||

@@ -29,6 +29,9 @@ struct FrameRendererOptions
     EffectSceneOptions scene;     ///< options of the effects; the renderer itself sets the member `gl`
     bool everyFrameIsCut = false; ///< true: each frame looks like a still of its moment, whatever came before
     double frameSeconds = 0.0; ///< [s] interval over which the output "motion" of the first frame is computed
+    /// Compiles the programs of all techniques before the first frame, so that no frame takes time for it.
+    /// Otherwise a frame compiles the programs that it needs and that no frame before it needed.
+    bool warmsUp = false;
 };
 
 /// The pictures of one frame. All but `color` require settings.layerOutputs.

@@ -106,6 +106,7 @@ public:
         options.scene.quality = plan_.simulationQuality;
         options.scene.seed = arguments_.seed;
         options.scene.compute = arguments_.compute;
+        options.warmsUp = arguments_.reportsTimes();
 
         auto output = FrameOutput::create(plan_, options.settings.exposureEv100);
         if (!output.ok())

@@ -64,6 +64,9 @@ struct RenderArguments
     bool overlay = false;
     bool json = false;
     ReferenceArguments reference;
+
+    /// Whether statistics or lines of JSON state the times of frames.
+    bool reportsTimes() const { return json || !statistics.empty(); }
 };
 
 /// Checked and converted arguments.

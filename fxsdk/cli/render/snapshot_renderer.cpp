@@ -117,7 +117,12 @@ base::Status SnapshotRenderer::Impl::start(const base::SnapshotSchema& schema)
         return texture.status();
     color = std::move(*texture);
     view = std::make_unique<render::ViewRenderer>(device.get(), &schema, std::pmr::get_default_resource());
-    return view->warmUp();
+    return {};
+}
+
+base::Status SnapshotRenderer::warmUp()
+{
+    return impl_->view->warmUp();
 }
 
 render::ViewSettings& SnapshotRenderer::settings()

@@ -22,6 +22,10 @@ public:
     create(const base::SnapshotSchema& schema, const render::ViewSettings& settings, int width, int height);
     ~SnapshotRenderer();
 
+    /// Compiles the programs of all techniques, so that no picture takes time for it. Otherwise a picture
+    /// compiles the programs that it needs and that no picture before it needed.
+    base::Status warmUp();
+
     /// Settings of the next picture.
     render::ViewSettings& settings();
 

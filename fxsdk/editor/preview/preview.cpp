@@ -117,7 +117,6 @@ base::Status Preview::start(const render::GlLoader& loader)
         def.assets = {this, &openAsset, &closeAsset};
         def.flags = FX_CONTEXT_PLACEHOLDERS;
         context_ = std::make_unique<fxsdk::Context>(def);
-        context_->warmUp();
         fxScene_ = newScene();
         view_ = std::make_unique<fxsdk::View>(*context_, *fxScene_);
     } catch (const fxsdk::Error& error) {

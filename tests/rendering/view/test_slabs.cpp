@@ -305,7 +305,7 @@ TEST_F(Slabs, thousandsOfBallsInOneTileAreTheOneBall)
             view_->settings().layerOutputs = layers;
             const Picture alone = drawn({whole}, camera());
             ASSERT_GT(*std::max_element(alone.texels.begin(), alone.texels.end()), 0.5f);
-            for (const size_t count : {3000u, 14000u, 30000u}) {
+            for (const size_t count : {3000u, 20000u}) { // a list holds 15,000
                 TestBlob part = whole;
                 part.crossSection /= float(count);
                 EXPECT_LT(maxDifference(drawn(std::vector<TestBlob>(count, part), camera()), alone), 2e-3)
@@ -352,7 +352,7 @@ TEST_F(Slabs, ballsLeaveTheChoiceOfACrowdedTileSmoothly)
     // thousands of equal balls at one place, few of which send light: what is seen changes with their weights
     makeTargets(4, 4);
     view_->settings().slabs = 16;
-    constexpr size_t kFewest = 10500, kMost = 17500, kStep = 700; // a list holds 15,000
+    constexpr size_t kFewest = 12600, kMost = 17500, kStep = 700; // a list holds 15,000
     TestBlob ball = kBall;
     ball.center = glm::vec3(0.0f);
     ball.crossSection = 1.4e-5f;
