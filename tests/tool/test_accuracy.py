@@ -214,6 +214,7 @@ class FxAccuracyOfLight(FxTest):
     @classmethod
     def setUpClass(cls):
         cls.integral = lines_of("ray-integral", *QUICK)
+        cls.billboards = lines_of("billboards", *QUICK)
 
     def at_depth(self, tau):
         return [line for line in self.integral if line["parameters"]["tau"] == tau]
@@ -255,8 +256,7 @@ class FxAccuracyOfLight(FxTest):
         self.assertGreater(paper["error_max"], 0.5) # the sweep is hard enough to tell
 
     def test_kernel_billboards_are_exact_alone_and_wrong_where_they_overlap(self):
-        lines = lines_of("billboards", *QUICK)
-        error = {(line["scene"], line["setting"]): line["error_p99"] for line in lines}
+        error = {(line["scene"], line["setting"]): line["error_p99"] for line in self.billboards}
         for count in (1, 10, 270):
             self.assertLess(error[f"isolated-{count}", "kernel"], 1e-4)
             self.assertGreater(error[f"isolated-{count}", "constant"], 0.1)
@@ -268,9 +268,8 @@ class FxAccuracyOfLight(FxTest):
             self.assertLess(error[f"sorted-wrong-{count}", "gauss-5"], 1e-3) # the integral knows no order
 
     def test_slabs_are_the_integral_in_any_order(self):
-        lines = lines_of("billboards", *QUICK)
-        error = {(line["scene"], line["setting"]): line["error_p99"] for line in lines}
-        for scene in {line["scene"] for line in lines}:
+        error = {(line["scene"], line["setting"]): line["error_p99"] for line in self.billboards}
+        for scene in {line["scene"] for line in self.billboards}:
             self.assertLessEqual(error[scene, "slabs-16"], 0.03 if scene.startswith("explosion") else 1e-3)
         for scene in ("overlapping-270", "sorted-wrong-270"):
             self.assertLessEqual(error[scene, "slabs-6"], 0.02)
