@@ -49,10 +49,13 @@ sim::BlockType heapOf(const HeapOfBalls& heap, float brightest)
         sim::ListedBall ball;
         const double radius = chance.between(heap.smallest, heap.largest);
         ball.radius = float(radius);
-        ball.center = glm::vec3(chance.direction() * (1.0 - radius) * std::cbrt(chance()));
+        const double distance = std::cbrt(chance());
+        ball.center = glm::vec3(chance.direction() * (1.0 - radius) * distance);
         // Together, balls have the depth on the disk of radius 1.
         ball.crossSection = float(heap.depth * std::numbers::pi / double(heap.balls));
-        const glm::dvec3 color(chance.between(0.2, 1.0), chance.between(0.2, 1.0), chance.between(0.2, 1.0));
+        glm::dvec3 color;
+        for (const int channel : {2, 1, 0})
+            color[channel] = chance.between(0.2, 1.0);
         ball.emission = brightest * (heap.isColored ? glm::vec3(color) : glm::vec3(1.0f, 0.7f, 0.4f));
         type.balls.push_back(ball);
     }

@@ -281,9 +281,9 @@ std::vector<render::MediumBlob> clouds(uint64_t seed, double seconds)
     std::vector<render::MediumBlob> blobs;
     for (uint32_t c = 0; c < kClouds; ++c) {
         const double turn = kPi * (1.0 + (double(c) + 0.5) / double(kClouds)); // before the eye
-        const double away = chance.between(8.0, 24.0);
-        addCloud({away * std::cos(turn), chance.between(3.0, 6.0), away * std::sin(turn)},
-                 0.1 * chance.between(-1.0, 1.0) * seconds, chance, blobs);
+        const double away = chance.between(8.0, 24.0), drift = 0.1 * chance.between(-1.0, 1.0) * seconds;
+        addCloud({away * std::cos(turn), chance.between(3.0, 6.0), away * std::sin(turn)}, drift, chance,
+                 blobs);
     }
     for (uint32_t f = 0; f < kFliers; ++f) {
         const double turn = 2.0 * kPi * (double(f) + 0.5) / double(kFliers), pace = chance.between(2.0, 3.0);

@@ -340,7 +340,7 @@ Json makeChain(Dice& dice, Json first, size_t length)
                       {"inheritVelocity", dice.between(0, 1)}};
         if (event["on"] == "age")
             event["age"] = dice.between(0.05, 0.4);
-        emitters.back()["events"] = {event};
+        emitters.back()["events"] = Json::array({event});
         emitters.push_back(next);
     }
     return emitters;
@@ -370,11 +370,11 @@ RandomPreset randomPreset(uint64_t seed, bool gpu, bool gas)
     if (dice.one(8))
         preset["prewarm"] = dice.between(0, 0.5);
     if (dice.one(12)) {
-        preset["fragments"] = {makeFragments(dice)};
+        preset["fragments"] = Json::array({makeFragments(dice)});
         return {preset.dump(), "fragments"};
     }
     if (gas && dice.one(12)) {
-        preset["gas"] = {makeGas(dice)};
+        preset["gas"] = Json::array({makeGas(dice)});
         return {preset.dump(), "gas"};
     }
     Json first = makeEmitter(dice);

@@ -122,7 +122,7 @@ Json presetOf(Dice& dice)
             rule["age"] = 0.05;
             rule["every"] = 0.1;
         }
-        emitters[size_t(i)]["events"] = {rule};
+        emitters[size_t(i)]["events"] = Json::array({rule});
     }
     return {{"version", 1}, {"ground", dice.one(0.5)}, {"emitters", emitters}};
 }

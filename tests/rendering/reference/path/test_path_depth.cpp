@@ -24,9 +24,9 @@ constexpr double kPi = std::numbers::pi;
 TraceRay someRay(uint32_t number)
 {
     PathSampler sampler(21, 0, number);
-    const glm::dvec3 from =
-        3.0 * PhaseFunction::around({0, 1, 0}, 1.0 - 2.0 * sampler.number(), sampler.number());
-    const glm::dvec3 to(sampler.number() - 0.5, sampler.number() - 0.5, sampler.number() - 0.5);
+    const double cosine = 1.0 - 2.0 * sampler.number();
+    const glm::dvec3 from = 3.0 * PhaseFunction::around({0, 1, 0}, cosine, sampler.number());
+    const glm::dvec3 to{sampler.number() - 0.5, sampler.number() - 0.5, sampler.number() - 0.5};
     return {from, glm::normalize(to - from)};
 }
 

@@ -85,8 +85,8 @@ TEST(PhaseFunction, turnsAroundEveryDirection)
 {
     PathSampler sampler(2, 0, 0);
     for (int i = 0; i < 1000; ++i) {
-        const glm::dvec3 axis =
-            PhaseFunction::around({0, 0, 1}, 1.0 - 2.0 * sampler.number(), sampler.number());
+        const double height = 1.0 - 2.0 * sampler.number();
+        const glm::dvec3 axis = PhaseFunction::around({0, 0, 1}, height, sampler.number());
         const double cosine = 1.0 - 2.0 * sampler.number();
         const double turn = sampler.number();
         const glm::dvec3 direction = PhaseFunction::around(axis, cosine, turn);
