@@ -49,12 +49,12 @@ sim::BlockType heapOf(const HeapOfBalls& heap, float brightest)
         sim::ListedBall ball;
         const double radius = chance.between(heap.smallest, heap.largest);
         ball.radius = float(radius);
-        const double distance = std::cbrt(chance());
-        ball.center = glm::vec3(chance.direction() * (1.0 - radius) * distance);
+        const double place = std::cbrt(chance()); // [1] on the way from the center to the rim of the heap
+        ball.center = glm::vec3(chance.direction() * (1.0 - radius) * place);
         // Together, balls have the depth on the disk of radius 1.
         ball.crossSection = float(heap.depth * std::numbers::pi / double(heap.balls));
         glm::dvec3 color;
-        for (const int channel : {2, 1, 0})
+        for (const int channel : {2, 1, 0}) // the order of the heaps that the documents measure
             color[channel] = chance.between(0.2, 1.0);
         ball.emission = brightest * (heap.isColored ? glm::vec3(color) : glm::vec3(1.0f, 0.7f, 0.4f));
         type.balls.push_back(ball);
